@@ -1,0 +1,195 @@
+//! Analytic partial derivatives of BRDF and DoLP by each of the nine parameters.
+//!
+//! With the lobes of unit weight U (specular, without reflectance), D and V, the mean reflectance R and `b = (k_d D + k_v V)/U`:
+//!
+//! - `BRDF = k_s R U + k_d D + k_v V`
+//! - `DoLP = DoLP_s r`, `r = k_s R/(k_s R + b)`, `1 − r = b/(k_s R + b)`
+//!
+//! so that `∂r = r (1 − r) ∂ln(k_s R U)` by what is specular and `∂r = −r ∂b/(k_s R + b)` by what is not; products are
+//! formed so that none of them is 0/0 at k_s, k_d, k_v, k = 0 or N = 1, nor where a lobe underflows. At k, k_d, k_v = 0 the
+//! derivatives are one-sided; one beyond f64 is infinite.
+
+use super::lobes::Lobe;
+use super::pbrdf::{Lobes, Pbrdf, Reflection};
+use super::{Diffuse, Parameter, ParameterSet};
+use crate::optics::{Facet, Fresnel, FresnelGradient};
+
+/// Partial derivatives of BRDF (sr⁻¹ per unit of the parameter) and DoLP, in the order of [`Parameter::ALL`].
+///
+/// Those by parameters that play no part in the model are 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gradient {
+    /// ∂BRDF/∂p.
+    pub brdf: [f64; 9],
+    /// ∂DoLP/∂p.
+    pub dolp: [f64; 9],
+}
+
+/// Which derivatives are wanted; the others are left out and stay 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// By these parameters.
+    pub by: ParameterSet,
+    /// Of the BRDF.
+    pub brdf: bool,
+    /// Of DoLP.
+    pub dolp: bool,
+}
+
+impl Wanted {
+    /// Everything.
+    pub const ALL: Self = Self { by: ParameterSet::ALL, brdf: true, dolp: true };
+}
+
+/// A product that is 0 wherever its first factor is, however steep the second.
+fn fading(value: f64, slope: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value * slope }
+}
+
+/// What the derivatives of DoLP share.
+struct Mixture {
+    /// DoLP_s.
+    limit: f64,
+    /// r, the specular share of the radiance.
+    share: f64,
+    /// 1 − r, formed without a difference.
+    rest: f64,
+    /// k_s R + b.
+    total: f64,
+}
+
+impl Pbrdf {
+    /// BRDF, DoLP and terms with their derivatives at a prepared geometry.
+    #[must_use]
+    pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
+        let p = self.parameters();
+        let lobes = self.lobes(facet);
+        let (diffuse, volume) = (lobes.diffuse.scaled(p.kd), lobes.volume.scaled(p.kv));
+        let mut reflection = Reflection { diffuse: diffuse.value(), volume: volume.value(), ..Reflection::default() };
+        let mut gradient = Gradient::default();
+        if self.model().specular {
+            let fresnel = Fresnel::new(self.index(), facet);
+            let mean = fresnel.mean();
+            let depolarised = self.depolarised_over_specular(&lobes);
+            let share = self.specular_share(mean, depolarised);
+            reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
+            reflection.dolp = fresnel.dolp() * share;
+            let by_index = if wanted.by.contains(Parameter::N) || wanted.by.contains(Parameter::K) {
+                fresnel.gradient()
+            } else {
+                FresnelGradient { mean: [0.0; 2], dolp: [0.0; 2] }
+            };
+            if wanted.brdf {
+                self.specular_brdf_gradient(&lobes, mean, reflection.specular, by_index, &mut gradient.brdf);
+            }
+            if wanted.dolp && self.reflects_or_depolarises(&lobes) {
+                let total = self.raised(p.ks) * mean + depolarised;
+                let rest = if depolarised == 0.0 {
+                    1.0 - share
+                } else if total.is_finite() {
+                    depolarised / total
+                } else {
+                    1.0
+                };
+                let mixture = Mixture { limit: fresnel.dolp(), share, rest, total };
+                self.dolp_gradient(&lobes, facet, mean, &mixture, by_index, &mut gradient.dolp);
+            }
+        }
+        reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
+        if wanted.brdf {
+            self.depolarised_brdf_gradient(&lobes, facet, &reflection, &mut gradient.brdf);
+        }
+        mask(&mut gradient, wanted.by);
+        (reflection, gradient)
+    }
+
+    /// Whether there is any light, so that DoLP has a derivative.
+    fn reflects_or_depolarises(&self, lobes: &Lobes) -> bool {
+        let p = self.parameters();
+        self.reflects_specularly() || p.kd * lobes.diffuse.factor > 0.0 || p.kv * lobes.volume.factor > 0.0
+    }
+
+    fn specular_brdf_gradient(&self, lobes: &Lobes, mean: f64, specular: f64, by_index: FresnelGradient, out: &mut [f64; 9]) {
+        let p = self.parameters();
+        let distribution = self.model().distribution;
+        let unit = lobes.specular.value();
+        let weighted = lobes.specular.scaled(p.ks).value();
+        out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
+        out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
+        out[Parameter::Sigma as usize] = fading(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        out[Parameter::Ks as usize] = unit * mean;
+        let per_height = lobes.specular.scaled(p.ks * mean / distribution.height(p.q)).value();
+        out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.w, p.q));
+    }
+
+    fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, out: &mut [f64; 9]) {
+        let p = self.parameters();
+        out[Parameter::Kd as usize] = lobes.diffuse.value();
+        out[Parameter::Kv as usize] = lobes.volume.value();
+        if self.model().diffuse == Diffuse::Minnaert {
+            out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
+        }
+        if self.model().volume {
+            out[Parameter::SigmaV as usize] = fading(reflection.volume, volume_slope(lobes.volume, p.sigma_v));
+        }
+    }
+
+    fn dolp_gradient(&self, lobes: &Lobes, facet: &Facet, mean: f64, mixture: &Mixture, by_index: FresnelGradient, out: &mut [f64; 9]) {
+        let p = self.parameters();
+        let &Mixture { limit, share, rest, total } = mixture;
+        let distribution = self.model().distribution;
+        // ∂r/∂R and ∂r/∂k_s, without r/R or r/k_s, which are 0/0 in the dark.
+        let by_mean = fading(rest, self.raised(p.ks) / total);
+        let by_ks = fading(rest, self.raised(mean / total));
+        for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
+            out[parameter as usize] = fading(share, by_index.dolp[j]) + fading(limit * by_mean, by_index.mean[j]);
+        }
+        out[Parameter::Ks as usize] = limit * by_ks;
+        let both = limit * (share * rest);
+        out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
+
+        let (kd_part, by_kd) = self.part(lobes.diffuse, p.kd, lobes.specular, total);
+        let (kv_part, by_kv) = self.part(lobes.volume, p.kv, lobes.specular, total);
+        let down = -limit * share;
+        out[Parameter::Kd as usize] = fading(down, by_kd);
+        out[Parameter::Kv as usize] = fading(down, by_kv);
+        if self.model().diffuse == Diffuse::Minnaert {
+            out[Parameter::C as usize] = down * kd_part * facet.ln_cosines;
+        }
+        if self.model().volume {
+            out[Parameter::SigmaV as usize] = fading(down * kv_part, volume_slope(lobes.volume, p.sigma_v));
+        }
+    }
+
+    /// A depolarising term's share of the radiance, and that share per unit of its weight.
+    fn part(&self, lobe: Lobe, weight: f64, specular: Lobe, total: f64) -> (f64, f64) {
+        if lobe.factor == 0.0 {
+            return (0.0, 0.0);
+        }
+        if weight == 0.0 {
+            return (0.0, self.raised(lobe.over(specular) / total));
+        }
+        let over = lobe.scaled(self.raised(weight)).over(specular);
+        let share = if over.is_finite() { over / total } else { 1.0 };
+        (share, share / weight)
+    }
+}
+
+/// `∂ln F^v/∂σ_v = (θr²/σ_v² − 1)/σ_v`.
+fn volume_slope(volume: Lobe, sigma_v: f64) -> f64 {
+    (2.0 * volume.exponent - 1.0) / sigma_v
+}
+
+/// Clears the derivatives that nobody asked for.
+fn mask(gradient: &mut Gradient, wanted: ParameterSet) {
+    if wanted == ParameterSet::ALL {
+        return;
+    }
+    for parameter in Parameter::ALL {
+        if !wanted.contains(parameter) {
+            gradient.brdf[parameter as usize] = 0.0;
+            gradient.dolp[parameter as usize] = 0.0;
+        }
+    }
+}

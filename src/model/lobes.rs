@@ -1,0 +1,103 @@
+//! The three lobes, each for unit weight.
+//!
+//! - specular, Eqs. (4, 10): `F^s = P(α) G / (4 cos α cos θi cos θr) · M`, here without M
+//! - diffuse, Eq. (12): `F^d = (cos θi cos θr)^c / π` (Minnaert)
+//! - volume, Eq. (13): `F^v = exp(−θr²/2σ_v²) / (√(2π) σ_v)`
+//!
+//! A lobe is kept as `factor · e^(−exponent)`, so that the ratio of two lobes is right even where both underflow.
+
+use crate::optics::{Facet, SlopeDistribution};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// √(2π).
+const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
+
+/// A radiance factor `factor · e^(−exponent)` in sr⁻¹.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lobe {
+    /// What stands before the exponential.
+    pub factor: f64,
+    /// What stands in it, with the sign changed: large is dark.
+    pub exponent: f64,
+}
+
+impl Lobe {
+    /// No light.
+    pub const DARK: Self = Self { factor: 0.0, exponent: 0.0 };
+
+    /// Its value.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        times_exp(self.factor, -self.exponent)
+    }
+
+    /// This lobe divided by another one.
+    #[must_use]
+    pub fn over(self, other: Self) -> f64 {
+        times_exp(self.factor / other.factor, other.exponent - self.exponent)
+    }
+
+    /// With another weight.
+    #[must_use]
+    pub fn scaled(self, weight: f64) -> Self {
+        Self { factor: weight * self.factor, ..self }
+    }
+}
+
+/// `factor · e^x`, also where e^x alone leaves the range of f64.
+fn times_exp(factor: f64, x: f64) -> f64 {
+    // Beyond 700 in two steps; beyond 1500 no finite factor brings the product back.
+    if factor == 0.0 || x < -1500.0 {
+        0.0
+    } else if x.abs() <= 700.0 {
+        factor * libm::exp(x)
+    } else {
+        let half = libm::exp(0.5 * x);
+        factor * half * half
+    }
+}
+
+/// The specular lobe without its Mueller matrix.
+///
+/// `w = tan²α/2σ²`; P/cos α = D brings 1/cos⁴α = (1 + tan²α)², since P has 1/cos³α.
+pub(crate) fn specular(distribution: SlopeDistribution, w: f64, facet: &Facet, g_over_cosines: f64, sigma: f64, q: f64) -> Lobe {
+    let one_over_cos_sq = 1.0 + facet.tan_alpha_sq;
+    let d = distribution.height(q) * one_over_cos_sq * one_over_cos_sq / (2.0 * PI) / sigma / sigma;
+    Lobe { factor: 0.25 * d * g_over_cosines, exponent: distribution.exponent(w, q) }
+}
+
+/// The Minnaert lobe; c = 0 is Lambert.
+pub(crate) fn diffuse(facet: &Facet, c: f64) -> Lobe {
+    Lobe { factor: FRAC_1_PI, exponent: -c * facet.ln_cosines }
+}
+
+/// The volume lobe.
+pub(crate) fn volume(facet: &Facet, sigma_v: f64) -> Lobe {
+    let reduced = facet.theta_r / sigma_v;
+    Lobe { factor: 1.0 / (SQRT_TWO_PI * sigma_v), exponent: 0.5 * reduced * reduced }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lobe;
+
+    #[test]
+    fn ratio_of_two_underflowing_lobes_is_kept() {
+        let a = Lobe { factor: 3.0, exponent: 1000.0 };
+        let b = Lobe { factor: 1.5, exponent: 1000.0 };
+        assert_eq!((a.value(), b.value(), a.over(b)), (0.0, 0.0, 2.0));
+    }
+
+    #[test]
+    fn a_huge_factor_brings_back_what_the_exponential_alone_would_lose() {
+        let lobe = Lobe { factor: 1e300, exponent: 800.0 };
+        let expected = 10_f64.powf(300.0 - 800.0 * std::f64::consts::LOG10_E);
+        // powf of such an argument is itself good to about 1e-13.
+        assert!((lobe.value() / expected - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_infinitely_dark_lobe_is_dark() {
+        assert_eq!(Lobe { factor: f64::INFINITY, exponent: f64::INFINITY }.value(), 0.0);
+    }
+}

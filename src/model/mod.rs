@@ -1,0 +1,19 @@
+//! Floor 2: the nine-parameter polarimetric BRDF.
+//!
+//! `F = k_s F^s + k_d F^d + k_v F^v`, Eqs. (3, 14) of Wang et al., Acta Opt. Sin. 41, 1129002 (2021): a
+//! Torrance–Sparrow lobe of Fresnel-reflecting microfacets, a Minnaert lobe and a volume lobe. Which terms are there is part of
+//! the [`Model`]; how strong they are is in the [`Parameters`].
+
+mod gradient;
+mod ladder;
+mod lobes;
+mod parameters;
+mod pbrdf;
+mod scene;
+
+pub use gradient::{Gradient, Wanted};
+pub use ladder::{PRESETS, Preset};
+pub use lobes::Lobe;
+pub use parameters::{Parameter, ParameterError, ParameterSet, Parameters};
+pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
+pub use scene::Scene;

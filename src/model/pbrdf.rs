@@ -1,0 +1,250 @@
+//! The polarimetric BRDF: which terms are there, and what they add up to.
+//!
+//! `F = k_s F^s + k_d F^d + k_v F^v` (3, 14). For unpolarised light in, BRDF = F00 and, (17) with k_s where
+//! (14) has it, `DoLP = √(F10² + F20²)/F00 = DoLP_s / (1 + (k_d F^d + k_v F^v)/(k_s F^s00))`: no rotation, no difference,
+//! and right even where the specular term underflows.
+
+use super::lobes::{self, Lobe};
+use super::{Parameter, ParameterError, ParameterSet, Parameters};
+use crate::optics::{Facet, Fresnel, Geometry, Mueller, RefractiveIndex, SlopeDistribution};
+use serde::{Deserialize, Serialize};
+
+/// The diffuse term of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Diffuse {
+    /// Not there.
+    Absent,
+    /// The same in all directions: Minnaert's c is 0.
+    Lambert,
+    /// Eq. (12) with the exponent c.
+    Minnaert,
+}
+
+/// Which distribution and which terms there are. A term that is absent is not evaluated and has no parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Model {
+    /// How the slopes of the facets are distributed.
+    pub distribution: SlopeDistribution,
+    /// Whether facets shadow and mask each other, Eq. (6); without, G = 1.
+    pub masking: bool,
+    /// Whether there is a specular lobe.
+    pub specular: bool,
+    /// The diffuse lobe.
+    pub diffuse: Diffuse,
+    /// Whether there is a volume lobe.
+    pub volume: bool,
+}
+
+impl Model {
+    /// All terms, with that distribution.
+    #[must_use]
+    pub const fn full(distribution: SlopeDistribution) -> Self {
+        Self { distribution, masking: true, specular: true, diffuse: Diffuse::Minnaert, volume: true }
+    }
+
+    /// The parameters that play a part in it.
+    #[must_use]
+    pub fn parameters(&self) -> ParameterSet {
+        let mut set = ParameterSet::EMPTY;
+        if self.specular {
+            set = [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks].into_iter().collect();
+            if self.distribution == SlopeDistribution::Cauchy {
+                set = set.with(Parameter::Q);
+            }
+        }
+        if self.diffuse != Diffuse::Absent {
+            set = set.with(Parameter::Kd);
+        }
+        if self.diffuse == Diffuse::Minnaert {
+            set = set.with(Parameter::C);
+        }
+        if self.volume {
+            set = set.with(Parameter::Kv).with(Parameter::SigmaV);
+        }
+        set
+    }
+
+    /// Whether its DoLP depends on those parameters at all: a lone specular lobe has the DoLP of its facets,
+    /// whatever their distribution, and then σ, q and k_s show in the BRDF only.
+    #[must_use]
+    pub fn dolp_parameters(&self) -> ParameterSet {
+        if !self.specular {
+            ParameterSet::EMPTY
+        } else if self.diffuse == Diffuse::Absent && !self.volume {
+            [Parameter::N, Parameter::K].into_iter().collect()
+        } else {
+            self.parameters()
+        }
+    }
+}
+
+/// A reflection under one geometry, for unpolarised light in.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reflection {
+    /// BRDF, F00, in sr⁻¹.
+    pub brdf: f64,
+    /// Degree of linear polarisation, 0 to 1.
+    pub dolp: f64,
+    /// Specular part of the BRDF, k_s F^s, in sr⁻¹.
+    pub specular: f64,
+    /// Diffuse part of the BRDF, k_d F^d, in sr⁻¹.
+    pub diffuse: f64,
+    /// Volume part of the BRDF, k_v F^v, in sr⁻¹.
+    pub volume: f64,
+}
+
+/// A model with values: a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pbrdf {
+    model: Model,
+    parameters: Parameters,
+    index: RefractiveIndex,
+    weight_scale: f64,
+}
+
+/// Below this, k_s loses digits when it is multiplied; DoLP, a ratio, is then formed with all three weights raised.
+const FAINT: f64 = 1e-250;
+/// By what they are raised: 2^300.
+const RAISED: f64 = 2.037_035_976_334_486e90;
+
+/// The lobes of unit weight under one geometry.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lobes {
+    /// tan²α/2σ².
+    pub w: f64,
+    pub specular: Lobe,
+    pub diffuse: Lobe,
+    pub volume: Lobe,
+}
+
+impl Pbrdf {
+    /// A model with values; only the parameters that play a part are looked at.
+    pub fn new(model: Model, parameters: Parameters) -> Result<Self, ParameterError> {
+        parameters.validate(model.parameters())?;
+        let index = RefractiveIndex::new(parameters.n, parameters.k);
+        // A model without a specular lobe has no index: any serves.
+        let vacuum = RefractiveIndex::new(1.0, 0.0);
+        let index = index.or(vacuum).map_err(|_| ParameterError::NoIndex)?;
+        let weight_scale = if parameters.ks > 0.0 && parameters.ks < FAINT { RAISED } else { 1.0 };
+        Ok(Self { model, parameters, index, weight_scale })
+    }
+
+    /// Which terms there are.
+    #[must_use]
+    pub fn model(&self) -> Model {
+        self.model
+    }
+
+    /// The values.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// BRDF, DoLP and the terms at a prepared geometry.
+    #[must_use]
+    pub fn reflection(&self, facet: &Facet) -> Reflection {
+        let p = &self.parameters;
+        let lobes = self.lobes(facet);
+        let diffuse = lobes.diffuse.scaled(p.kd);
+        let volume = lobes.volume.scaled(p.kv);
+        let mut reflection = Reflection { diffuse: diffuse.value(), volume: volume.value(), ..Reflection::default() };
+        if self.model.specular {
+            let fresnel = Fresnel::new(self.index, facet);
+            let mean = fresnel.mean();
+            reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
+            reflection.dolp = fresnel.dolp() * self.specular_share(mean, self.depolarised_over_specular(&lobes));
+        }
+        reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
+        reflection
+    }
+
+    /// DoLP at a prepared geometry, and nothing else.
+    #[must_use]
+    pub fn dolp(&self, facet: &Facet) -> f64 {
+        if !self.model.specular {
+            return 0.0;
+        }
+        let fresnel = Fresnel::new(self.index, facet);
+        if self.model.diffuse == Diffuse::Absent && !self.model.volume {
+            return if self.reflects_specularly() { fresnel.dolp() } else { 0.0 };
+        }
+        let lobes = self.lobes(facet);
+        fresnel.dolp() * self.specular_share(fresnel.mean(), self.depolarised_over_specular(&lobes))
+    }
+
+    /// The whole Mueller matrix between the meridian bases of the incident and the reflected ray.
+    #[must_use]
+    pub fn mueller(&self, geometry: Geometry) -> Mueller {
+        let facet = Facet::new(geometry);
+        let reflection = self.reflection(&facet);
+        let depolarised = Mueller::depolarizer(reflection.diffuse + reflection.volume);
+        if !self.model.specular {
+            return depolarised;
+        }
+        let meridian_from_incidence = Mueller::rotator(geometry.rotation_out().inverse());
+        let incidence_from_meridian = Mueller::rotator(geometry.rotation_in());
+        let fresnel = Mueller::fresnel(&Fresnel::new(self.index, &facet));
+        let d_g = self.lobes(&facet).specular.scaled(self.parameters.ks).value();
+        meridian_from_incidence * fresnel * incidence_from_meridian * d_g + depolarised
+    }
+
+    /// The Fresnel limit DoLP_s at a prepared geometry: what DoLP would be without any depolarising term.
+    #[must_use]
+    pub fn fresnel_limit(&self, facet: &Facet) -> f64 {
+        Fresnel::new(self.index, facet).dolp()
+    }
+
+    /// The lobes of unit weight; those of absent terms are dark.
+    pub(super) fn lobes(&self, facet: &Facet) -> Lobes {
+        let Self { model, parameters: p, .. } = self;
+        let g_over_cosines = if model.masking { facet.g_over_cosines } else { facet.one_over_cosines };
+        let w = if model.specular { crate::optics::reduced_slope_sq(facet.tan_alpha_sq, p.sigma) } else { 0.0 };
+        Lobes {
+            w,
+            specular: if model.specular {
+                lobes::specular(model.distribution, w, facet, g_over_cosines, p.sigma, p.q)
+            } else {
+                Lobe::DARK
+            },
+            diffuse: match model.diffuse {
+                Diffuse::Absent => Lobe::DARK,
+                Diffuse::Lambert => lobes::diffuse(facet, 0.0),
+                Diffuse::Minnaert => lobes::diffuse(facet, p.c),
+            },
+            volume: if model.volume { lobes::volume(facet, p.sigma_v) } else { Lobe::DARK },
+        }
+    }
+
+    /// A weight as DoLP takes it: the same, unless k_s is so faint that all three are raised.
+    pub(super) fn raised(&self, weight: f64) -> f64 {
+        weight * self.weight_scale
+    }
+
+    /// b: the (raised) depolarised terms over the specular lobe of unit weight and reflectance.
+    pub(super) fn depolarised_over_specular(&self, lobes: &Lobes) -> f64 {
+        let diffuse = lobes.diffuse.scaled(self.raised(self.parameters.kd));
+        let volume = lobes.volume.scaled(self.raised(self.parameters.kv));
+        diffuse.over(lobes.specular) + volume.over(lobes.specular)
+    }
+
+    /// The specular part of the radiance, `k_s R/(k_s R + b)`, for the mean reflectance R and b.
+    pub(super) fn specular_share(&self, mean: f64, depolarised: f64) -> f64 {
+        if depolarised == 0.0 {
+            // Nothing else, or nothing else that f64 can tell from nothing.
+            return if self.reflects_specularly() { 1.0 } else { 0.0 };
+        }
+        let specular = self.raised(self.parameters.ks) * mean;
+        specular / (specular + depolarised)
+    }
+
+    /// Whether any light leaves by the specular lobe.
+    pub(super) fn reflects_specularly(&self) -> bool {
+        self.parameters.ks > 0.0 && !self.index.is_vacuum()
+    }
+
+    pub(super) fn index(&self) -> RefractiveIndex {
+        self.index
+    }
+}

@@ -1,0 +1,57 @@
+//! The complex refractive index N = n + i k_m.
+
+use serde::{Deserialize, Serialize};
+
+/// Complex refractive index n + i k_m relative to the medium of incidence; fields vary as exp(−iωt).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RefractiveIndex {
+    n: f64,
+    k_m: f64,
+}
+
+/// Why a pair of numbers is no refractive index.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RefractiveIndexError {
+    /// n is negative, infinite or not a number.
+    #[error("n = {0} is outside 0 ≤ n < ∞")]
+    N(f64),
+    /// k is negative, infinite or not a number.
+    #[error("k = {0} is outside 0 ≤ k < ∞")]
+    K(f64),
+    /// A medium without any refractive index.
+    #[error("n and k are both 0")]
+    Zero,
+}
+
+impl RefractiveIndex {
+    /// From its real part n ≥ 0 and its imaginary part k_m ≥ 0, both finite and not both 0.
+    pub fn new(n: f64, k_m: f64) -> Result<Self, RefractiveIndexError> {
+        if !(n.is_finite() && n >= 0.0) {
+            Err(RefractiveIndexError::N(n))
+        } else if !(k_m.is_finite() && k_m >= 0.0) {
+            Err(RefractiveIndexError::K(k_m))
+        } else if n == 0.0 && k_m == 0.0 {
+            Err(RefractiveIndexError::Zero)
+        } else {
+            Ok(Self { n, k_m })
+        }
+    }
+
+    /// Refractive index n, the real part.
+    #[must_use]
+    pub fn n(self) -> f64 {
+        self.n
+    }
+
+    /// Extinction coefficient k_m, the imaginary part.
+    #[must_use]
+    pub fn k_m(self) -> f64 {
+        self.k_m
+    }
+
+    /// Whether light does not see the surface at all: N = 1.
+    #[must_use]
+    pub fn is_vacuum(self) -> bool {
+        self.n == 1.0 && self.k_m == 0.0
+    }
+}
