@@ -257,6 +257,18 @@ impl ParameterSet {
         Self(self.0 & other.0)
     }
 
+    /// The parameters in either.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Without those of another set.
+    #[must_use]
+    pub fn without_all(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// How many.
     #[must_use]
     pub fn len(self) -> usize {

@@ -1,0 +1,16 @@
+//! Floor 4: from a measurement to parameters, and how far they can be trusted.
+//!
+//! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitReport`]: a value with parameters, standard errors, what
+//! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Watch`]).
+
+mod bounds;
+mod outcome;
+mod problem;
+mod solver;
+mod uncertainty;
+
+pub use bounds::{Bounds, BoundsError};
+pub use outcome::{Edge, Estimate, FitReport, Minimum, fit};
+pub use problem::{BrdfResiduals, Choices, Eq17, Loss, Problem, ProblemError, Weights, free_by_default};
+pub use solver::{Descent, StopReason, TracePoint, Watch, descend};
+pub use uncertainty::{OpenDirection, RANK_THRESHOLD, Uncertainty};

@@ -1,0 +1,163 @@
+//! The result of a fit: values, uncertainties, what is open, and how it came about.
+
+use super::problem::{Problem, Weights};
+use super::solver::{Descent, StopReason, TracePoint, Watch, descend};
+use super::uncertainty::{OpenDirection, Uncertainty};
+use crate::model::{Model, Parameter, ParameterSet, Parameters};
+use nalgebra::DMatrix;
+
+/// Which bound a parameter rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// The lower one.
+    Lower,
+    /// The upper one.
+    Upper,
+}
+
+/// One parameter of the model after a fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Which.
+    pub parameter: Parameter,
+    /// Its value before.
+    pub start: f64,
+    /// Its value.
+    pub value: f64,
+    /// Whether the fit could change it.
+    pub free: bool,
+    /// Its standard error, where the data determine it.
+    pub std_error: Option<f64>,
+    /// The bound it rests on.
+    pub at_bound: Option<Edge>,
+}
+
+/// The end of one start, for the list of minima.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Minimum {
+    /// ΔE of Eq. (18).
+    pub objective: f64,
+    /// Why it ended there.
+    pub stop_reason: StopReason,
+    /// How many starts ended there.
+    pub reached: usize,
+}
+
+/// The result of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitReport {
+    /// Which terms there are.
+    pub model: Model,
+    /// All nine values; those that play no part are as they were.
+    pub parameters: Parameters,
+    /// The model's own parameters, one by one.
+    pub estimates: Vec<Estimate>,
+    /// ΔE of Eq. (18), of DoLP if measured, else of BRDF; with both, the sum. None where all measured values are 0.
+    pub objective: Option<f64>,
+    /// The same at the start.
+    pub start_objective: Option<f64>,
+    /// Sum of squares of what was minimised, in the data's own unit where it has one.
+    pub sum_of_squares: f64,
+    /// χ², where standard deviations were stated and used.
+    pub chi2: Option<f64>,
+    /// Number of residuals less the rank.
+    pub dof: usize,
+    /// Akaike's corrected criterion.
+    pub aicc: Option<f64>,
+    /// Why the fit ended.
+    pub stop_reason: StopReason,
+    /// Residual evaluations.
+    pub evaluations: usize,
+    /// Milliseconds from the first residual evaluation to the last.
+    pub elapsed_ms: f64,
+    /// Directions that the data leave open.
+    pub undetermined: Vec<OpenDirection>,
+    /// Determined parameters, in the order of the correlations.
+    pub determined: Vec<Parameter>,
+    /// Their correlations.
+    pub correlations: DMatrix<f64>,
+    /// Where the starts led.
+    pub minima: Vec<Minimum>,
+    /// The improvements on the way of the winning start.
+    pub trace: Vec<TracePoint>,
+}
+
+/// A parameter this near a bound, as a fraction of the box, rests on it.
+const AT_BOUND: f64 = 1e-9;
+
+/// Fits from the problem's start and says what came out.
+#[must_use]
+pub fn fit(problem: &Problem, watch: Watch<'_>) -> FitReport {
+    let descent = descend(problem, watch);
+    let elapsed_ms = (watch.clock)();
+    FitReport::new(problem, descent, elapsed_ms)
+}
+
+impl FitReport {
+    fn new(problem: &Problem, descent: Descent, elapsed_ms: f64) -> Self {
+        let Descent { parameters, sum_of_squares, mut stop_reason, evaluations, trace } = descent;
+        let edges: Vec<(Parameter, Edge)> = problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
+        let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
+        let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, at_bound);
+        let open = !uncertainty.open.is_empty() || problem.len() < problem.free().len();
+        if open && !matches!(stop_reason, StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit) {
+            stop_reason = StopReason::Underdetermined;
+        }
+        let estimates = problem.model().parameters().iter().map(|parameter| Estimate {
+            parameter,
+            start: problem.start()[parameter],
+            value: parameters[parameter],
+            free: problem.free().contains(&parameter),
+            std_error: uncertainty.standard_error(parameter),
+            at_bound: edges.iter().find(|(other, _)| *other == parameter).map(|(_, edge)| *edge),
+        });
+        let objective = (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten();
+        let in_data_units = sum_of_squares * problem.sum_of_squares_scale();
+        let minimum = Minimum { objective: objective.unwrap_or(f64::NAN), stop_reason, reached: 1 };
+        Self {
+            model: problem.model(),
+            estimates: estimates.collect(),
+            objective,
+            start_objective: problem.delta_e(problem.start()),
+            sum_of_squares: if problem.is_empty() { 0.0 } else { in_data_units },
+            chi2: (problem.choices().weights == Weights::Sigma).then_some(sum_of_squares),
+            dof: problem.len().saturating_sub(uncertainty.rank),
+            aicc: aicc(problem, in_data_units),
+            stop_reason,
+            evaluations,
+            elapsed_ms,
+            correlations: uncertainty.correlations(),
+            determined: uncertainty.determined,
+            undetermined: uncertainty.open,
+            minima: vec![minimum],
+            trace,
+            parameters,
+        }
+    }
+}
+
+fn edge(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> Option<Edge> {
+    let (low, high) = problem.bounds().of(parameter);
+    let fraction = (parameters[parameter] - low) / (high - low);
+    if fraction <= AT_BOUND {
+        Some(Edge::Lower)
+    } else if fraction >= 1.0 - AT_BOUND {
+        Some(Edge::Upper)
+    } else {
+        None
+    }
+}
+
+/// `N ln(SS/N) + 2K + 2K(K + 1)/(N − K − 1)` with K = free + 1; with stated standard deviations `χ² + …` with K = free.
+#[expect(clippy::cast_precision_loss, reason = "numbers of residuals and parameters")]
+fn aicc(problem: &Problem, sum_of_squares: f64) -> Option<f64> {
+    let n = problem.len() as f64;
+    let free = problem.free().len() as f64;
+    let (misfit, k) = match problem.choices().weights {
+        Weights::None => (n * libm::log(sum_of_squares / n), free + 1.0),
+        Weights::Sigma => (sum_of_squares, free),
+    };
+    let rest = n - k - 1.0;
+    let aicc = misfit + 2.0 * k + 2.0 * k * (k + 1.0) / rest;
+    (rest > 0.0 && aicc.is_finite()).then_some(aicc)
+}

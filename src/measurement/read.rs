@@ -1,0 +1,135 @@
+//! Reads a measurement from a table.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `theta_i` | degrees, 0 ≤ θi < 90 |
+//! | `theta_r` | degrees, −90 < θr < 90; negative is the backscatter side (θr := abs θr, Δφ := 0), only where `dphi` is absent or 180 |
+//! | `dphi` | degrees, any finite value; 180 where there is no such column |
+//! | `dolp`, `dolp_sigma` | 0…1 (or `dolp_percent`, 0…100); standard deviation > 0 |
+//! | `brdf`, `brdf_sigma` | sr⁻¹, ≥ 0; standard deviation > 0 |
+//! | `masked` | 0 or 1 |
+//!
+//! Nothing is guessed and no row is dropped: what does not fit is an error that names its place.
+
+use super::table::{Progress, ReadError, ReadErrorKind, Record, Table};
+use super::{Measurement, Quantity, Row};
+use crate::optics::Geometry;
+use std::io::Read;
+
+/// Which column holds what.
+struct Layout {
+    theta_i: usize,
+    theta_r: usize,
+    dphi: Option<usize>,
+    dolp: Option<Source>,
+    brdf: Option<Source>,
+    masked: Option<usize>,
+}
+
+/// Where a quantity and its standard deviation stand, and what is allowed there.
+struct Source {
+    value: usize,
+    sigma: Option<usize>,
+    /// One over the unit of the value column: 100 for percent.
+    per_unit: f64,
+    maximum: f64,
+    expected: &'static str,
+}
+
+const DOLP: &str = "a DoLP from 0 to 1";
+const DOLP_PERCENT: &str = "a DoLP from 0 to 100 percent";
+const BRDF: &str = "a BRDF of 0 sr⁻¹ or more";
+const SIGMA: &str = "a standard deviation above 0";
+const THETA_I: &str = "an angle of incidence, 0 ≤ θi < 90 degrees";
+const THETA_R: &str = "an angle of view, −90 < θr < 90 degrees";
+const DPHI: &str = "a finite angle in degrees";
+const MASKED: &str = "0 or 1";
+const KNOWN: [&str; 9] = ["theta_i", "theta_r", "dphi", "dolp", "dolp_percent", "dolp_sigma", "brdf", "brdf_sigma", "masked"];
+
+/// Reads a measurement; `progress` is told how far it is and may stop it.
+pub fn read(source: impl Read, progress: Progress<'_>) -> Result<Measurement, ReadError> {
+    let table = Table::new(source)?;
+    let layout = Layout::new(&table)?;
+    let mut rows = Vec::new();
+    table.for_each(progress, |record| {
+        rows.push(layout.row(record)?);
+        Ok(())
+    })?;
+    let ignored_columns = table.header().iter().filter(|name| !KNOWN.contains(&name.as_str())).cloned().collect();
+    Ok(Measurement { metadata: table.metadata().to_vec(), rows, ignored_columns })
+}
+
+impl Layout {
+    fn new(table: &Table) -> Result<Self, ReadError> {
+        let (theta_i, theta_r) = (table.require("theta_i")?, table.require("theta_r")?);
+        let (fraction, percent) = (table.find("dolp")?, table.find("dolp_percent")?);
+        if let (Some(a), Some(b)) = (fraction, percent) {
+            return Err(table.repeated(a.min(b), a.max(b)));
+        }
+        let (dolp_sigma, brdf_sigma) = (table.find("dolp_sigma")?, table.find("brdf_sigma")?);
+        let dolp = fraction
+            .map(|value| Source { value, sigma: dolp_sigma, per_unit: 1.0, maximum: 1.0, expected: DOLP })
+            .or(percent.map(|value| Source { value, sigma: dolp_sigma, per_unit: 100.0, maximum: 100.0, expected: DOLP_PERCENT }));
+        let brdf = table.find("brdf")?.map(|value| Source { value, sigma: brdf_sigma, per_unit: 1.0, maximum: f64::MAX, expected: BRDF });
+        if dolp.is_none() && brdf.is_none() {
+            return Err(table.header_error(ReadErrorKind::NoQuantity));
+        }
+        Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?, dolp, brdf, masked: table.find("masked")? })
+    }
+
+    fn row(&self, record: &Record<'_>) -> Result<Row, ReadError> {
+        let geometry = self.geometry(record)?;
+        let dolp = self.dolp.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
+        let brdf = self.brdf.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
+        if dolp.is_none() && brdf.is_none() {
+            return Err(record.row_error(ReadErrorKind::NoData));
+        }
+        let masked = match self.masked {
+            Some(column) => match record.optional(column, MASKED)? {
+                None | Some(0.0) => false,
+                Some(1.0) => true,
+                Some(_) => return Err(record.out_of_range(column, MASKED)),
+            },
+            None => false,
+        };
+        Ok(Row { geometry, dolp, brdf, masked })
+    }
+
+    fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
+        let theta_i = record.number(self.theta_i, THETA_I)?;
+        if !(0.0..90.0).contains(&theta_i) {
+            return Err(record.out_of_range(self.theta_i, THETA_I));
+        }
+        let theta_r = record.number(self.theta_r, THETA_R)?;
+        if theta_r.abs() >= 90.0 {
+            return Err(record.out_of_range(self.theta_r, THETA_R));
+        }
+        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, DPHI))?;
+        if theta_r < 0.0 && dphi != 180.0 {
+            let found = record.text(self.theta_r);
+            return Err(record.error(self.theta_r, ReadErrorKind::NegativeThetaR { found, dphi }));
+        }
+        let geometry = if theta_r < 0.0 { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) };
+        geometry.map_err(|_| record.out_of_range(self.theta_r, THETA_R))
+    }
+}
+
+impl Source {
+    fn quantity(&self, record: &Record<'_>) -> Result<Option<Quantity>, ReadError> {
+        let value = record.optional(self.value, self.expected)?;
+        if value.is_some_and(|value| !(0.0..=self.maximum).contains(&value)) {
+            return Err(record.out_of_range(self.value, self.expected));
+        }
+        let mut sigma = None;
+        if let Some(column) = self.sigma {
+            sigma = record.optional(column, SIGMA)?;
+            if sigma.is_some_and(|sigma| sigma <= 0.0) {
+                return Err(record.out_of_range(column, SIGMA));
+            }
+            if value.is_none() && sigma.is_some() {
+                return Err(record.error(column, ReadErrorKind::SigmaWithoutValue));
+            }
+        }
+        Ok(value.map(|value| Quantity { value: value / self.per_unit, sigma }))
+    }
+}

@@ -1,0 +1,147 @@
+//! Fits on simulated data: they find the truth, stay in the box, and say how they ended.
+
+use pbrdf::fit::{Bounds, Choices, Edge, Problem, StopReason, Watch, fit, free_by_default};
+use pbrdf::measurement::{Columns, Measurement, Simulation};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::optics::SlopeDistribution::{self, Cauchy, Gauss};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
+/// What "returns the truth" means: some nine digits less than f64 has, room for the condition of eight parameters.
+const TRUE_TO: f64 = 1e-6;
+
+fn grid(from: i32, to: i32, step: usize) -> Vec<f64> {
+    (from..=to).step_by(step).map(f64::from).collect()
+}
+
+fn dense(distribution: SlopeDistribution, truth: Parameters, columns: Columns) -> Measurement {
+    simulate(distribution, truth, columns, grid(10, 80, 10), grid(0, 85, 5), 0.0)
+}
+
+fn simulate(distribution: SlopeDistribution, truth: Parameters, columns: Columns, theta_i: Vec<f64>, theta_r: Vec<f64>, noise: f64) -> Measurement {
+    let surface = Pbrdf::new(Model::full(distribution), truth).expect("a valid surface");
+    Simulation { surface, theta_i, theta_r, dphi: 180.0, columns, noise, brdf_noise: noise, seed: 7 }.run().expect("valid angles")
+}
+
+fn problem(measurement: &Measurement, distribution: SlopeDistribution, start: Parameters) -> Problem {
+    let model = Model::full(distribution);
+    let free = free_by_default(model, measurement, &Choices::default());
+    Problem::new(measurement, model, start, free, Bounds::default(), Choices::default()).expect("a valid problem")
+}
+
+/// A point of the box from the golden-ratio (Kronecker) sequence: spread out, and the same everywhere.
+fn point_in_box(i: u32) -> Parameters {
+    let mut start = TRUTH;
+    for (j, parameter) in (1..).zip(Parameter::ALL) {
+        let root = f64::from(2 * j + 1).sqrt();
+        start[parameter] = Bounds::default().at(parameter, (f64::from(i + 1) * root).fract());
+    }
+    start.ks = 1.0;
+    start
+}
+
+fn worst_difference(a: &Parameters, b: &Parameters, of: ParameterSet) -> f64 {
+    of.iter().map(|parameter| (a[parameter] - b[parameter]).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn single_runs_from_far_starts_return_the_truth() {
+    for distribution in [Gauss, Cauchy] {
+        let measurement = dense(distribution, TRUTH, Columns::Dolp);
+        let reached = (0..20)
+            .filter(|&i| {
+                let problem = problem(&measurement, distribution, point_in_box(i));
+                let free: ParameterSet = problem.free().iter().copied().collect();
+                let report = fit(&problem, Watch::NOBODY);
+                worst_difference(&report.parameters, &TRUTH, free) < TRUE_TO
+            })
+            .count();
+        assert!(reached >= 19, "{distribution:?}: {reached} of 20");
+    }
+}
+
+#[test]
+fn with_a_brdf_all_nine_parameters_are_found() {
+    let measurement = dense(Cauchy, Parameters { ks: 1.7, ..TRUTH }, Columns::Both);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    assert!(worst_difference(&report.parameters, &Parameters { ks: 1.7, ..TRUTH }, ParameterSet::ALL) < TRUE_TO, "{:?}", report.parameters);
+    assert_eq!(report.stop_reason, StopReason::ResidualsZero);
+}
+
+#[test]
+fn a_free_k_s_is_undetermined_by_dolp_alone() {
+    let measurement = dense(Gauss, TRUTH, Columns::Dolp);
+    let model = Model::full(Gauss);
+    let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), Choices::default()).expect("a valid problem");
+    let report = fit(&problem, Watch::NOBODY);
+    assert_eq!(report.stop_reason, StopReason::Underdetermined);
+    let open: Vec<Parameter> = report.undetermined[0].direction.iter().map(|(parameter, _)| *parameter).collect();
+    assert_eq!(open, [Parameter::Ks, Parameter::Kd, Parameter::Kv]);
+    for estimate in &report.estimates {
+        assert_eq!(estimate.std_error.is_none(), open.contains(&estimate.parameter), "{:?}", estimate.parameter);
+    }
+}
+
+#[test]
+fn a_minimum_on_the_edge_is_put_on_the_edge() {
+    let measurement = dense(Gauss, Parameters { kv: 0.0, ..TRUTH }, Columns::Dolp);
+    let mut bounds = Bounds::default();
+    bounds.set(Parameter::Kd, 0.2, 10.0).expect("bounds in order");
+    let model = Model::full(Gauss);
+    let free: ParameterSet = [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Kd].into_iter().collect();
+    let start = Parameters { kv: 0.0, kd: 0.5, c: TRUTH.c, ..Parameters::default() };
+    let problem = Problem::new(&measurement, model, start, free, bounds, Choices::default()).expect("a valid problem");
+    let report = fit(&problem, Watch::NOBODY);
+    let kd = report.estimates.iter().find(|estimate| estimate.parameter == Parameter::Kd).expect("kd is there");
+    assert_eq!((kd.value, kd.at_bound, kd.std_error), (0.2, Some(Edge::Lower), None));
+}
+
+#[test]
+fn a_cancelled_fit_keeps_the_best_so_far() {
+    let measurement = dense(Cauchy, TRUTH, Columns::Dolp);
+    let problem = problem(&measurement, Cauchy, Parameters::default());
+    let asked = AtomicUsize::new(0);
+    let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 6;
+    let report = fit(&problem, Watch { cancelled: &cancelled, ..Watch::NOBODY });
+    assert_eq!(report.stop_reason, StopReason::Cancelled);
+    let best = report.trace.iter().map(|point| point.objective).fold(f64::INFINITY, f64::min);
+    // The trace holds sums in another order than ΔE is summed in.
+    assert!((report.objective.expect("an objective") / best - 1.0).abs() < 1e-12);
+    assert!(report.objective < report.start_objective);
+}
+
+#[test]
+fn the_trace_falls_and_ends_at_the_objective() {
+    let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, grid(30, 50, 10), grid(20, 60, 5), 0.005);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    assert!(report.trace.windows(2).all(|pair| pair[1].objective < pair[0].objective && pair[1].evaluations > pair[0].evaluations));
+    let last = report.trace.last().expect("a trace").objective;
+    // The trace holds sums in another order than ΔE is summed in.
+    assert!((report.objective.expect("an objective") / last - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn nothing_to_fit_is_said() {
+    let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
+    measurement.rows.iter_mut().for_each(|row| row.masked = true);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Watch::NOBODY);
+    assert_eq!((report.stop_reason, report.objective), (StopReason::NoData, None));
+    assert!(report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
+}
+
+#[test]
+fn fewer_points_than_parameters_are_underdetermined() {
+    let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, vec![40.0], vec![20.0, 40.0, 60.0], 0.0);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    assert_eq!(report.stop_reason, StopReason::Underdetermined);
+    assert!(!report.undetermined.is_empty());
+}
+
+#[test]
+fn all_dolp_zero_has_no_relative_objective() {
+    let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
+    measurement.rows.iter_mut().filter_map(|row| row.dolp.as_mut()).for_each(|dolp| dolp.value = 0.0);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Watch::NOBODY);
+    assert_eq!(report.objective, None);
+    assert!(report.sum_of_squares.is_finite());
+}
