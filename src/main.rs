@@ -1,1 +1,11 @@
-fn main(){}
+//! The program: a window, and the same core without one.
+
+#[cfg(feature = "gui")]
+mod app;
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -14,6 +14,8 @@ pub struct Preset {
     pub citation: &'static str,
     /// Its terms.
     pub model: Model,
+    /// It speaks of DoLP alone.
+    pub dolp_only: bool,
 }
 
 const fn model(distribution: SlopeDistribution, masking: bool, diffuse: Diffuse, volume: bool) -> Model {
@@ -27,54 +29,63 @@ pub const PRESETS: [Preset; 9] = [
         name: "Fresnel reflection alone (Thilak)",
         citation: "Thilak, Voelz, Creusere, Appl. Opt. 46(30), 7527 (2007)",
         model: model(Gauss, true, Diffuse::Absent, false),
+        dolp_only: true,
     },
     Preset {
         key: "priest-germer",
         name: "Gauss facets without masking (Priest–Germer)",
         citation: "Priest, Germer, Proc. MSS (2000)",
         model: model(Gauss, false, Diffuse::Absent, false),
+        dolp_only: false,
     },
     Preset {
         key: "specular",
         name: "Cauchy facets with masking",
         citation: "the specular part of Wang et al. 2021",
         model: model(Cauchy, true, Diffuse::Absent, false),
+        dolp_only: false,
     },
     Preset {
         key: "specular-gauss",
         name: "Gauss facets with masking",
         citation: "the specular part of Wang et al. 2021",
         model: model(Gauss, true, Diffuse::Absent, false),
+        dolp_only: false,
     },
     Preset {
         key: "lambert",
         name: "two components, Lambertian diffuse",
         citation: "Torrance–Sparrow with a Lambertian term",
         model: model(Gauss, true, Diffuse::Lambert, false),
+        dolp_only: false,
     },
     Preset {
         key: "minnaert",
         name: "two components, Minnaert diffuse (Zhu)",
         citation: "Zhu et al., Laser Optoelectron. Prog. 57(9), 092901 (2020)",
         model: model(Gauss, true, Diffuse::Minnaert, false),
+        dolp_only: false,
     },
     Preset {
         key: "three-component",
         name: "three components, Lambertian diffuse (Wang 2017)",
         citation: "Wang, Zhu, Liu, Chin. Phys. B 26(2), 024210 (2017)",
         model: model(Gauss, true, Diffuse::Lambert, true),
+        dolp_only: false,
     },
     Preset {
         key: "gauss",
         name: "the nine-parameter model, Gauss facets",
         citation: "Wang et al., Acta Opt. Sin. 41(11), 1129002 (2021)",
         model: Model::full(Gauss),
+        dolp_only: false,
     },
     Preset {
         key: "cauchy",
         name: "the nine-parameter model, Cauchy facets",
         citation: "Wang et al., Acta Opt. Sin. 41(11), 1129002 (2021)",
         model: Model::full(Cauchy),
+        dolp_only: false,
     },
 ];
 

@@ -1,0 +1,221 @@
+//! What can be asked on the command line.
+
+use super::values::{self, Assignment, Grid, Interval};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use pbrdf::fit;
+use pbrdf::measurement;
+use pbrdf::model::{Parameter, Preset};
+use std::path::PathBuf;
+
+/// Explores, fits and simulates polarised reflection from metal surfaces.
+///
+/// Without a command it opens the window.
+#[derive(Debug, Parser)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// What to do without a window.
+    #[command(subcommand)]
+    pub task: Option<Task>,
+    /// Measurement to open in the window.
+    pub file: Option<PathBuf>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    /// Evaluate the model, one row of parameters and angles after the other.
+    Evaluate(Evaluate),
+    /// Fit the model to a measurement.
+    Fit(Box<Fit>),
+    /// Simulate a measurement.
+    Simulate(Simulate),
+    /// Not there yet.
+    #[command(hide = true)]
+    Compare(Later),
+    /// Not there yet.
+    #[command(hide = true)]
+    Plan(Later),
+    /// Not there yet.
+    #[command(hide = true)]
+    Report(Later),
+    /// Not there yet.
+    #[command(hide = true)]
+    Import(Later),
+    /// Not there yet.
+    #[command(hide = true)]
+    Export(Later),
+    /// Not there yet.
+    #[command(hide = true)]
+    Metals(Later),
+}
+
+/// Arguments of a command that is announced but not built.
+#[derive(Debug, Args)]
+#[command(disable_help_flag = true)]
+pub struct Later {
+    /// Whatever follows.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    pub rest: Vec<String>,
+}
+
+/// `evaluate`.
+#[derive(Debug, Args)]
+pub struct Evaluate {
+    /// Table with the columns distribution, the nine parameters, theta_i, theta_r and dphi (180 if absent).
+    pub input: PathBuf,
+    /// File to write; standard output without.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Add the 16 elements of the Mueller matrix, m00 to m33.
+    #[arg(long)]
+    pub mueller: bool,
+    /// Add the derivatives of BRDF and DoLP by each parameter.
+    #[arg(long)]
+    pub gradient: bool,
+}
+
+/// `fit`.
+#[derive(Debug, Args)]
+pub struct Fit {
+    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and sr⁻¹.
+    pub input: PathBuf,
+    /// Model: a preset such as cauchy, gauss, specular or fresnel.
+    #[arg(long, default_value = "cauchy", value_parser = values::preset)]
+    pub model: &'static Preset,
+    /// Values to start from, such as n=2,k=3; defaults for the rest.
+    #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
+    pub start: Vec<Assignment>,
+    /// Parameters that stay as they are, such as ks=1,c.
+    #[arg(long, value_delimiter = ',', value_parser = values::parameter_or_assignment)]
+    pub fix: Vec<(Parameter, Option<f64>)>,
+    /// Parameters to free that would be fixed, such as ks.
+    #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
+    pub free: Vec<Parameter>,
+    /// Bounds, such as n=0.1..5.
+    #[arg(long, value_delimiter = ',', value_parser = values::interval)]
+    pub bounds: Vec<Interval>,
+    /// How many starts; only 1 is there yet.
+    #[arg(long, default_value_t = 1)]
+    pub starts: usize,
+    /// Seed of whatever is random.
+    #[arg(long, hide = true)]
+    pub seed: Option<u64>,
+    /// What divides the residuals.
+    #[arg(long, value_enum, default_value_t = Weights::None)]
+    pub weights: Weights,
+    /// How BRDF residuals are formed.
+    #[arg(long, value_enum, default_value_t = BrdfResiduals::Relative)]
+    pub brdf_residuals: BrdfResiduals,
+    /// Not there yet.
+    #[arg(long, hide = true)]
+    pub loss: Option<String>,
+    /// Not there yet.
+    #[arg(long, hide = true)]
+    pub loss_scale: Option<f64>,
+    /// Which reading of Eq. (17) predicts DoLP; printed leaves k_s out of the numerator.
+    #[arg(long, value_enum, default_value_t = Eq17::Consistent)]
+    pub eq17: Eq17,
+    /// Not there yet.
+    #[arg(long, hide = true)]
+    pub profile: Option<String>,
+    /// Not there yet.
+    #[arg(long, hide = true)]
+    pub bootstrap: Option<usize>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+}
+
+/// `simulate`.
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// Model: a preset such as cauchy, gauss, specular or fresnel.
+    #[arg(long, default_value = "cauchy", value_parser = values::preset)]
+    pub model: &'static Preset,
+    /// Parameters, such as n=2.07,k=2.9; defaults for the rest.
+    #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
+    pub set: Vec<Assignment>,
+    /// Angles of incidence in degrees: a list 30,40,50 or a range 10:80:10.
+    #[arg(long, value_parser = values::grid)]
+    pub theta_i: Grid,
+    /// Angles of view in degrees, the same way; negative is the backscatter side.
+    #[arg(long, allow_hyphen_values = true, value_parser = values::grid)]
+    pub theta_r: Grid,
+    /// Relative azimuth in degrees; 180 is the forward side.
+    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true)]
+    pub dphi: f64,
+    /// What is measured.
+    #[arg(long, value_enum, default_value_t = Columns::Dolp)]
+    pub columns: Columns,
+    /// Standard deviation of the noise in DoLP, absolute.
+    #[arg(long, default_value_t = 0.0, value_parser = values::not_negative)]
+    pub noise: f64,
+    /// Standard deviation of the noise in BRDF, relative.
+    #[arg(long, default_value_t = 0.0, value_parser = values::not_negative)]
+    pub brdf_noise: f64,
+    /// Seed of the noise.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// File to write.
+    #[arg(short, long)]
+    pub output: PathBuf,
+}
+
+/// Choices of the core under their names on the command line.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident => $core:path { $($(#[$variant_doc:meta])* $variant:ident),* }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, ValueEnum)]
+        pub enum $name { $($(#[$variant_doc])* $variant,)* }
+
+        impl From<$name> for $core {
+            fn from(choice: $name) -> Self {
+                match choice { $($name::$variant => Self::$variant,)* }
+            }
+        }
+    };
+}
+
+choice! {
+    /// What divides the residuals.
+    Weights => fit::Weights {
+        /// Nothing: Eq. (18).
+        None,
+        /// The stated standard deviations: χ².
+        Sigma
+    }
+}
+choice! {
+    /// How BRDF residuals are formed.
+    BrdfResiduals => fit::BrdfResiduals {
+        /// X − Xm.
+        Absolute,
+        /// (X − Xm)/Xm.
+        Relative,
+        /// ln X − ln Xm.
+        Log
+    }
+}
+choice! {
+    /// Which reading of Eq. (17) predicts DoLP.
+    Eq17 => fit::Eq17 {
+        /// k_s inside the numerator.
+        Consistent,
+        /// k_s missing, as printed.
+        Printed
+    }
+}
+choice! {
+    /// What is measured.
+    Columns => measurement::Columns {
+        /// DoLP.
+        Dolp,
+        /// BRDF.
+        Brdf,
+        /// Both.
+        Both
+    }
+}

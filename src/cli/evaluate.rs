@@ -1,0 +1,143 @@
+//! `evaluate`: the model, one row of parameters and angles after the other.
+
+use super::arguments::Evaluate;
+use super::failure::Failure;
+use super::{input, interrupt, output};
+use pbrdf::measurement::{ReadError, ReadErrorKind, Record, Table, exact};
+use pbrdf::model::{Model, Parameter, ParameterError, Parameters, Pbrdf, Wanted};
+use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+const NUMBER: &str = "a finite number";
+const ANGLE: &str = "an angle in degrees";
+const DISTRIBUTION: &str = "gauss or cauchy";
+
+/// Which column holds what.
+struct Layout {
+    distribution: usize,
+    parameters: [Option<usize>; 9],
+    theta_i: usize,
+    theta_r: usize,
+    dphi: Option<usize>,
+}
+
+pub fn run(task: &Evaluate) -> Result<ExitCode, Failure> {
+    interrupt::watch();
+    let bytes = input::bytes(&task.input)?;
+    let rows = read(&bytes).map_err(|error| input::read_failure(&task.input, &error))?;
+    let mut progress = output::Progress::new("evaluating");
+    output::write(task.output.as_deref(), |out| {
+        writeln!(out, "{}", header(task).join(","))?;
+        let mut line = Vec::new();
+        for (i, (surface, geometry)) in rows.iter().enumerate() {
+            line.clear();
+            evaluate(task, surface, *geometry, &mut line)?;
+            out.write_all(&line)?;
+            if i % 4096 == 0 {
+                #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress line")]
+                progress.tell_fraction(i as f64 / rows.len() as f64);
+                if interrupt::asked() {
+                    return Err(io::ErrorKind::Interrupted.into());
+                }
+            }
+        }
+        Ok(())
+    })
+    .map_err(|failure| if interrupt::asked() { Failure::interrupted() } else { failure })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn header(task: &Evaluate) -> Vec<String> {
+    let mut names: Vec<String> = ["brdf", "dolp", "specular", "diffuse", "volume"].map(str::to_owned).into();
+    if task.mueller {
+        names.extend((0..16).map(|i| format!("m{}{}", i / 4, i % 4)));
+    }
+    if task.gradient {
+        for quantity in ["brdf", "dolp"] {
+            names.extend(Parameter::ALL.map(|parameter| format!("d{quantity}_d{}", parameter.key())));
+        }
+    }
+    names
+}
+
+fn evaluate(task: &Evaluate, surface: &Pbrdf, geometry: Geometry, line: &mut Vec<u8>) -> io::Result<()> {
+    let facet = Facet::new(geometry);
+    let (reflection, gradient) = if task.gradient {
+        let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        (reflection, Some(gradient))
+    } else {
+        (surface.reflection(&facet), None)
+    };
+    let mut numbers = vec![reflection.brdf, reflection.dolp, reflection.specular, reflection.diffuse, reflection.volume];
+    if task.mueller {
+        let mueller = surface.mueller(geometry);
+        numbers.extend((0..16).map(|i| mueller.element(i / 4, i % 4)));
+    }
+    if let Some(gradient) = gradient {
+        numbers.extend(gradient.brdf);
+        numbers.extend(gradient.dolp);
+    }
+    for (i, number) in numbers.into_iter().enumerate() {
+        write!(line, "{}{}", if i == 0 { "" } else { "," }, exact(number))?;
+    }
+    writeln!(line)
+}
+
+/// All rows; nothing is written before the last one is known to be right.
+fn read(bytes: &[u8]) -> Result<Vec<(Pbrdf, Geometry)>, ReadError> {
+    let table = Table::new(bytes)?;
+    let layout = Layout::new(&table)?;
+    let mut rows = Vec::new();
+    table.for_each(&mut input::while_reading(), |record| {
+        rows.push((layout.surface(record)?, layout.geometry(record)?));
+        Ok(())
+    })?;
+    Ok(rows)
+}
+
+impl Layout {
+    fn new(table: &Table) -> Result<Self, ReadError> {
+        let mut parameters = [None; 9];
+        for (slot, parameter) in parameters.iter_mut().zip(Parameter::ALL) {
+            // A table of Gauss rows needs no q.
+            *slot = if parameter == Parameter::Q { table.find(parameter.key())? } else { Some(table.require(parameter.key())?) };
+        }
+        Ok(Self {
+            distribution: table.require("distribution")?,
+            parameters,
+            theta_i: table.require("theta_i")?,
+            theta_r: table.require("theta_r")?,
+            dphi: table.find("dphi")?,
+        })
+    }
+
+    fn surface(&self, record: &Record<'_>) -> Result<Pbrdf, ReadError> {
+        let name = record.text(self.distribution);
+        let distribution = SlopeDistribution::from_key(&name)
+            .ok_or_else(|| record.error(self.distribution, ReadErrorKind::NotANumber { found: name, expected: DISTRIBUTION }))?;
+        let model = Model::full(distribution);
+        let mut parameters = Parameters::default();
+        for parameter in model.parameters() {
+            let column = self.parameters[parameter as usize].ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn("q")))?;
+            parameters[parameter] = record.number(column, NUMBER)?;
+        }
+        Pbrdf::new(model, parameters).map_err(|error| {
+            let column = self.parameters[error.parameter() as usize].unwrap_or(self.distribution);
+            match error {
+                ParameterError::Outside { parameter, .. } => record.out_of_range(column, parameter.domain().to_string()),
+                ParameterError::NoIndex => record.out_of_range(column, "n or k above 0"),
+            }
+        })
+    }
+
+    fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
+        let theta_i = record.number(self.theta_i, ANGLE)?;
+        let theta_r = record.number(self.theta_r, ANGLE)?;
+        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, ANGLE))?;
+        Geometry::new(theta_i, theta_r, dphi).map_err(|error| match error {
+            GeometryError::ThetaI(_) => record.out_of_range(self.theta_i, "0 ≤ θi < 90 degrees"),
+            _ => record.out_of_range(self.theta_r, "0 ≤ θr < 90 degrees"),
+        })
+    }
+}

@@ -1,0 +1,53 @@
+//! Why a command has no answer: a sentence for a person and an exit code for a program.
+
+use std::io::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Bad usage, bad input, no display.
+pub const USAGE: u8 = 2;
+/// Output that could not be written.
+const OUTPUT: u8 = 1;
+/// Interrupted, as a shell reports it for SIGINT.
+pub const INTERRUPTED: u8 = 130;
+
+/// A sentence and an exit code.
+#[derive(Debug)]
+pub struct Failure {
+    message: String,
+    code: u8,
+}
+
+impl Failure {
+    /// Bad usage or input.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: USAGE }
+    }
+
+    /// A file that is not what it should be.
+    pub fn input(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::usage(format!("{}: {reason}.", path.display()))
+    }
+
+    /// A file or stream that could not be written.
+    pub fn output(to: impl std::fmt::Display, error: &std::io::Error) -> Self {
+        Self { message: format!("{to} could not be written: {error}."), code: OUTPUT }
+    }
+
+    /// Stopped by the user before there was an answer.
+    pub fn interrupted() -> Self {
+        Self { message: "Interrupted.".to_owned(), code: INTERRUPTED }
+    }
+
+    /// What is announced but not built.
+    pub fn not_yet(what: &str) -> Self {
+        Self::usage(format!("{what} is not there yet; a later version will bring it."))
+    }
+
+    /// Prints the sentence.
+    pub fn report(self) -> ExitCode {
+        // Nothing can be done about a stderr that is closed.
+        let _ = writeln!(std::io::stderr(), "{}", self.message);
+        ExitCode::from(self.code)
+    }
+}

@@ -1,0 +1,91 @@
+//! Where answers and progress go.
+
+use super::failure::Failure;
+use std::io::{self, IsTerminal as _, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Writes a file in one move, or stdout without a path: what was there before stays until the new file is whole.
+pub fn write(path: Option<&Path>, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    match path {
+        Some(path) => write_file(path, body).map_err(|error| Failure::output(path.display(), &error)),
+        None => {
+            let mut out = io::BufWriter::new(io::stdout().lock());
+            body(&mut out).and_then(|()| out.flush()).map_err(|error| Failure::output("Standard output", &error))
+        }
+    }
+}
+
+fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    // A device or a pipe cannot be replaced by a file, only written to.
+    if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        let mut out = io::BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
+        return body(&mut out).and_then(|()| out.flush());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As a newly created file has, less the umask; a temporary file alone would be private.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let file = builder.tempfile_in(folder)?;
+    let mut out = io::BufWriter::new(file);
+    body(&mut out)?;
+    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// A line on stderr for whoever waits: from 0.2 s on, several times a second on a terminal and every other second elsewhere.
+pub struct Progress {
+    what: &'static str,
+    begun: Instant,
+    last: Option<Instant>,
+    is_terminal: bool,
+}
+
+impl Progress {
+    /// Begins to wait for that.
+    pub fn new(what: &'static str) -> Self {
+        Self { what, begun: Instant::now(), last: None, is_terminal: io::stderr().is_terminal() }
+    }
+
+    /// Says how far it is, if it is time to.
+    pub fn tell(&mut self, how_far: impl FnOnce() -> String) {
+        let pause = Duration::from_millis(if self.is_terminal { 200 } else { 2000 });
+        let waited = self.last.map_or(self.begun.elapsed() >= Duration::from_millis(200), |last| last.elapsed() >= pause);
+        if waited {
+            self.last = Some(Instant::now());
+            let (start, end) = if self.is_terminal { ("\r\x1b[K", "") } else { ("", "\n") };
+            self.print(format_args!("{start}{}: {}{end}", self.what, how_far()));
+        }
+    }
+
+    /// Says how far a task of known length is.
+    pub fn tell_fraction(&mut self, done: f64) {
+        self.tell(|| format!("{:.0} %", 100.0 * done));
+    }
+
+    fn print(&self, text: std::fmt::Arguments<'_>) {
+        let mut stderr = io::stderr();
+        // Progress that nobody can see is no reason to stop.
+        let _ = stderr.write_fmt(text).and_then(|()| stderr.flush());
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if self.last.is_some() && self.is_terminal {
+            self.print(format_args!("\r\x1b[K"));
+        }
+    }
+}
+
+/// A line on stderr that is no error.
+pub fn notice(text: impl std::fmt::Display) {
+    // A notice that nobody can see is no reason to stop.
+    let _ = writeln!(io::stderr(), "{text}");
+}

@@ -1,0 +1,68 @@
+//! `simulate`: a measurement that says of itself that it is none.
+
+use super::arguments::Simulate;
+use super::failure::Failure;
+use super::output;
+use pbrdf::measurement::{Simulation, write};
+use pbrdf::model::{Parameters, Pbrdf};
+use std::process::ExitCode;
+
+pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
+    let mut parameters = Parameters::default();
+    for &(parameter, value) in &task.set {
+        parameters[parameter] = value;
+    }
+    let simulation = Simulation {
+        surface: Pbrdf::new(task.model.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
+        theta_i: task.theta_i.0.clone(),
+        theta_r: task.theta_r.0.clone(),
+        dphi: task.dphi,
+        columns: task.columns.into(),
+        noise: task.noise,
+        brdf_noise: task.brdf_noise,
+        seed: task.seed,
+    };
+    let mut measurement = simulation.run().map_err(|error| Failure::usage(format!("{error}.")))?;
+    let command = command_without_output(std::env::args().skip(1));
+    measurement.metadata.insert(1, ("command".to_owned(), command));
+    output::write(Some(&task.output), |out| write(&measurement, out))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The command as it was given, but for where the result went, so that the same command gives the same bytes anywhere.
+fn command_without_output(arguments: impl Iterator<Item = String>) -> String {
+    let mut words = vec!["pbrdf-explorer".to_owned()];
+    let mut skip_next = false;
+    for argument in arguments {
+        if skip_next {
+            skip_next = false;
+        } else if matches!(argument.as_str(), "-o" | "--output") {
+            skip_next = true;
+        } else if !(argument.starts_with("--output=") || (argument.starts_with("-o") && !argument.starts_with("--"))) {
+            words.push(quoted(&argument));
+        }
+    }
+    words.join(" ")
+}
+
+/// As a shell needs it; on one line.
+fn quoted(argument: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
+    if !argument.is_empty() && argument.chars().all(plain) {
+        argument.to_owned()
+    } else {
+        format!("'{}'", argument.replace('\'', r"'\''").replace(['\n', '\r'], " "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command_without_output;
+
+    #[test]
+    fn the_command_is_kept_without_its_output() {
+        let words = ["simulate", "--set", "n=2,k=3", "-o", "/tmp/a b.csv", "--theta-r=-60:60:5", "--output=x"];
+        let command = command_without_output(words.map(str::to_owned).into_iter());
+        assert_eq!(command, "pbrdf-explorer simulate --set n=2,k=3 --theta-r=-60:60:5");
+    }
+}
