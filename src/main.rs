@@ -3,6 +3,7 @@
 #[cfg(feature = "gui")]
 mod app;
 mod cli;
+mod open_file;
 
 use std::process::ExitCode;
 

@@ -3,23 +3,18 @@
 use super::failure::Failure;
 use super::interrupt;
 use super::output::{Progress, notice};
+use crate::open_file::open_file;
 use pbrdf::measurement::{self, Measurement, ReadError, ReadErrorKind};
+use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The bytes of a file.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| Failure::input(path, open_reason(path, &error)))
-}
-
-/// Why a file cannot be opened or read, without the operating system's numbers.
-pub fn open_reason(path: &Path, error: &std::io::Error) -> String {
-    match error.kind() {
-        _ if path.is_dir() => "this is a directory; expected a file".to_owned(),
-        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        std::io::ErrorKind::PermissionDenied => "permission to read the file is denied".to_owned(),
-        _ => format!("the file cannot be read: {error}"),
-    }
+    let mut bytes = Vec::new();
+    let mut file = open_file(path).map_err(|reason| Failure::input(path, reason))?;
+    file.read_to_end(&mut bytes).map_err(|error| Failure::input(path, format!("the file cannot be read: {error}")))?;
+    Ok(bytes)
 }
 
 /// Turns an error of a reader into the failure of a command.

@@ -1,0 +1,26 @@
+//! What the user asked for while the window was drawn; carried out afterwards.
+
+use super::state::Theme;
+use std::path::PathBuf;
+
+/// An order from the window.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Ask the desktop for a file.
+    ChooseMeasurement,
+    /// Read that file.
+    OpenMeasurement(PathBuf),
+    /// Load the bundled example of that number.
+    OpenExample(usize),
+    /// Stop reading.
+    CancelLoading,
+    StartFit,
+    CancelFit,
+    /// Fitted values to the sliders.
+    UseFit,
+    /// The values from before the fit to the sliders.
+    Back,
+    DismissNotice,
+    SetTheme(Theme),
+    Quit,
+}

@@ -1,0 +1,115 @@
+//! The measurement that is open, in the groups that it is plotted in.
+
+use pbrdf::measurement::{Measurement, Quantity, Row};
+use pbrdf::optics::Geometry;
+
+/// A bundled example.
+pub struct Example {
+    pub name: &'static str,
+    pub text: &'static str,
+}
+
+/// The bundled examples; the first is open at the start.
+pub const EXAMPLES: [Example; 3] = [
+    Example { name: "45# steel (simulated)", text: include_str!("../../assets/examples/steel45_simulated.csv") },
+    Example { name: "Copper 650 nm (simulated)", text: include_str!("../../assets/examples/copper_650nm_simulated.csv") },
+    Example { name: "Aluminium 650 nm (simulated)", text: include_str!("../../assets/examples/aluminium_650nm_simulated.csv") },
+];
+
+/// One measured value in a plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// θr in degrees, negative on the backscatter side.
+    pub theta_r: f64,
+    pub quantity: Quantity,
+    pub masked: bool,
+}
+
+/// Rows of one θi in one plane through the surface normal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Degrees.
+    pub theta_i: f64,
+    /// Δφ of its forward side in degrees, 90 < Δφ ≤ 270; 180 is the plane of incidence.
+    pub plane: f64,
+    pub dolp: Vec<Mark>,
+    pub brdf: Vec<Mark>,
+}
+
+impl Series {
+    /// Geometry at a signed θr in this plane.
+    pub fn geometry(&self, signed_theta_r: f64) -> Option<Geometry> {
+        let dphi = if signed_theta_r < 0.0 { self.plane - 180.0 } else { self.plane };
+        Geometry::new(self.theta_i, signed_theta_r.abs(), dphi).ok()
+    }
+
+    /// Name in a legend.
+    pub fn name(&self) -> String {
+        if self.plane == 180.0 { format!("θi = {}°", self.theta_i) } else { format!("θi = {}°, Δφ = {}°", self.theta_i, self.plane) }
+    }
+}
+
+/// A measurement with its name and its groups.
+#[derive(Debug, Clone)]
+pub struct Document {
+    pub name: String,
+    pub measurement: Measurement,
+    pub series: Vec<Series>,
+    /// Grows with every document, so that what is derived knows a new one.
+    pub generation: u64,
+}
+
+impl Document {
+    pub fn new(name: String, measurement: Measurement, generation: u64) -> Self {
+        let series = series(&measurement.rows);
+        Self { name, measurement, series, generation }
+    }
+
+    /// Whether anything was measured on the backscatter side.
+    pub fn has_backscatter(&self) -> bool {
+        self.series.iter().flat_map(|series| series.dolp.iter().chain(&series.brdf)).any(|mark| mark.theta_r < 0.0)
+    }
+
+    /// What its metadata say about it, for a line under the plots.
+    pub fn description(&self) -> String {
+        let simulated = self.measurement.metadata("simulated") == Some("true");
+        let mut parts = vec![self.name.clone()];
+        parts.extend(self.measurement.metadata("material").map(str::to_owned));
+        parts.extend(self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm")));
+        if simulated && !self.name.contains("simulated") {
+            parts.push("simulated".to_owned());
+        }
+        parts.push(format!("{} rows", self.measurement.rows.len()));
+        parts.join(" · ")
+    }
+}
+
+/// Plane and signed θr of a geometry.
+fn plane_of(geometry: Geometry) -> (f64, f64) {
+    let dphi = geometry.dphi().0.rem_euclid(360.0);
+    let theta_r = geometry.theta_r().0;
+    if dphi > 90.0 && dphi <= 270.0 { (dphi, theta_r) } else { ((dphi + 180.0).rem_euclid(360.0), -theta_r) }
+}
+
+fn series(rows: &[Row]) -> Vec<Series> {
+    let mut order: Vec<(f64, f64, f64, &Row)> = rows
+        .iter()
+        .map(|row| {
+            let (plane, theta_r) = plane_of(row.geometry);
+            (row.geometry.theta_i().0, plane, theta_r, row)
+        })
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    let mut groups: Vec<Series> = Vec::new();
+    for (theta_i, plane, theta_r, row) in order {
+        if groups.last().is_none_or(|last| last.theta_i != theta_i || last.plane != plane) {
+            groups.push(Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new() });
+        }
+        if let Some(last) = groups.last_mut() {
+            let mark = |quantity| Mark { theta_r, quantity, masked: row.masked };
+            last.dolp.extend(row.dolp.map(mark));
+            last.brdf.extend(row.brdf.map(mark));
+        }
+    }
+    groups
+}

@@ -1,0 +1,112 @@
+//! The fit: start it, watch it, read it, take it or leave it.
+
+use super::parameters::significant;
+use super::status::delta_e_text;
+use crate::app::command::Command;
+use crate::app::theme;
+use crate::app::window::{Explorer, LastFit};
+use egui::{Grid, Ui};
+use pbrdf::fit::{Edge, Estimate, StopReason};
+use pbrdf::model::ParameterSet;
+
+pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let free = explorer.free();
+    let Explorer { worker, commands, derived, last_fit, document, .. } = explorer;
+    egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            let running = worker.fit.is_some();
+            let fit = ui.add_enabled(!running, egui::Button::new(egui::RichText::new("Fit").strong()).min_size(egui::vec2(84.0, 26.0)));
+            if fit.on_hover_text("Levenberg–Marquardt from the sliders, all parameters that are not fixed").clicked() {
+                commands.push(Command::StartFit);
+            }
+            if ui.add_enabled(running, egui::Button::new("Cancel").min_size(egui::vec2(64.0, 26.0))).on_hover_text("Stop and keep the best so far").clicked() {
+                commands.push(Command::CancelFit);
+            }
+            if running {
+                ui.spinner();
+            }
+        });
+        ui.label(egui::RichText::new(free_text(free)).small());
+        match worker.fit.as_ref().map(|job| job.progress()) {
+            Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
+            Some(None) => ui.label("Fitting…"),
+            None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e))),
+        };
+        ui.separator();
+        match last_fit.as_ref().filter(|fit| fit.generation == document.generation) {
+            Some(fit) => result_ui(fit, commands, ui),
+            None => {
+                ui.label("Move the sliders until the curves are near the points, then press Fit.");
+            }
+        }
+    });
+}
+
+fn free_text(free: ParameterSet) -> String {
+    let names: Vec<&str> = free.iter().map(|parameter| parameter.symbol()).collect();
+    if names.is_empty() { "Nothing is free: all parameters are fixed.".to_owned() } else { format!("Free: {}", names.join(", ")) }
+}
+
+fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let report = &fit.report;
+    ui.horizontal(|ui| {
+        if ui.button("Use as sliders").on_hover_text("The fitted values to the sliders").clicked() {
+            commands.push(Command::UseFit);
+        }
+        if ui.button("Back").on_hover_text("The sliders as they were before the fit").clicked() {
+            commands.push(Command::Back);
+        }
+    });
+    ui.add_space(4.0);
+    let text = report.stop_reason.text();
+    let capital: String = text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect();
+    if matches!(report.stop_reason, StopReason::Converged | StopReason::ResidualsZero) {
+        ui.strong(capital);
+    } else {
+        ui.colored_label(theme::warning(ui.visuals().dark_mode), capital);
+    }
+    Grid::new("fit summary").num_columns(2).show(ui, |ui| {
+        for (name, value) in [
+            ("Before", delta_e_text(report.start_objective)),
+            ("After", delta_e_text(report.objective)),
+            ("Time", format!("{:.2} ms, {} evaluations", report.elapsed_ms, report.evaluations)),
+        ] {
+            ui.label(name);
+            ui.label(value);
+            ui.end_row();
+        }
+    });
+    ui.add_space(6.0);
+    Grid::new("fit result").num_columns(4).striped(true).min_col_width(44.0).show(ui, |ui| {
+        for heading in ["", "start", "value", "± std. error"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for estimate in &report.estimates {
+            ui.label(estimate.parameter.symbol()).on_hover_text(estimate.parameter.name());
+            ui.monospace(significant(estimate.start));
+            ui.monospace(significant(estimate.value));
+            ui.label(error_text(estimate));
+            ui.end_row();
+        }
+    });
+    if !report.undetermined.is_empty() {
+        ui.add_space(6.0);
+        ui.strong("The data leave open:");
+        for direction in &report.undetermined {
+            ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+        }
+    }
+}
+
+fn error_text(estimate: &Estimate) -> String {
+    let unit = estimate.parameter.unit();
+    match (estimate.free, estimate.at_bound, estimate.std_error) {
+        (false, ..) => "fixed".to_owned(),
+        (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
+        (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
+        (true, None, Some(error)) => format!("{error:.1e} {unit}").trim_end().to_owned(),
+        (true, None, None) => "open".to_owned(),
+    }
+}

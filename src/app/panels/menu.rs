@@ -1,0 +1,51 @@
+//! The menu bar.
+
+use crate::app::command::Command;
+use crate::app::document::EXAMPLES;
+use crate::app::state::Theme;
+use crate::app::window::Explorer;
+use std::path::PathBuf;
+
+pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
+    let Explorer { settings, commands, typed_path, .. } = explorer;
+    let mut push = |ui: &mut egui::Ui, command| {
+        commands.push(command);
+        ui.close();
+    };
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| {
+            if ui.button("Open measurement…").clicked() {
+                push(ui, Command::ChooseMeasurement);
+            }
+            ui.menu_button("Examples", |ui| {
+                for (index, example) in EXAMPLES.iter().enumerate() {
+                    if ui.button(example.name).clicked() {
+                        push(ui, Command::OpenExample(index));
+                    }
+                }
+            });
+            ui.separator();
+            let label = ui.label("Or type a path and press Enter:");
+            let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
+            if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
+                push(ui, Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
+            }
+            ui.separator();
+            if ui.button("Quit").clicked() {
+                push(ui, Command::Quit);
+            }
+        });
+        ui.menu_button("View", |ui| {
+            ui.checkbox(&mut settings.log_brdf, "Logarithmic BRDF");
+            ui.checkbox(&mut settings.show_limit, "Fresnel limit");
+            ui.checkbox(&mut settings.show_backscatter, "Backscatter side");
+            ui.separator();
+            ui.label("Theme");
+            for theme in Theme::ALL {
+                if ui.radio(settings.theme == theme, theme.name()).clicked() {
+                    push(ui, Command::SetTheme(theme));
+                }
+            }
+        });
+    });
+}

@@ -1,0 +1,11 @@
+//! The panels around the plots.
+
+mod fit;
+mod menu;
+mod parameters;
+mod status;
+
+pub use fit::fit_ui;
+pub use menu::menu_ui;
+pub use parameters::parameters_ui;
+pub use status::{notice_ui, status_ui};

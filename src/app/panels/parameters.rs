@@ -1,0 +1,159 @@
+//! The nine parameters, grouped by lobe, and where the lobes are looked at.
+
+use crate::app::state::Settings;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
+use pbrdf::model::{Diffuse, Parameter, Parameters};
+use pbrdf::optics::SlopeDistribution;
+
+pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { settings, .. } = explorer;
+    egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+        ui.add_space(4.0);
+        specular_ui(settings, ui);
+        diffuse_ui(settings, ui);
+        volume_ui(settings, ui);
+        geometry_ui(settings, ui);
+        ui.add_space(4.0);
+        if ui.button("Reset all parameters").on_hover_text("All nine parameters to their defaults").clicked() {
+            settings.parameters = Parameters::default();
+        }
+    });
+}
+
+fn specular_ui(settings: &mut Settings, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut settings.model.specular, "Specular lobe").on_hover_text("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises");
+    });
+    if settings.model.specular {
+        ui.horizontal(|ui| {
+            for (distribution, name) in [(SlopeDistribution::Gauss, "Gauss"), (SlopeDistribution::Cauchy, "Cauchy")] {
+                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_text(match distribution {
+                    SlopeDistribution::Gauss => "Gaussian facet slopes, Eq. (5): Beckmann",
+                    SlopeDistribution::Cauchy => "Hyper-Cauchy facet slopes, Eq. (7): q = 2 is GGX",
+                });
+            }
+            ui.checkbox(&mut settings.model.masking, "Masking").on_hover_text("V-groove masking–shadowing, Eq. (6)");
+        });
+        let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
+        if settings.model.distribution == SlopeDistribution::Cauchy {
+            shown.push(Parameter::Q);
+        }
+        sliders_ui(settings, ui, "specular", &shown);
+    }
+    ui.separator();
+}
+
+fn diffuse_ui(settings: &mut Settings, ui: &mut Ui) {
+    let mut present = settings.model.diffuse != Diffuse::Absent;
+    let switch = ui.checkbox(&mut present, "Diffuse lobe").on_hover_text("Minnaert, Eq. (12): depolarises");
+    if switch.changed() {
+        settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
+    }
+    if present {
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, "Minnaert").on_hover_text("(cos θi cos θr)^c / π");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, "Lambert").on_hover_text("1/π in all directions: c = 0");
+        });
+        let shown: &[Parameter] = if settings.model.diffuse == Diffuse::Minnaert { &[Parameter::Kd, Parameter::C] } else { &[Parameter::Kd] };
+        sliders_ui(settings, ui, "diffuse", shown);
+    }
+    ui.separator();
+}
+
+fn volume_ui(settings: &mut Settings, ui: &mut Ui) {
+    ui.checkbox(&mut settings.model.volume, "Volume lobe").on_hover_text("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal");
+    if settings.model.volume {
+        sliders_ui(settings, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+    }
+    ui.separator();
+}
+
+fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
+    ui.strong("Lobes are seen at");
+    Grid::new("geometry").num_columns(3).show(ui, |ui| {
+        let angles: [(&mut f64, std::ops::RangeInclusive<f64>, &str, &str); 2] = [
+            (&mut settings.theta_i, 0.0..=89.9, "θi", "Angle of incidence of the lobes, degrees"),
+            (&mut settings.dphi, 0.0..=360.0, "Δφ", "Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence"),
+        ];
+        for (angle, range, name, help) in angles {
+            let label = ui.label(name).on_hover_text(help);
+            ui.add(Slider::new(angle, range.clone()).show_value(false).step_by(0.5)).labelled_by(label.id).on_hover_text(help);
+            ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(4).suffix("°")).labelled_by(label.id);
+            ui.end_row();
+        }
+    });
+}
+
+fn sliders_ui(settings: &mut Settings, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+    Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
+        for &parameter in parameters {
+            slider_ui(settings, ui, parameter);
+            ui.end_row();
+        }
+    });
+}
+
+/// Name, slider, typed value with unit, lock, reset.
+fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
+    let range = parameter.range();
+    let outside = !range.contains(&settings.parameters[parameter]);
+    let help = format!("{} {}: {}\nSlider from {} to {}.", parameter.name(), parameter.symbol(), parameter.help(), range.start(), range.end());
+    let label = ui.label(parameter.symbol()).on_hover_text(&help);
+
+    let value = &mut settings.parameters[parameter];
+    let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
+    if parameter.is_logarithmic() {
+        slider = slider.logarithmic(true);
+    }
+    ui.add(slider).labelled_by(label.id).on_hover_text(&help);
+
+    // What the formulas do not allow is not taken; what only the slider cannot show is.
+    let domain = parameter.domain();
+    let speed = (0.005 * value.abs()).max(1e-4);
+    let typed = DragValue::from_get_set(|new| {
+        if let Some(new) = new.filter(|&new| domain.contains(new)) {
+            *value = new;
+        }
+        *value
+    });
+    let unit = parameter.unit();
+    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    ui.add_sized([78.0, 20.0], typed.speed(speed).custom_formatter(|value, _| significant(value)).suffix(suffix)).labelled_by(label.id).on_hover_text(if outside {
+        format!("outside the slider's range {} to {}", range.start(), range.end())
+    } else {
+        format!("type a value: {domain}")
+    });
+
+    let mut locked = settings.locked.contains(parameter);
+    let lock = ui.checkbox(&mut locked, "fixed").on_hover_text(format!("{} stays as it is in a fit", parameter.symbol()));
+    lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, format!("Fix {}", parameter.key())));
+    if lock.changed() {
+        settings.locked = if locked { settings.locked.with(parameter) } else { settings.locked.without(parameter) };
+    }
+
+    let is_default = settings.parameters[parameter] == parameter.default_value();
+    let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
+    let text = egui::RichText::new(if outside { "reset !" } else { "reset" }).small().color(color);
+    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(format!("back to {}", parameter.default_value()));
+    reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, format!("Reset {}", parameter.key())));
+    if reset.clicked() {
+        settings.parameters[parameter] = parameter.default_value();
+    }
+}
+
+/// Five significant digits, without trailing zeros.
+pub fn significant(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e5).contains(&size) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 8")]
+        let decimals = (4.0 - libm::log10(size).floor()).clamp(0.0, 8.0) as usize;
+        let text = format!("{value:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    } else {
+        format!("{value:.4e}")
+    }
+}

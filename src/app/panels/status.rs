@@ -1,0 +1,47 @@
+//! The line under the plots, and sentences above them.
+
+use crate::app::command::Command;
+use crate::app::theme;
+use crate::app::window::Explorer;
+
+/// What is open, and ΔE of the sliders.
+pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
+    let Explorer { derived, document, worker, commands, .. } = explorer;
+    ui.horizontal(|ui| {
+        ui.strong(delta_e_text(derived.delta_e)).on_hover_text("ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.");
+        ui.separator();
+        if let Some(job) = &worker.load {
+            let done = job.progress().unwrap_or(0.0);
+            #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
+            ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text("Reading…"));
+            if ui.button("Cancel reading").clicked() {
+                commands.push(Command::CancelLoading);
+            }
+            ui.separator();
+        }
+        ui.add(egui::Label::new(document.description()).truncate());
+        if let Some(left_out) = &derived.left_out {
+            ui.separator();
+            ui.label(left_out);
+        }
+    });
+}
+
+/// ΔE as a label.
+pub fn delta_e_text(delta_e: Option<f64>) -> String {
+    delta_e.map_or_else(|| "ΔE not defined".to_owned(), |value| format!("ΔE = {value:.4e}"))
+}
+
+/// What went wrong, until it is dismissed.
+pub fn notice_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
+    let Some(notice) = &explorer.notice else { return };
+    let color = theme::warning(ui.visuals().dark_mode);
+    egui::Frame::new().stroke(egui::Stroke::new(1.0, color)).inner_margin(6).corner_radius(4).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            if ui.button("Dismiss").clicked() {
+                explorer.commands.push(Command::DismissNotice);
+            }
+            ui.add(egui::Label::new(notice.as_str()).wrap());
+        });
+    });
+}

@@ -1,0 +1,90 @@
+//! The plots in the middle.
+
+mod dolp;
+mod error_bars;
+mod lobes;
+
+use super::derived::{Pieces, Range};
+use super::window::Explorer;
+use egui::Ui;
+use egui_plot::{Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
+
+/// How the axes are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
+#[derive(Debug, Default)]
+pub struct View {
+    dolp: Axes,
+    lobes: Axes,
+}
+
+impl View {
+    /// Gives all axes back to the contents.
+    pub fn reset(&mut self) {
+        *self = Self::default();
+    }
+}
+
+#[derive(Debug, Default)]
+struct Axes {
+    by_hand: bool,
+    shown: Option<(Range, Range)>,
+}
+
+impl Axes {
+    /// Moves the plot where the contents want it, if they want it elsewhere than before.
+    fn apply(&mut self, plot: &mut PlotUi<'_>, x: Option<Range>, y: Option<Range>) {
+        let (Some(x), Some(y)) = (x, y) else { return };
+        if !self.by_hand && self.shown != Some((x, y)) {
+            plot.set_plot_bounds_x(x.low..=x.high);
+            plot.set_plot_bounds_y(y.low..=y.high);
+            self.shown = Some((x, y));
+        }
+    }
+
+    fn listen<R>(&mut self, response: &PlotResponse<R>, ui: &Ui) {
+        let scrolled = response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
+        if response.response.double_clicked() {
+            *self = Self::default();
+            ui.ctx().request_repaint();
+        } else if response.response.dragged() || scrolled {
+            self.by_hand = true;
+        }
+    }
+}
+
+/// Both plots, one above the other, with their legends beside the axes.
+pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    if let Some(fault) = &explorer.derived.fault {
+        ui.colored_label(super::theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
+    }
+    let half = (0.5 * ui.available_height() - 26.0).max(120.0);
+    ui.strong("Degree of linear polarisation");
+    dolp::dolp_ui(explorer, ui, half);
+    ui.horizontal(|ui| {
+        ui.strong(format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.checkbox(&mut explorer.settings.log_brdf, "log");
+        });
+    });
+    lobes::lobes_ui(explorer, ui, half);
+}
+
+/// What both plots have in common.
+fn plot<'a>(name: &str, height: f32, y_label: &str) -> Plot<'a> {
+    Plot::new(name)
+        .height(height)
+        .legend(Legend::default().follow_insertion_order(true).background_alpha(0.85))
+        .x_axis_label("θr / °")
+        .y_axis_label(y_label.to_owned())
+        .y_axis_min_width(56.0)
+        .auto_bounds([false, false])
+        .allow_double_click_reset(false)
+        .x_axis_formatter(|mark, _| format!("{}", mark.value))
+}
+
+/// A curve in its pieces, under one name.
+fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: egui::Color32, style: Option<LineStyle>, width: f32) {
+    for piece in pieces {
+        let line = Line::new(name.to_owned(), PlotPoints::Borrowed(piece)).color(color).width(width);
+        plot.line(if let Some(style) = style { line.style(style) } else { line });
+    }
+}

@@ -1,0 +1,47 @@
+//! The settings file: read at start, written in one move, set aside when damaged.
+
+use super::state::Settings;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Name of the program in the folders of the desktop.
+pub const APP: &str = "pbrdf-explorer";
+
+/// Where the settings are, if the machine has a place for them.
+pub fn path() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", APP).map(|folders| folders.config_dir().join("settings.json"))
+}
+
+/// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
+pub fn load() -> (Settings, Option<String>) {
+    path().map_or_else(|| (Settings::default(), None), |path| load_from(&path))
+}
+
+pub fn load_from(path: &Path) -> (Settings, Option<String>) {
+    let reason = match std::fs::read(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (Settings::default(), None),
+        Err(error) => return (Settings::default(), Some(format!("The settings of the last session cannot be read ({error}); the defaults are used."))),
+        Ok(bytes) => match serde_json::from_slice::<Settings>(&bytes) {
+            Ok(settings) if settings.are_sound() => return (settings, None),
+            Ok(_) => "a value is outside its range".to_owned(),
+            Err(error) => error.to_string(),
+        },
+    };
+    let aside = path.with_extension("damaged.json");
+    let kept = match std::fs::rename(path, &aside) {
+        Ok(()) => format!("it is kept as {}", aside.display()),
+        Err(error) => format!("it could not be set aside ({error})"),
+    };
+    (Settings::default(), Some(format!("The settings file {} is damaged ({reason}); {kept}, and the defaults are used.", path.display())))
+}
+
+/// Writes the settings; a crash leaves the old file or the new one.
+pub fn save(path: &Path, settings: &Settings) -> std::io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    serde_json::to_writer_pretty(&mut file, settings)?;
+    file.flush()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}

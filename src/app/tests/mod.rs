@@ -1,0 +1,1 @@
+//! The window, driven headlessly by the names of its controls.

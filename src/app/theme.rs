@@ -1,0 +1,57 @@
+//! Colours and sizes, in one place.
+
+use egui::Color32;
+
+/// Okabe and Ito's colours, told apart by colour-blind eyes, darkened or lightened for the background.
+const SERIES_ON_LIGHT: [(u8, u8, u8); 7] = [(0, 92, 160), (190, 70, 0), (0, 128, 92), (158, 70, 122), (138, 104, 0), (30, 130, 190), (80, 80, 80)];
+const SERIES_ON_DARK: [(u8, u8, u8); 7] = [(86, 180, 233), (240, 128, 40), (40, 190, 140), (214, 140, 184), (240, 228, 66), (110, 150, 255), (190, 190, 190)];
+
+fn pick(dark: bool, light: (u8, u8, u8), on_dark: (u8, u8, u8)) -> Color32 {
+    let (r, g, b) = if dark { on_dark } else { light };
+    Color32::from_rgb(r, g, b)
+}
+
+/// Colour of the series of that number.
+pub fn series(index: usize, dark: bool) -> Color32 {
+    let i = index % SERIES_ON_LIGHT.len();
+    pick(dark, SERIES_ON_LIGHT[i], SERIES_ON_DARK[i])
+}
+
+/// The curve of the sliders, the total of the lobes.
+pub fn foreground(dark: bool) -> Color32 {
+    pick(dark, (20, 20, 20), (240, 240, 240))
+}
+
+pub fn specular(dark: bool) -> Color32 {
+    series(0, dark)
+}
+
+pub fn diffuse(dark: bool) -> Color32 {
+    series(1, dark)
+}
+
+pub fn volume(dark: bool) -> Color32 {
+    series(2, dark)
+}
+
+/// Masked points.
+pub fn muted(dark: bool) -> Color32 {
+    pick(dark, (150, 150, 150), (110, 110, 110))
+}
+
+/// What wants attention.
+pub fn warning(dark: bool) -> Color32 {
+    pick(dark, (160, 60, 0), (255, 170, 80))
+}
+
+/// Sets text sizes and colours of both themes.
+pub fn install(ctx: &egui::Context) {
+    for theme in [egui::Theme::Light, egui::Theme::Dark] {
+        ctx.style_mut_of(theme, |style| {
+            style.spacing.slider_width = 110.0;
+            style.spacing.item_spacing = egui::vec2(6.0, 4.0);
+            // The default text of both themes is fainter than small print should be.
+            style.visuals.override_text_color = Some(pick(theme == egui::Theme::Dark, (30, 30, 30), (220, 220, 220)));
+        });
+    }
+}

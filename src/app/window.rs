@@ -1,0 +1,248 @@
+//! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
+
+use super::command::Command;
+use super::derived::{Derived, problem};
+use super::document::{Document, EXAMPLES};
+use super::panels;
+use super::plots;
+use super::state::{Settings, Theme};
+use super::worker::{Event, Worker};
+use super::{store, theme};
+use pbrdf::fit::FitReport;
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Parameter, ParameterSet, Parameters};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// A fit as the window remembers it.
+pub struct LastFit {
+    pub report: FitReport,
+    /// The sliders before it.
+    pub before: Parameters,
+    /// The measurement it belongs to.
+    pub generation: u64,
+}
+
+/// The window.
+pub struct Explorer {
+    pub settings: Settings,
+    /// Where the settings go; nowhere in tests.
+    pub settings_file: Option<PathBuf>,
+    pub document: Document,
+    pub derived: Derived,
+    pub worker: Worker,
+    pub last_fit: Option<LastFit>,
+    pub notice: Option<String>,
+    pub view: plots::View,
+    /// A path typed by hand, where there is no file dialog.
+    pub typed_path: String,
+    pub commands: Vec<Command>,
+    generation: u64,
+    saved: Settings,
+    changed_at: Option<Instant>,
+}
+
+/// How long settings rest before they are written.
+const SAVE_AFTER: Duration = Duration::from_millis(1500);
+
+impl Explorer {
+    pub fn new(ctx: &egui::Context, settings: Settings) -> Self {
+        theme::install(ctx);
+        set_theme(ctx, settings.theme);
+        Self {
+            saved: settings.clone(),
+            settings,
+            settings_file: None,
+            document: Document::new(String::new(), Measurement::default(), 0),
+            derived: Derived::default(),
+            worker: Worker::new(ctx),
+            last_fit: None,
+            notice: None,
+            view: plots::View::default(),
+            typed_path: String::new(),
+            commands: Vec::new(),
+            generation: 0,
+            changed_at: None,
+        }
+    }
+
+    /// Opens the first example, and then the file if there is one: if that cannot be read, the example stays.
+    pub fn begin(&mut self, file: Option<PathBuf>) {
+        let example = &EXAMPLES[0];
+        match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
+            Ok(measurement) => self.take(example.name.to_owned(), measurement),
+            Err(error) => self.say(format!("The bundled example cannot be read: {error}.")),
+        }
+        self.commands.extend(file.map(Command::OpenMeasurement));
+    }
+
+    /// Shows a sentence above the plots.
+    pub fn say(&mut self, sentence: String) {
+        self.notice = Some(sentence);
+    }
+
+    fn take(&mut self, name: String, measurement: Measurement) {
+        self.generation += 1;
+        // With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
+        let locked = self.settings.locked;
+        self.settings.locked = if measurement.has_brdf() { locked.without(Parameter::Ks) } else { locked.with(Parameter::Ks) };
+        if !measurement.ignored_columns.is_empty() {
+            self.say(format!("{name}: ignored the columns {}.", measurement.ignored_columns.join(", ")));
+        }
+        self.document = Document::new(name, measurement, self.generation);
+        if let Some(first) = self.document.series.first() {
+            self.settings.theta_i = first.theta_i;
+            self.settings.dphi = first.plane;
+        }
+        self.last_fit = None;
+        self.view.reset();
+        if let Some(job) = &self.worker.fit {
+            job.cancel();
+        }
+    }
+
+    /// Before each frame: results of jobs, dropped files, commands, what is derived, settings.
+    pub fn logic(&mut self, ctx: &egui::Context) {
+        for file in ctx.input(|input| input.raw.dropped_files.clone()) {
+            self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
+        }
+        while let Some(event) = self.worker.next() {
+            self.receive(event);
+        }
+        for command in std::mem::take(&mut self.commands) {
+            if let Err(sentence) = self.carry_out(ctx, command) {
+                self.say(sentence);
+            }
+        }
+        let dragging = ctx.input(|input| input.pointer.any_down());
+        self.derived.refresh(&self.settings, &self.document, dragging);
+        self.remember_window(ctx);
+        self.save_when_rested(ctx);
+    }
+
+    fn receive(&mut self, event: Event) {
+        match event {
+            Event::Chosen(path) => self.commands.extend(path.map(Command::OpenMeasurement)),
+            Event::Loaded { name, result: Ok(measurement) } => {
+                self.notice = None;
+                self.take(name, measurement);
+            }
+            Event::Loaded { result: Err(sentence), .. } => self.say(sentence),
+            Event::Fitted(report) => {
+                let before = self.settings.parameters;
+                self.settings.parameters = report.parameters;
+                self.last_fit = Some(LastFit { report: *report, before, generation: self.generation });
+            }
+        }
+    }
+
+    fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+        match command {
+            Command::ChooseMeasurement => self.worker.choose()?,
+            Command::OpenMeasurement(path) => self.worker.open(path)?,
+            Command::OpenExample(index) => {
+                if let Some(example) = EXAMPLES.get(index) {
+                    self.worker.open_text(example.name.to_owned(), example.text)?;
+                }
+            }
+            Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
+            Command::StartFit => self.start_fit()?,
+            Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
+            Command::UseFit => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters),
+            Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
+            Command::DismissNotice => self.notice = None,
+            Command::SetTheme(theme) => {
+                self.settings.theme = theme;
+                set_theme(ctx, theme);
+            }
+            Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+        }
+        Ok(())
+    }
+
+    /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
+    pub fn free(&self) -> ParameterSet {
+        let model = self.settings.model;
+        let known = if self.document.measurement.has_brdf() { model.parameters() } else { model.dolp_parameters() };
+        known.without_all(self.settings.locked)
+    }
+
+    fn start_fit(&mut self) -> Result<(), String> {
+        let Settings { model, parameters, .. } = self.settings;
+        parameters.validate(model.parameters()).map_err(|error| format!("The fit cannot begin: {error}."))?;
+        match problem(&self.document.measurement, model, parameters, self.free()) {
+            Some(problem) => self.worker.start_fit(problem),
+            None => Err("The fit cannot begin: the model does not predict what was measured.".to_owned()),
+        }
+    }
+
+    fn remember_window(&mut self, ctx: &egui::Context) {
+        let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
+        self.settings.maximized = maximized.unwrap_or(false);
+        if let Some(size) = size.filter(|_| !self.settings.maximized) {
+            self.settings.window_size = [size.x.round(), size.y.round()];
+        }
+    }
+
+    fn save_when_rested(&mut self, ctx: &egui::Context) {
+        if self.settings == self.saved {
+            self.changed_at = None;
+            return;
+        }
+        let begun = *self.changed_at.get_or_insert_with(Instant::now);
+        if begun.elapsed() >= SAVE_AFTER {
+            self.save();
+        } else {
+            ctx.request_repaint_after(SAVE_AFTER);
+        }
+    }
+
+    /// Writes the settings now.
+    pub fn save(&mut self) {
+        self.changed_at = None;
+        self.saved = self.settings.clone();
+        if let Some(path) = &self.settings_file
+            && let Err(error) = store::save(path, &self.settings)
+        {
+            let sentence = format!("The settings cannot be saved to {}: {error}.", path.display());
+            self.settings_file = None;
+            self.say(sentence);
+        }
+    }
+
+    /// One frame.
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        egui::Panel::top("menu").show(ui, |ui| panels::menu_ui(self, ui));
+        egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
+        egui::Panel::left("parameters").default_size(348.0).min_size(330.0).show(ui, |ui| panels::parameters_ui(self, ui));
+        egui::Panel::right("fit").default_size(316.0).min_size(290.0).show(ui, |ui| panels::fit_ui(self, ui));
+        egui::CentralPanel::default().show(ui, |ui| {
+            panels::notice_ui(self, ui);
+            plots::plots_ui(self, ui);
+        });
+    }
+}
+
+fn set_theme(ctx: &egui::Context, theme: Theme) {
+    ctx.set_theme(match theme {
+        Theme::System => egui::ThemePreference::System,
+        Theme::Light => egui::ThemePreference::Light,
+        Theme::Dark => egui::ThemePreference::Dark,
+    });
+}
+
+impl eframe::App for Explorer {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        Self::logic(self, ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        Self::ui(self, ui);
+    }
+
+    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.settings != self.saved {
+            self.save();
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Work that is not done on the window's thread: dialogs, reading, fitting.
+//!
+//! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
+//! that was replaced meanwhile are dropped by its number.
+
+use crate::open_file::open_file;
+use pbrdf::fit::{FitReport, Problem, TracePoint, Watch, fit};
+use pbrdf::measurement::{self, Measurement};
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// What a job has come to.
+pub enum Event {
+    /// A file was chosen, or none.
+    Chosen(Option<PathBuf>),
+    /// A measurement was read, or why not.
+    Loaded { name: String, result: Result<Measurement, String> },
+    Fitted(Box<FitReport>),
+}
+
+/// A job on its way.
+pub struct Job<P> {
+    number: u64,
+    stop: Arc<AtomicBool>,
+    progress: Arc<Mutex<Option<P>>>,
+}
+
+impl<P: Copy> Job<P> {
+    /// How far it is.
+    pub fn progress(&self) -> Option<P> {
+        // A job that panicked while telling has nothing more to tell.
+        self.progress.lock().ok().and_then(|progress| *progress)
+    }
+
+    /// Asks it to stop.
+    pub fn cancel(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+/// How often a running job wakes the window.
+const WAKE_EVERY: Duration = Duration::from_millis(60);
+
+/// Runs jobs and collects their results.
+pub struct Worker {
+    ctx: egui::Context,
+    sender: SyncSender<(u64, Event)>,
+    receiver: Receiver<(u64, Event)>,
+    jobs: u64,
+    pub fit: Option<Job<TracePoint>>,
+    pub load: Option<Job<f64>>,
+    dialog: Option<u64>,
+}
+
+/// What a job tells its progress to.
+struct Teller<P> {
+    ctx: egui::Context,
+    progress: Arc<Mutex<Option<P>>>,
+    last: Mutex<Instant>,
+}
+
+impl<P> Teller<P> {
+    fn tell(&self, progress: P) {
+        if let (Ok(mut slot), Ok(mut last)) = (self.progress.lock(), self.last.lock()) {
+            *slot = Some(progress);
+            if last.elapsed() >= WAKE_EVERY {
+                *last = Instant::now();
+                self.ctx.request_repaint();
+            }
+        }
+    }
+}
+
+impl Worker {
+    pub fn new(ctx: &egui::Context) -> Self {
+        let (sender, receiver) = sync_channel(16);
+        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, dialog: None }
+    }
+
+    /// Begins a job on a thread of its own name; none if the machine refuses a thread.
+    fn spawn<P: Send + 'static>(&mut self, name: &str, body: impl FnOnce(&Teller<P>, &AtomicBool) -> Event + Send + 'static) -> Result<Job<P>, String> {
+        self.jobs += 1;
+        let number = self.jobs;
+        let job = Job { number, stop: Arc::default(), progress: Arc::new(Mutex::new(None)) };
+        let teller = Teller { ctx: self.ctx.clone(), progress: job.progress.clone(), last: Mutex::new(Instant::now()) };
+        let (stop, sender) = (job.stop.clone(), self.sender.clone());
+        let run = move || {
+            let event = body(&teller, &stop);
+            // The window may be gone.
+            let _ = sender.send((number, event));
+            teller.ctx.request_repaint();
+        };
+        match std::thread::Builder::new().name(name.to_owned()).spawn(run) {
+            Ok(_) => Ok(job),
+            Err(error) => Err(format!("The job cannot be started: {error}.")),
+        }
+    }
+
+    /// Asks the desktop for a file.
+    pub fn choose(&mut self) -> Result<(), String> {
+        if self.dialog.is_none() {
+            let job: Job<()> = self.spawn("choose file", |_, _| {
+                let dialog = rfd::FileDialog::new().set_title("Open measurement").add_filter("Tables", &["csv", "tsv", "txt"]).add_filter("All files", &["*"]);
+                Event::Chosen(dialog.pick_file())
+            })?;
+            self.dialog = Some(job.number);
+        }
+        Ok(())
+    }
+
+    /// Reads a file.
+    pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        self.read(name, move || {
+            let file = open_file(&path).map_err(|reason| format!("{}: {reason}.", path.display()))?;
+            Ok((path, file))
+        })
+    }
+
+    /// Reads a text that is at hand.
+    pub fn open_text(&mut self, name: String, text: &'static str) -> Result<(), String> {
+        let path = PathBuf::from(&name);
+        self.read(name, move || Ok((path, text.as_bytes())))
+    }
+
+    fn read<R: Read>(&mut self, name: String, source: impl FnOnce() -> Result<(PathBuf, R), String> + Send + 'static) -> Result<(), String> {
+        if let Some(job) = self.load.take() {
+            job.cancel();
+        }
+        let job = self.spawn("read measurement", move |teller: &Teller<f64>, stop| {
+            let mut progress = |done| {
+                teller.tell(done);
+                if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let result = source().and_then(|(path, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&path, &error)));
+            Event::Loaded { name, result }
+        })?;
+        self.load = Some(job);
+        Ok(())
+    }
+
+    /// Fits.
+    pub fn start_fit(&mut self, problem: Problem) -> Result<(), String> {
+        if let Some(job) = self.fit.take() {
+            job.cancel();
+        }
+        let job = self.spawn("fit", move |teller: &Teller<TracePoint>, stop| {
+            let begun = Instant::now();
+            let watch = Watch {
+                clock: &|| begun.elapsed().as_secs_f64() * 1e3,
+                cancelled: &|| stop.load(Ordering::Relaxed),
+                progress: &|point| teller.tell(point),
+            };
+            Event::Fitted(Box::new(fit(&problem, watch)))
+        })?;
+        self.fit = Some(job);
+        Ok(())
+    }
+
+    /// The next result that still matters.
+    pub fn next(&mut self) -> Option<Event> {
+        while let Ok((number, event)) = self.receiver.try_recv() {
+            let matters = match event {
+                Event::Chosen(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+                Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
+                Event::Fitted(_) => self.fit.take_if(|job| job.number == number).is_some(),
+            };
+            if matters {
+                return Some(event);
+            }
+        }
+        None
+    }
+
+    /// Whether a job is on its way.
+    pub fn is_busy(&self) -> bool {
+        self.fit.is_some() || self.load.is_some()
+    }
+}
+
+fn sentence(path: &Path, error: &measurement::ReadError) -> String {
+    format!("{}: {error}.", path.display())
+}
