@@ -18,7 +18,14 @@ fn dense(distribution: SlopeDistribution, truth: Parameters, columns: Columns) -
     simulate(distribution, truth, columns, grid(10, 80, 10), grid(0, 85, 5), 0.0)
 }
 
-fn simulate(distribution: SlopeDistribution, truth: Parameters, columns: Columns, theta_i: Vec<f64>, theta_r: Vec<f64>, noise: f64) -> Measurement {
+fn simulate(
+    distribution: SlopeDistribution,
+    truth: Parameters,
+    columns: Columns,
+    theta_i: Vec<f64>,
+    theta_r: Vec<f64>,
+    noise: f64,
+) -> Measurement {
     let surface = Pbrdf::new(Model::full(distribution), truth).expect("a valid surface");
     Simulation { surface, theta_i, theta_r, dphi: 180.0, columns, noise, brdf_noise: noise, seed: 7 }.run().expect("valid angles")
 }
@@ -72,7 +79,8 @@ fn with_a_brdf_all_nine_parameters_are_found() {
 fn a_free_k_s_is_undetermined_by_dolp_alone() {
     let measurement = dense(Gauss, TRUTH, Columns::Dolp);
     let model = Model::full(Gauss);
-    let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), Choices::default()).expect("a valid problem");
+    let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), Choices::default())
+        .expect("a valid problem");
     let report = fit(&problem, Watch::NOBODY);
     assert_eq!(report.stop_reason, StopReason::Underdetermined);
     let open: Vec<Parameter> = report.undetermined[0].direction.iter().map(|(parameter, _)| *parameter).collect();

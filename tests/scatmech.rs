@@ -13,7 +13,8 @@ const AGREEMENT: f64 = 1e-10;
 fn specular_mueller_matrix_agrees_in_all_elements() {
     let model = Model { diffuse: Diffuse::Absent, volume: false, ..Model::full(SlopeDistribution::Gauss) };
     for row in table("scatmech_mueller.csv") {
-        let parameters = Parameters { n: row.number("n"), k: row.number("k"), sigma: row.number("sigma"), ks: 1.0, ..Parameters::default() };
+        let parameters =
+            Parameters { n: row.number("n"), k: row.number("k"), sigma: row.number("sigma"), ks: 1.0, ..Parameters::default() };
         let surface = Pbrdf::new(model, parameters).expect("a valid surface");
         let geometry = Geometry::new(row.number("theta_i"), row.number("theta_r"), row.number("phi_s") + 180.0).expect("a geometry");
         let mueller = surface.mueller(geometry);

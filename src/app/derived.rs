@@ -99,6 +99,9 @@ pub struct Derived {
 /// Decades below its top that a logarithmic axis shows at most.
 const DECADES: f64 = 8.0;
 
+/// Up to this θr, in degrees, curves take part in choosing the axes.
+const SETS_AXES: f64 = 80.0;
+
 impl Derived {
     /// Makes anew what has other inputs than before. While `dragging`, axes grow but do not shrink.
     pub fn refresh(&mut self, settings: &Settings, document: &Document, dragging: bool) {
@@ -133,7 +136,11 @@ impl Derived {
         let identity = |value: f64| Some(value);
         let brdf = |value: f64| brdf_coordinate(value, settings.log_brdf);
         self.marks = drawn(document)
-            .map(|series| SeriesMarks { name: series.name(), dolp: marks(&series.dolp, step, identity), brdf: marks(&series.brdf, step, brdf) })
+            .map(|series| SeriesMarks {
+                name: series.name(),
+                dolp: marks(&series.dolp, step, identity),
+                brdf: marks(&series.brdf, step, brdf),
+            })
             .collect();
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         self.left_out = match (hidden, step) {
@@ -177,7 +184,10 @@ impl Derived {
     }
 
     fn refresh_ranges(&mut self, settings: &Settings, only_grow: bool) {
-        let values = |pieces: &Pieces| -> Vec<f64> { pieces.iter().flatten().map(|point| point.y).collect() };
+        // A Minnaert lobe has no bound at the horizon: what lies beyond does not set an axis.
+        let values = |pieces: &Pieces| -> Vec<f64> {
+            pieces.iter().flatten().filter(|point| point.x.abs() <= SETS_AXES).map(|point| point.y).collect()
+        };
         let all = || self.series.iter().chain([&self.own]);
         let limit = |curves: &Curves| if settings.show_limit { values(&curves.limit) } else { Vec::new() };
         let dolp_top = all().flat_map(|curves| [values(&curves.dolp), limit(curves)]).flatten();
@@ -273,7 +283,8 @@ impl Curves {
                 Some((angle, surface.reflection(&facet), surface.fresnel_limit(&facet)))
             })
             .collect();
-        let brdf = |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, brdf_coordinate(value(reflection), log))));
+        let brdf =
+            |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, brdf_coordinate(value(reflection), log))));
         let model = surface.model();
         Self {
             dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.dolp)))),

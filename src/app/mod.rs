@@ -74,5 +74,11 @@ fn display_is_named() -> bool {
 fn reason(error: &eframe::Error) -> String {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or("the window system gives no reason");
-    first.rsplit(".rs:").next().unwrap_or(first).trim_start_matches(|c: char| c.is_ascii_digit() || ": ".contains(c)).trim_end_matches('.').to_owned()
+    first
+        .rsplit(".rs:")
+        .next()
+        .unwrap_or(first)
+        .trim_start_matches(|c: char| c.is_ascii_digit() || ": ".contains(c))
+        .trim_end_matches('.')
+        .to_owned()
 }

@@ -20,7 +20,12 @@ pub fn load() -> (Settings, Option<String>) {
 pub fn load_from(path: &Path) -> (Settings, Option<String>) {
     let reason = match std::fs::read(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (Settings::default(), None),
-        Err(error) => return (Settings::default(), Some(format!("The settings of the last session cannot be read ({error}); the defaults are used."))),
+        Err(error) => {
+            return (
+                Settings::default(),
+                Some(format!("The settings of the last session cannot be read ({error}); the defaults are used.")),
+            );
+        }
         Ok(bytes) => match serde_json::from_slice::<Settings>(&bytes) {
             Ok(settings) if settings.are_sound() => return (settings, None),
             Ok(_) => "a value is outside its range".to_owned(),

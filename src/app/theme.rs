@@ -3,8 +3,10 @@
 use egui::Color32;
 
 /// Okabe and Ito's colours, told apart by colour-blind eyes, darkened or lightened for the background.
-const SERIES_ON_LIGHT: [(u8, u8, u8); 7] = [(0, 92, 160), (190, 70, 0), (0, 128, 92), (158, 70, 122), (138, 104, 0), (30, 130, 190), (80, 80, 80)];
-const SERIES_ON_DARK: [(u8, u8, u8); 7] = [(86, 180, 233), (240, 128, 40), (40, 190, 140), (214, 140, 184), (240, 228, 66), (110, 150, 255), (190, 190, 190)];
+const SERIES_ON_LIGHT: [(u8, u8, u8); 7] =
+    [(0, 92, 160), (190, 70, 0), (0, 128, 92), (158, 70, 122), (138, 104, 0), (30, 130, 190), (80, 80, 80)];
+const SERIES_ON_DARK: [(u8, u8, u8); 7] =
+    [(86, 180, 233), (240, 128, 40), (40, 190, 140), (214, 140, 184), (240, 228, 66), (110, 150, 255), (190, 190, 190)];
 
 fn pick(dark: bool, light: (u8, u8, u8), on_dark: (u8, u8, u8)) -> Color32 {
     let (r, g, b) = if dark { on_dark } else { light };
@@ -32,6 +34,11 @@ pub fn diffuse(dark: bool) -> Color32 {
 
 pub fn volume(dark: bool) -> Color32 {
     series(2, dark)
+}
+
+/// The grid behind a plot.
+pub fn grid(dark: bool) -> Color32 {
+    pick(dark, (222, 222, 222), (52, 52, 52))
 }
 
 /// Masked points.

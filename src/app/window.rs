@@ -148,7 +148,9 @@ impl Explorer {
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
-            Command::UseFit => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters),
+            Command::UseFit => {
+                self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters)
+            }
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
             Command::DismissNotice => self.notice = None,
             Command::SetTheme(theme) => {
@@ -214,8 +216,8 @@ impl Explorer {
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         egui::Panel::top("menu").show(ui, |ui| panels::menu_ui(self, ui));
         egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
-        egui::Panel::left("parameters").default_size(348.0).min_size(330.0).show(ui, |ui| panels::parameters_ui(self, ui));
-        egui::Panel::right("fit").default_size(316.0).min_size(290.0).show(ui, |ui| panels::fit_ui(self, ui));
+        egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| panels::parameters_ui(self, ui));
+        egui::Panel::right("fit").default_size(320.0).min_size(300.0).show(ui, |ui| panels::fit_ui(self, ui));
         egui::CentralPanel::default().show(ui, |ui| {
             panels::notice_ui(self, ui);
             plots::plots_ui(self, ui);

@@ -19,7 +19,10 @@ pub enum Event {
     /// A file was chosen, or none.
     Chosen(Option<PathBuf>),
     /// A measurement was read, or why not.
-    Loaded { name: String, result: Result<Measurement, String> },
+    Loaded {
+        name: String,
+        result: Result<Measurement, String>,
+    },
     Fitted(Box<FitReport>),
 }
 
@@ -83,7 +86,11 @@ impl Worker {
     }
 
     /// Begins a job on a thread of its own name; none if the machine refuses a thread.
-    fn spawn<P: Send + 'static>(&mut self, name: &str, body: impl FnOnce(&Teller<P>, &AtomicBool) -> Event + Send + 'static) -> Result<Job<P>, String> {
+    fn spawn<P: Send + 'static>(
+        &mut self,
+        name: &str,
+        body: impl FnOnce(&Teller<P>, &AtomicBool) -> Event + Send + 'static,
+    ) -> Result<Job<P>, String> {
         self.jobs += 1;
         let number = self.jobs;
         let job = Job { number, stop: Arc::default(), progress: Arc::new(Mutex::new(None)) };
@@ -105,7 +112,10 @@ impl Worker {
     pub fn choose(&mut self) -> Result<(), String> {
         if self.dialog.is_none() {
             let job: Job<()> = self.spawn("choose file", |_, _| {
-                let dialog = rfd::FileDialog::new().set_title("Open measurement").add_filter("Tables", &["csv", "tsv", "txt"]).add_filter("All files", &["*"]);
+                let dialog = rfd::FileDialog::new()
+                    .set_title("Open measurement")
+                    .add_filter("Tables", &["csv", "tsv", "txt"])
+                    .add_filter("All files", &["*"]);
                 Event::Chosen(dialog.pick_file())
             })?;
             self.dialog = Some(job.number);
@@ -128,7 +138,11 @@ impl Worker {
         self.read(name, move || Ok((path, text.as_bytes())))
     }
 
-    fn read<R: Read>(&mut self, name: String, source: impl FnOnce() -> Result<(PathBuf, R), String> + Send + 'static) -> Result<(), String> {
+    fn read<R: Read>(
+        &mut self,
+        name: String,
+        source: impl FnOnce() -> Result<(PathBuf, R), String> + Send + 'static,
+    ) -> Result<(), String> {
         if let Some(job) = self.load.take() {
             job.cancel();
         }
@@ -137,7 +151,8 @@ impl Worker {
                 teller.tell(done);
                 if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let result = source().and_then(|(path, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&path, &error)));
+            let result =
+                source().and_then(|(path, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&path, &error)));
             Event::Loaded { name, result }
         })?;
         self.load = Some(job);
@@ -178,6 +193,7 @@ impl Worker {
     }
 
     /// Whether a job is on its way.
+    #[cfg(test)]
     pub fn is_busy(&self) -> bool {
         self.fit.is_some() || self.load.is_some()
     }

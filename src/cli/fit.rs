@@ -19,7 +19,10 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
     let measurement = input::measurement(&task.input, &bytes)?;
     let problem = problem(task, &measurement)?;
     if problem.left_out() > 0 {
-        output::notice(format_args!("{} measured BRDF values of 0 are left out: they have no relative or logarithmic residual.", problem.left_out()));
+        output::notice(format_args!(
+            "{} measured BRDF values of 0 are left out: they have no relative or logarithmic residual.",
+            problem.left_out()
+        ));
     }
 
     let progress = Mutex::new(output::Progress::new("fitting"));
@@ -47,7 +50,9 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
     if let Some(path) = &task.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
         let cells = fitted_cells(&measurement, &surface, task);
-        output::write(Some(path), |out| append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out))?;
+        output::write(Some(path), |out| {
+            append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out)
+        })?;
     }
     Ok(if interrupt::asked() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }
@@ -131,7 +136,8 @@ fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, task: &Fit) -> Vec<V
         .map(|row| {
             let reflection = surface.reflection(&Facet::new(row.geometry));
             let dolp = pair(reflection.dolp / printed_gain, row.dolp.map(|dolp| dolp.value));
-            let brdf = if task.model.dolp_only { [String::new(), String::new()] } else { pair(reflection.brdf, row.brdf.map(|brdf| brdf.value)) };
+            let brdf =
+                if task.model.dolp_only { [String::new(), String::new()] } else { pair(reflection.brdf, row.brdf.map(|brdf| brdf.value)) };
             dolp.into_iter().chain(brdf).collect()
         })
         .collect()
@@ -142,7 +148,15 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     let used = measurement.rows.iter().filter(|row| !row.masked).count();
     writeln!(out, "{}: {used} of {} rows, model {} ({})", task.input.display(), measurement.rows.len(), task.model.key, task.model.name)?;
     let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
-    writeln!(out, "ΔE {} -> {}   ({}, {} evaluations, {:.1} ms)", number(report.start_objective), number(report.objective), report.stop_reason.text(), report.evaluations, report.elapsed_ms)?;
+    writeln!(
+        out,
+        "ΔE {} -> {}   ({}, {} evaluations, {:.1} ms)",
+        number(report.start_objective),
+        number(report.objective),
+        report.stop_reason.text(),
+        report.evaluations,
+        report.elapsed_ms
+    )?;
     if let Some(chi2) = report.chi2 {
         writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.dof)?;
     }

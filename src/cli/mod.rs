@@ -42,7 +42,9 @@ pub fn run() -> ExitCode {
 /// Opens the window.
 #[cfg(feature = "gui")]
 fn window(file: Option<std::path::PathBuf>) -> Result<ExitCode, Failure> {
-    crate::app::run(file).map_err(|reason| Failure::usage(format!("{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help.")))?;
+    crate::app::run(file).map_err(|reason| {
+        Failure::usage(format!("{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help."))
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -54,7 +54,11 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
 
 /// `name` or `name=value`.
 pub fn parameter_or_assignment(text: &str) -> Result<(Parameter, Option<f64>), String> {
-    if text.contains('=') { assignment(text).map(|(parameter, value)| (parameter, Some(value))) } else { parameter(text).map(|parameter| (parameter, None)) }
+    if text.contains('=') {
+        assignment(text).map(|(parameter, value)| (parameter, Some(value)))
+    } else {
+        parameter(text).map(|parameter| (parameter, None))
+    }
 }
 
 /// `name=low..high`.

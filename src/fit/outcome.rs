@@ -96,11 +96,13 @@ pub fn fit(problem: &Problem, watch: Watch<'_>) -> FitReport {
 impl FitReport {
     fn new(problem: &Problem, descent: Descent, elapsed_ms: f64) -> Self {
         let Descent { parameters, sum_of_squares, mut stop_reason, evaluations, trace } = descent;
-        let edges: Vec<(Parameter, Edge)> = problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
+        let edges: Vec<(Parameter, Edge)> =
+            problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
         let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
         let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, at_bound);
         let open = !uncertainty.open.is_empty() || problem.len() < problem.free().len();
-        if open && !matches!(stop_reason, StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit) {
+        if open && !matches!(stop_reason, StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit)
+        {
             stop_reason = StopReason::Underdetermined;
         }
         let estimates = problem.model().parameters().iter().map(|parameter| Estimate {

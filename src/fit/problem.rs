@@ -304,7 +304,11 @@ impl Problem {
     /// The same problem with other parameters free.
     #[must_use]
     pub fn with_free(&self, free: ParameterSet) -> Self {
-        Self { free: free.intersection(self.model.parameters()).iter().collect(), wanted: Wanted { by: free, ..self.wanted }, ..self.clone() }
+        Self {
+            free: free.intersection(self.model.parameters()).iter().collect(),
+            wanted: Wanted { by: free, ..self.wanted },
+            ..self.clone()
+        }
     }
 
     /// Writes the residuals; false where the parameters are no surface or a residual is not finite.
@@ -317,7 +321,8 @@ impl Problem {
             if datum.point != point {
                 point = datum.point;
                 let facet = &self.scene.facets()[point];
-                reflection = if self.wanted.brdf { surface.reflection(facet) } else { Reflection { dolp: surface.dolp(facet), ..reflection } };
+                reflection =
+                    if self.wanted.brdf { surface.reflection(facet) } else { Reflection { dolp: surface.dolp(facet), ..reflection } };
             }
             *slot = self.loss(self.residual(datum, &reflection, parameters.ks)).0;
             finite &= slot.is_finite();

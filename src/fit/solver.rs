@@ -160,7 +160,8 @@ fn edges(problem: &Problem, parameters: &Parameters, free: ParameterSet) -> Para
         return ParameterSet::EMPTY;
     }
     let gradient = jacobian.tr_mul(&residuals);
-    let outwards = |(&parameter, slope): (&Parameter, &f64)| near(parameter).is_some_and(|inward| slope * inward >= 0.0).then_some(parameter);
+    let outwards =
+        |(&parameter, slope): (&Parameter, &f64)| near(parameter).is_some_and(|inward| slope * inward >= 0.0).then_some(parameter);
     part.free().iter().zip(gradient.iter()).filter_map(outwards).collect()
 }
 
@@ -171,11 +172,14 @@ fn run(problem: &Problem, log: &mut Log<'_>) -> StopReason {
         log.evaluate(problem, problem.start());
         return StopReason::Converged;
     }
-    let x = DVector::from_iterator(free.len(), free.iter().map(|&parameter| {
-        let (low, high) = problem.bounds().of(parameter);
-        let fraction = ((problem.start()[parameter] - low) / (high - low)).clamp(START_MARGIN, 1.0 - START_MARGIN);
-        libm::asin(2.0 * fraction - 1.0)
-    }));
+    let x = DVector::from_iterator(
+        free.len(),
+        free.iter().map(|&parameter| {
+            let (low, high) = problem.bounds().of(parameter);
+            let fraction = ((problem.start()[parameter] - low) / (high - low)).clamp(START_MARGIN, 1.0 - START_MARGIN);
+            libm::asin(2.0 * fraction - 1.0)
+        }),
+    );
     let adapter = Adapter { problem, x, log: RefCell::new(log) };
     let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_patience(PATIENCE);
     let (_, report) = solver.minimize(adapter);

@@ -126,7 +126,8 @@ fn variance_of_unit_weight(problem: &Problem, sum_of_squares: f64, rank: usize) 
 fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios: bool) -> Vec<OpenDirection> {
     let (rows, columns) = null_space.shape();
     for i in 0..rows {
-        let pivot = (i..rows).flat_map(|r| (0..columns).map(move |j| (r, j))).max_by(|a, b| null_space[*a].abs().total_cmp(&null_space[*b].abs()));
+        let pivot =
+            (i..rows).flat_map(|r| (0..columns).map(move |j| (r, j))).max_by(|a, b| null_space[*a].abs().total_cmp(&null_space[*b].abs()));
         let Some((row, column)) = pivot.filter(|at| null_space[*at] != 0.0) else { break };
         null_space.swap_rows(i, row);
         let scaled = null_space.row(i) / null_space[(i, column)];

@@ -360,7 +360,8 @@ impl Record<'_> {
         if cell.is_empty() {
             return Err(self.error(column, ReadErrorKind::EmptyCell { expected }));
         }
-        let number = self.parse(cell).ok_or_else(|| self.error(column, ReadErrorKind::NotANumber { found: self.text(column), expected }))?;
+        let number =
+            self.parse(cell).ok_or_else(|| self.error(column, ReadErrorKind::NotANumber { found: self.text(column), expected }))?;
         if number.is_finite() { Ok(number) } else { Err(self.out_of_range(column, expected)) }
     }
 

@@ -16,7 +16,9 @@ pub fn write(measurement: &Measurement, mut out: impl Write) -> io::Result<()> {
     for (key, value) in &measurement.metadata {
         writeln!(out, "# {key}: {value}")?;
     }
-    let has_sigma = |of: fn(&super::Row) -> Option<Quantity>| measurement.rows.iter().any(|row| of(row).is_some_and(|quantity| quantity.sigma.is_some()));
+    let has_sigma = |of: fn(&super::Row) -> Option<Quantity>| {
+        measurement.rows.iter().any(|row| of(row).is_some_and(|quantity| quantity.sigma.is_some()))
+    };
     let quantities: [(&str, bool, bool, fn(&super::Row) -> Option<Quantity>); 2] = [
         ("dolp", measurement.has_dolp(), has_sigma(|row| row.dolp), |row| row.dolp),
         ("brdf", measurement.has_brdf(), has_sigma(|row| row.brdf), |row| row.brdf),

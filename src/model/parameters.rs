@@ -129,17 +129,17 @@ parameters! {
     }
     Ks ks {
         key: "ks", symbol: "k_s", name: "specular coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 1.0, logarithmic: false,
+        range: 0.0..=10.0, domain: Domain::From(0.0), default: 1.0, logarithmic: true,
         help: "Weight of the specular lobe, the only one that polarises. DoLP depends on k_d/k_s and k_v/k_s alone: fix k_s = 1 unless the BRDF is measured too.",
     }
     Kd kd {
         key: "kd", symbol: "k_d", name: "diffuse coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: false,
+        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: true,
         help: "Weight of the Minnaert lobe, which depolarises.",
     }
     Kv kv {
         key: "kv", symbol: "k_v", name: "volume coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: false,
+        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: true,
         help: "Weight of the volume lobe around the surface normal, which depolarises.",
     }
     Q q {

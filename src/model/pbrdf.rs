@@ -203,11 +203,7 @@ impl Pbrdf {
         let w = if model.specular { crate::optics::reduced_slope_sq(facet.tan_alpha_sq, p.sigma) } else { 0.0 };
         Lobes {
             w,
-            specular: if model.specular {
-                lobes::specular(model.distribution, w, facet, g_over_cosines, p.sigma, p.q)
-            } else {
-                Lobe::DARK
-            },
+            specular: if model.specular { lobes::specular(model.distribution, w, facet, g_over_cosines, p.sigma, p.q) } else { Lobe::DARK },
             diffuse: match model.diffuse {
                 Diffuse::Absent => Lobe::DARK,
                 Diffuse::Lambert => lobes::diffuse(facet, 0.0),

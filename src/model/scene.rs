@@ -40,7 +40,11 @@ impl Scene {
     }
 
     /// The same with derivatives.
-    pub fn reflections_and_gradients<'a>(&'a self, surface: &'a Pbrdf, wanted: Wanted) -> impl Iterator<Item = (Reflection, Gradient)> + 'a {
+    pub fn reflections_and_gradients<'a>(
+        &'a self,
+        surface: &'a Pbrdf,
+        wanted: Wanted,
+    ) -> impl Iterator<Item = (Reflection, Gradient)> + 'a {
         self.facets.iter().map(move |facet| surface.reflection_and_gradient(facet, wanted))
     }
 }

@@ -67,14 +67,9 @@ mod tests {
 
     #[test]
     fn sine_and_cosine_are_exact_at_the_quadrants() {
-        for (degrees, sin, cos) in [
-            (0.0, 0.0, 1.0),
-            (90.0, 1.0, 0.0),
-            (180.0, 0.0, -1.0),
-            (-90.0, -1.0, 0.0),
-            (270.0, -1.0, 0.0),
-            (360.0 * 1e6 + 90.0, 1.0, 0.0),
-        ] {
+        for (degrees, sin, cos) in
+            [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0), (-90.0, -1.0, 0.0), (270.0, -1.0, 0.0), (360.0 * 1e6 + 90.0, 1.0, 0.0)]
+        {
             let (s, c) = Degrees(degrees).sin_cos();
             assert_eq!((s.abs(), s > 0.0), (f64::abs(sin), sin > 0.0), "sin {degrees}°");
             assert_eq!((c.abs(), c > 0.0), (f64::abs(cos), cos > 0.0), "cos {degrees}°");

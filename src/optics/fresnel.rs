@@ -139,10 +139,7 @@ impl Fresnel {
         let u_slopes = [along, across];
         let a_sq_slopes = [2.0 * n * (modulus_sq - self.sin_sq) / a_sq, 2.0 * k * (modulus_sq + self.sin_sq) / a_sq];
         let one_sq = self.one_over * self.one_over;
-        let e_slopes = [
-            4.0 * n * ((n - self.one_over) * (n + self.one_over) + k * k),
-            4.0 * k * (modulus_sq + one_sq),
-        ];
+        let e_slopes = [4.0 * n * ((n - self.one_over) * (n + self.one_over) + k * k), 4.0 * k * (modulus_sq + one_sq)];
         let by = |j: usize| self.slopes(u_slopes[j], a_sq_slopes[j], e_slopes[j]);
         let ((mean_n, dolp_n), (mean_k, dolp_k)) = (by(0), by(1));
         FresnelGradient { mean: [mean_n, mean_k], dolp: [dolp_n, dolp_k] }
@@ -184,9 +181,5 @@ fn scale(index: RefractiveIndex) -> f64 {
 /// Re(N² − sin²β), by whichever of two equal sums has the smaller terms.
 fn real_part_of_a_sq(n: f64, k: f64, sin_sq: f64, cos_sq: f64, one: f64) -> f64 {
     let excess = (n - one) * (n + one);
-    if excess.abs().max(cos_sq) < (n * n).max(sin_sq) {
-        (excess - k * k) + cos_sq
-    } else {
-        (n - k) * (n + k) - sin_sq
-    }
+    if excess.abs().max(cos_sq) < (n * n).max(sin_sq) { (excess - k * k) + cos_sq } else { (n - k) * (n + k) - sin_sq }
 }

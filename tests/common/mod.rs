@@ -66,11 +66,7 @@ pub const NEGLIGIBLE: f64 = 1e-30;
 /// Relative error; 0 where value and reference agree within [`NEGLIGIBLE`] and the reference is below it.
 pub fn relative_error(value: f64, reference: f64) -> f64 {
     let error = (value - reference).abs();
-    if reference.abs() < NEGLIGIBLE {
-        if error <= NEGLIGIBLE { 0.0 } else { f64::INFINITY }
-    } else {
-        error / reference.abs()
-    }
+    if reference.abs() < NEGLIGIBLE { if error <= NEGLIGIBLE { 0.0 } else { f64::INFINITY } } else { error / reference.abs() }
 }
 
 /// Error of a gradient in the measure of MODEL.md, section 8: per component the smaller of |e|/|∂| and

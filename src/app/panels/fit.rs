@@ -20,14 +20,18 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             if fit.on_hover_text("Levenberg–Marquardt from the sliders, all parameters that are not fixed").clicked() {
                 commands.push(Command::StartFit);
             }
-            if ui.add_enabled(running, egui::Button::new("Cancel").min_size(egui::vec2(64.0, 26.0))).on_hover_text("Stop and keep the best so far").clicked() {
+            if ui
+                .add_enabled(running, egui::Button::new("Cancel").min_size(egui::vec2(64.0, 26.0)))
+                .on_hover_text("Stop and keep the best so far")
+                .clicked()
+            {
                 commands.push(Command::CancelFit);
             }
             if running {
                 ui.spinner();
             }
         });
-        ui.label(egui::RichText::new(free_text(free)).small());
+        ui.weak(free_text(free));
         match worker.fit.as_ref().map(|job| job.progress()) {
             Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
             Some(None) => ui.label("Fitting…"),

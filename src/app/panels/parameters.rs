@@ -24,7 +24,8 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn specular_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.model.specular, "Specular lobe").on_hover_text("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises");
+        ui.checkbox(&mut settings.model.specular, "Specular lobe")
+            .on_hover_text("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises");
     });
     if settings.model.specular {
         ui.horizontal(|ui| {
@@ -56,14 +57,16 @@ fn diffuse_ui(settings: &mut Settings, ui: &mut Ui) {
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, "Minnaert").on_hover_text("(cos θi cos θr)^c / π");
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, "Lambert").on_hover_text("1/π in all directions: c = 0");
         });
-        let shown: &[Parameter] = if settings.model.diffuse == Diffuse::Minnaert { &[Parameter::Kd, Parameter::C] } else { &[Parameter::Kd] };
+        let shown: &[Parameter] =
+            if settings.model.diffuse == Diffuse::Minnaert { &[Parameter::Kd, Parameter::C] } else { &[Parameter::Kd] };
         sliders_ui(settings, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
 fn volume_ui(settings: &mut Settings, ui: &mut Ui) {
-    ui.checkbox(&mut settings.model.volume, "Volume lobe").on_hover_text("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal");
+    ui.checkbox(&mut settings.model.volume, "Volume lobe")
+        .on_hover_text("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal");
     if settings.model.volume {
         sliders_ui(settings, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
@@ -80,7 +83,8 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
         for (angle, range, name, help) in angles {
             let label = ui.label(name).on_hover_text(help);
             ui.add(Slider::new(angle, range.clone()).show_value(false).step_by(0.5)).labelled_by(label.id).on_hover_text(help);
-            ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(4).suffix("°")).labelled_by(label.id);
+            ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(3).suffix("°"))
+                .labelled_by(label.id);
             ui.end_row();
         }
     });
@@ -99,13 +103,14 @@ fn sliders_ui(settings: &mut Settings, ui: &mut Ui, id: &str, parameters: &[Para
 fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
     let range = parameter.range();
     let outside = !range.contains(&settings.parameters[parameter]);
-    let help = format!("{} {}: {}\nSlider from {} to {}.", parameter.name(), parameter.symbol(), parameter.help(), range.start(), range.end());
+    let help =
+        format!("{} {}: {}\nSlider from {} to {}.", parameter.name(), parameter.symbol(), parameter.help(), range.start(), range.end());
     let label = ui.label(parameter.symbol()).on_hover_text(&help);
 
     let value = &mut settings.parameters[parameter];
     let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
     if parameter.is_logarithmic() {
-        slider = slider.logarithmic(true);
+        slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
     ui.add(slider).labelled_by(label.id).on_hover_text(&help);
 
@@ -120,11 +125,13 @@ fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
     });
     let unit = parameter.unit();
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    ui.add_sized([78.0, 20.0], typed.speed(speed).custom_formatter(|value, _| significant(value)).suffix(suffix)).labelled_by(label.id).on_hover_text(if outside {
-        format!("outside the slider's range {} to {}", range.start(), range.end())
-    } else {
-        format!("type a value: {domain}")
-    });
+    ui.add_sized([92.0, 20.0], typed.speed(speed).custom_formatter(|value, _| significant(value)).suffix(suffix))
+        .labelled_by(label.id)
+        .on_hover_text(if outside {
+            format!("outside the slider's range {} to {}", range.start(), range.end())
+        } else {
+            format!("type a value: {domain}")
+        });
 
     let mut locked = settings.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, "fixed").on_hover_text(format!("{} stays as it is in a fit", parameter.symbol()));

@@ -8,7 +8,9 @@ use crate::app::window::Explorer;
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     let Explorer { derived, document, worker, commands, .. } = explorer;
     ui.horizontal(|ui| {
-        ui.strong(delta_e_text(derived.delta_e)).on_hover_text("ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.");
+        ui.strong(delta_e_text(derived.delta_e)).on_hover_text(
+            "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.",
+        );
         ui.separator();
         if let Some(job) = &worker.load {
             let done = job.progress().unwrap_or(0.0);

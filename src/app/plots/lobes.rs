@@ -1,11 +1,12 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
+use super::axis::{self, axis, decimal, power_of_ten};
 use super::dolp::marks_in;
 use super::{curve, plot};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
-use egui_plot::HoverPosition;
+use egui_plot::{AxisHints, HoverPosition};
 
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let Explorer { derived, settings, view, .. } = explorer;
@@ -13,7 +14,10 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let axes = &mut view.lobes;
     let derived = &*derived;
     let log = settings.log_brdf;
-    let response = plot("lobes", height, "BRDF / (1/sr)")
+    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal);
+    let y = axis(AxisHints::new_y(), ui, "BRDF / (1/sr)", if log { power_of_ten } else { decimal });
+    let response = plot("lobes", ui, height, x, y)
+        .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
@@ -21,7 +25,6 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
             HoverPosition::Elsewhere { .. } => None,
         })
-        .y_axis_formatter(move |mark, _| if log { decade(mark.value) } else { format!("{}", mark.value) })
         .show(ui, |plot| {
             axes.apply(plot, derived.x, derived.brdf_range);
             for (i, (curves, marks)) in derived.series.iter().zip(&derived.marks).enumerate() {
@@ -37,9 +40,4 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             curve(plot, &derived.own.total, "total", theme::foreground(dark), None, 2.5);
         });
     axes.listen(&response, ui);
-}
-
-/// A mark of a logarithmic axis: whole decades only.
-fn decade(value: f64) -> String {
-    if (value - value.round()).abs() < 1e-6 { format!("1e{}", value.round()) } else { String::new() }
 }

@@ -1,13 +1,15 @@
 //! The plots in the middle.
 
+mod axis;
 mod dolp;
 mod error_bars;
 mod lobes;
 
 use super::derived::{Pieces, Range};
+use super::theme;
 use super::window::Explorer;
 use egui::Ui;
-use egui_plot::{Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
 
 /// How the axes are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
 #[derive(Debug, Default)]
@@ -41,7 +43,8 @@ impl Axes {
     }
 
     fn listen<R>(&mut self, response: &PlotResponse<R>, ui: &Ui) {
-        let scrolled = response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
+        let scrolled =
+            response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
         if response.response.double_clicked() {
             *self = Self::default();
             ui.ctx().request_repaint();
@@ -54,7 +57,7 @@ impl Axes {
 /// Both plots, one above the other, with their legends beside the axes.
 pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if let Some(fault) = &explorer.derived.fault {
-        ui.colored_label(super::theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
+        ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
     }
     let half = (0.5 * ui.available_height() - 26.0).max(120.0);
     ui.strong("Degree of linear polarisation");
@@ -69,16 +72,17 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 /// What both plots have in common.
-fn plot<'a>(name: &str, height: f32, y_label: &str) -> Plot<'a> {
+fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints<'a>) -> Plot<'a> {
     Plot::new(name)
         .height(height)
         .legend(Legend::default().follow_insertion_order(true).background_alpha(0.85))
-        .x_axis_label("θr / °")
-        .y_axis_label(y_label.to_owned())
-        .y_axis_min_width(56.0)
+        .custom_x_axes(vec![x])
+        .custom_y_axes(vec![y.min_thickness(64.0)])
+        .x_grid_spacer(|input| axis::marks(&input, 7.0, 0.0))
+        .grid_color(theme::grid(ui.visuals().dark_mode))
+        .grid_fade(1.0)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
-        .x_axis_formatter(|mark, _| format!("{}", mark.value))
 }
 
 /// A curve in its pieces, under one name.

@@ -1,1 +1,52 @@
 //! The window, driven headlessly by the names of its controls.
+
+mod files;
+mod fitting;
+mod sliders;
+
+use super::state::Settings;
+use super::window::Explorer;
+use egui_kittest::Harness;
+use std::time::{Duration, Instant};
+
+/// The window with the first example open, as it starts.
+fn harness() -> Harness<'static, Option<Explorer>> {
+    harness_with(Settings::default())
+}
+
+fn harness_with(settings: Settings) -> Harness<'static, Option<Explorer>> {
+    let frame = move |ui: &mut egui::Ui, state: &mut Option<Explorer>| {
+        let explorer = state.get_or_insert_with(|| {
+            let mut explorer = Explorer::new(ui.ctx(), settings.clone());
+            explorer.begin(None);
+            explorer
+        });
+        explorer.logic(&ui.ctx().clone());
+        explorer.ui(ui);
+    };
+    let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(frame, None);
+    harness.run();
+    harness
+}
+
+fn explorer<'a>(harness: &'a mut Harness<'static, Option<Explorer>>) -> &'a mut Explorer {
+    harness.state_mut().as_mut().expect("the first frame makes the explorer")
+}
+
+/// Longer than any job of these tests takes on any machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Draws frames until no job is on its way.
+fn wait(harness: &mut Harness<'static, Option<Explorer>>) {
+    let begun = Instant::now();
+    loop {
+        harness.step();
+        let explorer = explorer(harness);
+        if !explorer.worker.is_busy() && explorer.commands.is_empty() {
+            break;
+        }
+        assert!(begun.elapsed() < PATIENCE, "the job does not end");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    harness.run();
+}

@@ -1,0 +1,116 @@
+//! Opening files, good and bad, and the settings file.
+
+use super::{explorer, harness, harness_with, wait};
+use crate::app::command::Command;
+use crate::app::document::EXAMPLES;
+use crate::app::state::{Settings, Theme};
+use crate::app::store;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::{Parameter, Parameters};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn file(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).expect("a writable folder for temporary files");
+    path
+}
+
+#[test]
+fn a_dropped_file_is_opened() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = file(&folder, "mine.csv", "theta_i,theta_r,brdf\n35,20,0.5\n35,-20,0.25\n");
+    let mut harness = harness();
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(path)));
+    harness.step();
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    assert_eq!((explorer.document.name.as_str(), explorer.document.measurement.rows.len()), ("mine.csv", 2));
+    assert_eq!(explorer.settings.theta_i, 35.0);
+    assert!(!explorer.settings.locked.contains(Parameter::Ks), "a BRDF can determine k_s");
+    assert!(explorer.document.has_backscatter());
+}
+
+#[test]
+fn a_bad_file_says_why_and_leaves_what_was_there() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = file(&folder, "bad.csv", "theta_i,theta_r,dolp\n30,20,0.1\n30,25,abc\n");
+    let mut harness = harness();
+    let rows = explorer(&mut harness).document.measurement.rows.clone();
+    for (command, expected) in [
+        (Command::OpenMeasurement(path), "line 3, column 3 (dolp)"),
+        (Command::OpenMeasurement(folder.path().to_owned()), "directory"),
+        (Command::OpenMeasurement(folder.path().join("none.csv")), "no such file"),
+    ] {
+        explorer(&mut harness).commands.push(command);
+        wait(&mut harness);
+        let explorer = explorer(&mut harness);
+        let notice = explorer.notice.clone().expect("a notice");
+        assert!(notice.contains(expected), "{notice}");
+        assert_eq!(explorer.document.measurement.rows, rows);
+    }
+    harness.get_by_label("Dismiss").click();
+    harness.run();
+    assert_eq!(explorer(&mut harness).notice, None);
+}
+
+#[test]
+fn every_example_opens_and_says_that_it_is_simulated() {
+    let mut harness = harness();
+    for (index, example) in EXAMPLES.iter().enumerate() {
+        explorer(&mut harness).commands.push(Command::OpenExample(index));
+        wait(&mut harness);
+        let explorer = explorer(&mut harness);
+        assert_eq!((explorer.document.name.as_str(), &explorer.notice), (example.name, &None));
+        assert!(explorer.document.description().contains("simulated"));
+        assert!(explorer.derived.delta_e.is_some());
+    }
+}
+
+#[test]
+fn settings_survive_a_restart() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("new").join("settings.json");
+    let settings = Settings {
+        parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() },
+        theme: Theme::Dark,
+        log_brdf: true,
+        ..Settings::default()
+    };
+    store::save(&path, &settings).expect("a writable folder");
+    assert_eq!(store::load_from(&path), (settings, None));
+}
+
+#[test]
+fn damaged_settings_are_set_aside() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    for damage in ["", "{", "{\"theta_i\": \"x\"}", "{\"theta_i\": 95}", "{\"parameters\": {\"q\": 0.5}}", "\u{0}\u{1}"] {
+        let path = file(&folder, "settings.json", damage);
+        let (settings, notice) = store::load_from(&path);
+        assert_eq!(settings, Settings::default());
+        assert!(notice.expect("a notice").contains("damaged"), "{damage:?}");
+        assert!(!path.exists());
+        assert_eq!(std::fs::read_to_string(folder.path().join("settings.damaged.json")).expect("what was damaged is kept"), damage);
+    }
+}
+
+#[test]
+fn the_window_fits_its_contents_in_both_themes() {
+    for theme in [Theme::Light, Theme::Dark] {
+        let mut harness = harness_with(Settings { theme, log_brdf: true, show_backscatter: true, ..Settings::default() });
+        assert!(explorer(&mut harness).derived.fault.is_none());
+    }
+}

@@ -1,0 +1,82 @@
+//! Sliders and switches.
+
+use super::{explorer, harness};
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::{Diffuse, Parameter, Parameters};
+
+#[test]
+fn every_parameter_has_a_slider_and_a_typed_value_of_its_name() {
+    let harness = harness();
+    for parameter in Parameter::ALL {
+        harness.get_by_role_and_label(Role::Slider, parameter.symbol());
+        harness.get_by_role_and_label(Role::SpinButton, parameter.symbol());
+    }
+}
+
+#[test]
+fn moving_a_slider_moves_the_curves() {
+    let mut harness = harness();
+    let before = explorer(&mut harness).derived.series[0].clone();
+    harness.get_by_role_and_label(Role::Slider, "k").set_value_accesskit(4.5);
+    harness.run();
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.parameters.k, 4.5);
+    assert_ne!(explorer.derived.series[0], before);
+}
+
+#[test]
+fn arrow_keys_step_a_slider() {
+    let mut harness = harness();
+    harness.get_by_role_and_label(Role::Slider, "k").focus();
+    harness.run();
+    harness.key_press(egui::Key::ArrowRight);
+    harness.run();
+    assert!(explorer(&mut harness).settings.parameters.k > Parameters::default().k);
+}
+
+#[test]
+fn a_lobe_that_is_off_hides_its_sliders() {
+    let mut harness = harness();
+    harness.get_by_label("Diffuse lobe").click();
+    harness.get_by_label("Volume lobe").click();
+    harness.get_by_label("Gauss").click();
+    harness.run();
+    let hidden = [Parameter::Kd, Parameter::C, Parameter::Kv, Parameter::SigmaV, Parameter::Q];
+    for parameter in Parameter::ALL {
+        let there = harness.query_by_role_and_label(Role::Slider, parameter.symbol()).is_some();
+        assert_eq!(there, !hidden.contains(&parameter), "{parameter:?}");
+    }
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.model.diffuse, Diffuse::Absent);
+    assert!(explorer.derived.own.diffuse.is_empty() && explorer.derived.own.volume.is_empty());
+}
+
+#[test]
+fn a_value_outside_its_slider_is_kept() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters = Parameters { n: 25.0, q: 300.0, c: -1.5, ..Parameters::default() };
+    harness.run();
+    harness.run();
+    let parameters = explorer(&mut harness).settings.parameters;
+    assert_eq!((parameters.n, parameters.q, parameters.c), (25.0, 300.0, -1.5));
+}
+
+#[test]
+fn reset_brings_back_the_default() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters.sigma = 1.0;
+    harness.run();
+    harness.get_by_label("Reset sigma").click();
+    harness.run();
+    assert_eq!(explorer(&mut harness).settings.parameters, Parameters::default());
+}
+
+#[test]
+fn what_is_derived_is_not_made_anew_without_need() {
+    let mut harness = harness();
+    let curve = explorer(&mut harness).derived.own.dolp[0].as_ptr();
+    harness.hover_at(egui::pos2(600.0, 200.0));
+    harness.run();
+    assert_eq!(explorer(&mut harness).derived.own.dolp[0].as_ptr(), curve);
+}
