@@ -1,4 +1,5 @@
 //! Fits on simulated data: they find the truth, stay in the box, and say how they ended.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
 use pbrdf::fit::{Bounds, Choices, Edge, Problem, StopReason, Watch, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};

@@ -1,4 +1,5 @@
 //! The model against 60-digit arithmetic.
+#![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
 use pbrdf::measurement::{self, Measurement, ReadError, append_columns, exact};
 use std::ops::ControlFlow;

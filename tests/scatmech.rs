@@ -1,4 +1,5 @@
 //! The Mueller matrix against NIST's SCATMECH (Gauss facets, V-groove), in and out of plane, every sign.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
 mod common;
 

@@ -6,6 +6,7 @@
 mod command;
 mod derived;
 mod document;
+mod frame_times;
 mod panels;
 mod plots;
 mod state;

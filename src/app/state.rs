@@ -43,6 +43,8 @@ pub struct Settings {
     pub show_limit: bool,
     /// Whether the backscatter side is plotted though nothing was measured there.
     pub show_backscatter: bool,
+    /// Whether the status line tells how long frames take.
+    pub show_frame_times: bool,
     pub theme: Theme,
     /// Inner size of the window in points.
     pub window_size: [f32; 2],
@@ -60,6 +62,7 @@ impl Default for Settings {
             log_brdf: false,
             show_limit: true,
             show_backscatter: false,
+            show_frame_times: false,
             theme: Theme::System,
             window_size: [1280.0, 800.0],
             maximized: false,

@@ -38,7 +38,7 @@ pub fn volume(dark: bool) -> Color32 {
 
 /// The grid behind a plot.
 pub fn grid(dark: bool) -> Color32 {
-    pick(dark, (222, 222, 222), (52, 52, 52))
+    pick(dark, (205, 205, 205), (72, 72, 72))
 }
 
 /// Masked points.

@@ -3,6 +3,7 @@
 use super::command::Command;
 use super::derived::{Derived, problem};
 use super::document::{Document, EXAMPLES};
+use super::frame_times::FrameTimes;
 use super::panels;
 use super::plots;
 use super::state::{Settings, Theme};
@@ -37,6 +38,7 @@ pub struct Explorer {
     /// A path typed by hand, where there is no file dialog.
     pub typed_path: String,
     pub commands: Vec<Command>,
+    pub frame_times: FrameTimes,
     generation: u64,
     saved: Settings,
     changed_at: Option<Instant>,
@@ -61,6 +63,7 @@ impl Explorer {
             view: plots::View::default(),
             typed_path: String::new(),
             commands: Vec::new(),
+            frame_times: FrameTimes::default(),
             generation: 0,
             changed_at: None,
         }
@@ -149,7 +152,7 @@ impl Explorer {
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
             Command::UseFit => {
-                self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters)
+                self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters);
             }
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
             Command::DismissNotice => self.notice = None,
@@ -238,7 +241,10 @@ impl eframe::App for Explorer {
         Self::logic(self, ctx);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        if let Some(seconds) = frame.info().cpu_usage {
+            self.frame_times.push(seconds);
+        }
         Self::ui(self, ui);
     }
 

@@ -4,6 +4,7 @@
 //! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Watch`]).
 
 mod bounds;
+mod coordinates;
 mod outcome;
 mod problem;
 mod solver;

@@ -1,10 +1,10 @@
 //! Levenberg–Marquardt in a box, from one start.
 //!
-//! The solver is the crate `levenberg-marquardt` (MINPACK's lmder). It knows no bounds, so each free parameter p in [a, b] is
-//! given to it as x with `p = a + (b − a)(1 + sin x)/2`: smooth, onto the closed box, and a step too long folds
-//! back instead of running away. Where the minimum lies on an edge the slope by x vanishes there and convergence would be slow:
-//! a parameter that has come to rest at an edge with the gradient pointing outwards is put on it and the rest fitted again.
+//! The solver is the crate `levenberg-marquardt` (MINPACK's lmder), in the coordinates of [`super::coordinates`]. Where the
+//! minimum lies on an edge of the box the slope by a coordinate vanishes there and convergence would be slow: a parameter that has
+//! come to rest at an edge with the gradient pointing outwards is put on it and the rest fitted again.
 
+use super::coordinates::Coordinates;
 use super::problem::Problem;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
@@ -12,7 +12,6 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use serde::Serialize;
 use std::cell::RefCell;
-use std::f64::consts::FRAC_PI_2;
 
 /// Why a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -97,14 +96,24 @@ pub struct Descent {
 
 /// Below this objective the relative misfit is 1e-13: rounding, not physics.
 const ROUNDING_OBJECTIVE: f64 = 1e-26;
-/// The fraction of the box that a start keeps from an edge, where the slope by x vanishes.
-const START_MARGIN: f64 = 1e-3;
 /// A parameter this near an edge, as a fraction of the box, is at it.
 const AT_EDGE: f64 = 1e-5;
 /// First step bound of MINPACK: 100 by default, which overshoots from far starts.
 const STEP_BOUND: f64 = 1.0;
 /// Evaluations allowed per free parameter and one.
 const PATIENCE: usize = 100;
+
+/// Relative fall of the objective in a step below which the approach has done its part.
+const APPROACH: f64 = 1e-5;
+
+/// The two parts of a descent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Path {
+    /// From anywhere, in plain coordinates, until progress is slow.
+    Plain,
+    /// To the end, in coordinates that straighten valleys.
+    Valley,
+}
 
 /// Fits from the problem's start.
 #[must_use]
@@ -115,7 +124,11 @@ pub fn descend(problem: &Problem, watch: Watch<'_>) -> Descent {
     }
     let all: ParameterSet = problem.free().iter().copied().collect();
     log.evaluate(problem, problem.start());
-    let mut stop = run(problem, &mut log);
+    // Far from the minimum the plain coordinates are the safer ones; near it the others cut the valleys short.
+    let mut stop = run(problem, Path::Plain, &mut log);
+    if matches!(stop, StopReason::Converged | StopReason::EvaluationLimit) {
+        stop = run(&problem.with_start(log.best), Path::Valley, &mut log);
+    }
     let mut at_edge = ParameterSet::EMPTY;
     while !matches!(stop, StopReason::Cancelled | StopReason::Numerical) {
         let found = edges(problem, &log.best, all);
@@ -128,7 +141,7 @@ pub fn descend(problem: &Problem, watch: Watch<'_>) -> Descent {
             let (low, high) = problem.bounds().of(parameter);
             snapped[parameter] = if snapped[parameter] - low < high - snapped[parameter] { low } else { high };
         }
-        stop = run(&problem.with_free(all.without_all(at_edge)).with_start(snapped), &mut log);
+        stop = run(&problem.with_free(all.without_all(at_edge)).with_start(snapped), Path::Valley, &mut log);
     }
     if log.sum_of_squares < ROUNDING_OBJECTIVE && stop != StopReason::Cancelled {
         stop = StopReason::ResidualsZero;
@@ -166,22 +179,19 @@ fn edges(problem: &Problem, parameters: &Parameters, free: ParameterSet) -> Para
 }
 
 /// One run of the solver crate; the best point goes to the log.
-fn run(problem: &Problem, log: &mut Log<'_>) -> StopReason {
+fn run(problem: &Problem, path: Path, log: &mut Log<'_>) -> StopReason {
     let free = problem.free();
     if free.is_empty() {
         log.evaluate(problem, problem.start());
         return StopReason::Converged;
     }
-    let x = DVector::from_iterator(
-        free.len(),
-        free.iter().map(|&parameter| {
-            let (low, high) = problem.bounds().of(parameter);
-            let fraction = ((problem.start()[parameter] - low) / (high - low)).clamp(START_MARGIN, 1.0 - START_MARGIN);
-            libm::asin(2.0 * fraction - 1.0)
-        }),
-    );
-    let adapter = Adapter { problem, x, log: RefCell::new(log) };
+    let coordinates = match path {
+        Path::Plain => Coordinates::plain(problem),
+        Path::Valley => Coordinates::valley(problem),
+    };
+    let adapter = Adapter { problem, z: coordinates.start(), coordinates, log: RefCell::new(log) };
     let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_patience(PATIENCE);
+    let solver = if path == Path::Plain { solver.with_ftol(APPROACH) } else { solver };
     let (_, report) = solver.minimize(adapter);
     match report.termination {
         TerminationReason::Converged { .. } | TerminationReason::Orthogonal | TerminationReason::NoParameters => StopReason::Converged,
@@ -236,21 +246,9 @@ impl<'a> Log<'a> {
 /// The problem in the solver's coordinates.
 struct Adapter<'a, 'w> {
     problem: &'a Problem,
-    x: DVector<f64>,
+    coordinates: Coordinates<'a>,
+    z: DVector<f64>,
     log: RefCell<&'a mut Log<'w>>,
-}
-
-impl Adapter<'_, '_> {
-    fn parameters(&self) -> Parameters {
-        let mut parameters = *self.problem.start();
-        for (&parameter, x) in self.problem.free().iter().zip(self.x.iter()) {
-            let (low, high) = self.problem.bounds().of(parameter);
-            // (1 + sin x)/2 as a square keeps its digits near the lower edge.
-            let root = libm::sin(0.5 * (x + FRAC_PI_2));
-            parameters[parameter] = self.problem.bounds().clamp(parameter, low + (high - low) * root * root);
-        }
-        parameters
-    }
 }
 
 impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
@@ -258,12 +256,12 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
     type JacobianStorage = Owned<f64, Dyn, Dyn>;
     type ParameterStorage = Owned<f64, Dyn>;
 
-    fn set_params(&mut self, x: &DVector<f64>) {
-        self.x.copy_from(x);
+    fn set_params(&mut self, z: &DVector<f64>) {
+        self.z.copy_from(z);
     }
 
     fn params(&self) -> DVector<f64> {
-        self.x.clone()
+        self.z.clone()
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
@@ -271,16 +269,14 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
         if (log.watch.cancelled)() {
             return None;
         }
-        Some(log.evaluate(self.problem, &self.parameters()))
+        Some(log.evaluate(self.problem, &self.coordinates.parameters(&self.z)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let mut jacobian = DMatrix::zeros(self.problem.len(), self.problem.free().len());
-        self.problem.jacobian(&self.parameters(), &mut jacobian);
-        for (j, &parameter) in self.problem.free().iter().enumerate() {
-            let (low, high) = self.problem.bounds().of(parameter);
-            jacobian.column_mut(j).scale_mut(0.5 * (high - low) * libm::cos(self.x[j]));
-        }
+        let parameters = self.coordinates.parameters(&self.z);
+        self.problem.jacobian(&parameters, &mut jacobian);
+        self.coordinates.chain(&self.z, &parameters, &mut jacobian);
         Some(jacobian)
     }
 }

@@ -1,6 +1,6 @@
 //! Writes measurements, and columns beside the ones a file already has.
 
-use super::{Measurement, Quantity};
+use super::{Measurement, Quantity, Row};
 use std::io::{self, Write};
 
 /// A number with the 17 significant digits that give back the same f64.
@@ -9,6 +9,9 @@ pub fn exact(number: f64) -> String {
     format!("{number:.16e}")
 }
 
+/// Name, whether it is there, whether with standard deviations, and where it stands in a row.
+type Block = (&'static str, bool, bool, fn(&Row) -> Option<Quantity>);
+
 /// Writes a measurement in the form that [`super::read`] reads back to the same values.
 ///
 /// Angles and standard deviations are written as the shortest text that reads back the same, measured values with 17 digits.
@@ -16,10 +19,9 @@ pub fn write(measurement: &Measurement, mut out: impl Write) -> io::Result<()> {
     for (key, value) in &measurement.metadata {
         writeln!(out, "# {key}: {value}")?;
     }
-    let has_sigma = |of: fn(&super::Row) -> Option<Quantity>| {
-        measurement.rows.iter().any(|row| of(row).is_some_and(|quantity| quantity.sigma.is_some()))
-    };
-    let quantities: [(&str, bool, bool, fn(&super::Row) -> Option<Quantity>); 2] = [
+    let has_sigma =
+        |of: fn(&Row) -> Option<Quantity>| measurement.rows.iter().any(|row| of(row).is_some_and(|quantity| quantity.sigma.is_some()));
+    let quantities: [Block; 2] = [
         ("dolp", measurement.has_dolp(), has_sigma(|row| row.dolp), |row| row.dolp),
         ("brdf", measurement.has_brdf(), has_sigma(|row| row.brdf), |row| row.brdf),
     ];

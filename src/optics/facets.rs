@@ -114,7 +114,7 @@ mod tests {
             .map(|i| {
                 let t = end * (f64::from(i) + 0.5) / f64::from(steps);
                 let s = t / (1.0 - t);
-                let cos_alpha_cubed = (1.0 + s * s).powf(-1.5);
+                let cos_alpha_cubed = libm::pow(1.0 + s * s, -1.5);
                 let ds = end / f64::from(steps) / ((1.0 - t) * (1.0 - t));
                 distribution.facet_density(s * s, sigma, q) * 2.0 * PI * s * cos_alpha_cubed * ds
             })

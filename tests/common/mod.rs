@@ -1,4 +1,5 @@
 //! What the tests share: the reference tables and the measures of error they are judged by.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its own part of this module")]
 
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};

@@ -7,7 +7,7 @@ use crate::app::theme;
 use crate::app::window::{Explorer, LastFit};
 use egui::{Grid, Ui};
 use pbrdf::fit::{Edge, Estimate, StopReason};
-use pbrdf::model::ParameterSet;
+use pbrdf::model::{Parameter, ParameterSet};
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let free = explorer.free();
@@ -32,7 +32,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         });
         ui.weak(free_text(free));
-        match worker.fit.as_ref().map(|job| job.progress()) {
+        match worker.fit.as_ref().map(super::super::worker::Job::progress) {
             Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
             Some(None) => ui.label("Fitting…"),
             None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e))),
@@ -48,7 +48,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 fn free_text(free: ParameterSet) -> String {
-    let names: Vec<&str> = free.iter().map(|parameter| parameter.symbol()).collect();
+    let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();
     if names.is_empty() { "Nothing is free: all parameters are fixed.".to_owned() } else { format!("Free: {}", names.join(", ")) }
 }
 

@@ -39,6 +39,7 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             ui.checkbox(&mut settings.log_brdf, "Logarithmic BRDF");
             ui.checkbox(&mut settings.show_limit, "Fresnel limit");
             ui.checkbox(&mut settings.show_backscatter, "Backscatter side");
+            ui.checkbox(&mut settings.show_frame_times, "Frame times");
             ui.separator();
             ui.label("Theme");
             for theme in Theme::ALL {

@@ -6,7 +6,7 @@ use crate::app::window::Explorer;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Explorer { derived, document, worker, commands, .. } = explorer;
+    let Explorer { derived, document, worker, commands, settings, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e)).on_hover_text(
             "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.",
@@ -19,6 +19,10 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             if ui.button("Cancel reading").clicked() {
                 commands.push(Command::CancelLoading);
             }
+            ui.separator();
+        }
+        if settings.show_frame_times {
+            ui.label(frame_times.text());
             ui.separator();
         }
         ui.add(egui::Label::new(document.description()).truncate());

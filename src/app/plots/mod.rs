@@ -76,7 +76,7 @@ fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints<'a>
     Plot::new(name)
         .height(height)
         .legend(Legend::default().follow_insertion_order(true).background_alpha(0.85))
-        .custom_x_axes(vec![x])
+        .custom_x_axes(vec![x.min_thickness(40.0)])
         .custom_y_axes(vec![y.min_thickness(64.0)])
         .x_grid_spacer(|input| axis::marks(&input, 7.0, 0.0))
         .grid_color(theme::grid(ui.visuals().dark_mode))

@@ -38,10 +38,10 @@ fn arrow_keys_step_a_slider() {
 #[test]
 fn a_lobe_that_is_off_hides_its_sliders() {
     let mut harness = harness();
-    harness.get_by_label("Diffuse lobe").click();
-    harness.get_by_label("Volume lobe").click();
-    harness.get_by_label("Gauss").click();
-    harness.run();
+    for switch in ["Diffuse lobe", "Volume lobe", "Gauss"] {
+        harness.get_by_label(switch).click();
+        harness.run();
+    }
     let hidden = [Parameter::Kd, Parameter::C, Parameter::Kv, Parameter::SigmaV, Parameter::Q];
     for parameter in Parameter::ALL {
         let there = harness.query_by_role_and_label(Role::Slider, parameter.symbol()).is_some();

@@ -1,0 +1,31 @@
+//! How long frames take: eframe's `cpu_usage` (drawing and logic, without the swap of buffers) over the last five seconds.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// The frames of the last five seconds.
+#[derive(Debug, Default)]
+pub struct FrameTimes {
+    frames: VecDeque<(Instant, f32)>,
+}
+
+const WINDOW: Duration = Duration::from_secs(5);
+
+impl FrameTimes {
+    /// Takes down one frame, in seconds.
+    pub fn push(&mut self, cpu_usage: f32) {
+        self.frames.push_back((Instant::now(), cpu_usage));
+        while self.frames.front().is_some_and(|(at, _)| at.elapsed() > WINDOW) {
+            self.frames.pop_front();
+        }
+    }
+
+    /// Median, 99th percentile and number.
+    pub fn text(&self) -> String {
+        let mut times: Vec<f32> = self.frames.iter().map(|(_, time)| 1e3 * time).collect();
+        times.sort_by(f32::total_cmp);
+        let Some(last) = times.len().checked_sub(1) else { return "no frames".to_owned() };
+        let (median, p99) = (times[last / 2], times[last * 99 / 100]);
+        format!("frames: median {median:.2} ms, p99 {p99:.2} ms of {}", times.len())
+    }
+}

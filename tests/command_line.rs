@@ -1,0 +1,276 @@
+//! The program by process: commands, exit codes, sentences, JSON.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+#![cfg(feature = "cli")]
+
+mod common;
+
+use common::asset;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
+        .args(arguments)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .expect("the program was built beside this test")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The standard output of a command that must succeed.
+fn answer(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The sentence of a command that must be refused with exit code 2 and an empty standard output.
+fn refusal(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), String::new()), "{arguments:?}");
+    text(&output.stderr)
+}
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder for temporary files"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn file(&self, name: &str, contents: impl AsRef<[u8]>) -> String {
+        let path = self.path(name);
+        std::fs::write(&path, contents).expect("a writable folder for temporary files");
+        path.display().to_string()
+    }
+}
+
+fn example(name: &str) -> String {
+    asset(&format!("examples/{name}")).display().to_string()
+}
+
+#[test]
+fn evaluate_gives_the_golden_values_row_by_row() {
+    let golden = asset("reference/golden.csv").display().to_string();
+    let out = answer(&["evaluate", &golden, "--mueller", "--gradient"]);
+    let mut lines = out.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    assert_eq!(header[..6], ["brdf", "dolp", "specular", "diffuse", "volume", "m00"]);
+    assert_eq!((header.len(), header[20], header[21], header[38]), (39, "m33", "dbrdf_dn", "ddolp_dsigma_v"));
+    let reference = common::table("golden.csv");
+    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), reference.len());
+    for (row, reference) in rows.iter().zip(&reference) {
+        // The bar of golden.rs, at the critical angle included.
+        assert!(common::relative_error(row[0], reference.number("brdf")) <= 1e-13, "line {}", reference.line);
+        assert!(row.iter().all(|number| !number.is_nan()));
+    }
+}
+
+#[test]
+fn evaluate_writes_nothing_before_all_rows_are_right() {
+    let folder = Folder::new();
+    let head = "distribution,n,k,sigma,ks,kd,kv,q,c,sigma_v,theta_i,theta_r,dphi\n";
+    let good = "gauss,2,3,0.3,1,0.1,0.1,,-0.5,0.5,30,30,180\n";
+    for (row, place) in [
+        ("gaus,2,3,0.3,1,0.1,0.1,2,-0.5,0.5,30,30,180", "line 3, column 1 (distribution)"),
+        ("gauss,0,0,0.3,1,0.1,0.1,2,-0.5,0.5,30,30,180", "line 3, column 2 (n)"),
+        ("gauss,2,3,0,1,0.1,0.1,2,-0.5,0.5,30,30,180", "line 3, column 4 (sigma)"),
+        ("cauchy,2,3,0.3,1,0.1,0.1,1,-0.5,0.5,30,30,180", "line 3, column 8 (q)"),
+        ("gauss,2,3,0.3,1,0.1,0.1,2,-0.5,0.5,90,30,180", "line 3, column 11 (theta_i)"),
+        ("gauss,2,3,0.3,1,0.1,0.1,2,-0.5,0.5,30,-1,180", "line 3, column 12 (theta_r)"),
+        ("gauss,2,3,x,1,0.1,0.1,2,-0.5,0.5,30,30,180", "line 3, column 4 (sigma)"),
+    ] {
+        let input = folder.file("in.csv", format!("{head}{good}{row}\n"));
+        let output = folder.path("out.csv");
+        let message = refusal(&["evaluate", &input, "-o", &output.display().to_string()]);
+        assert!(message.contains("in.csv") && message.contains(place), "{message}");
+        assert!(!output.exists());
+    }
+    let without_dphi = "distribution,n,k,sigma,ks,kd,kv,c,sigma_v,theta_i,theta_r\ngauss,2,3,0.3,1,0.1,0.1,-0.5,0.5,30,30\n";
+    assert_eq!(
+        answer(&["evaluate", &folder.file("in.csv", without_dphi)]),
+        answer(&["evaluate", &folder.file("in.csv", format!("{head}{good}"))])
+    );
+}
+
+#[test]
+fn simulate_gives_the_same_bytes_and_says_what_it_is() {
+    let folder = Folder::new();
+    let arguments = |path: &Path| -> Vec<String> {
+        let words = "simulate --model gauss --set n=1.5,k=4 --theta-i 30,40 --theta-r -20:60:20 --noise 0.01 --columns both --brdf-noise 0.1 --seed 3 -o";
+        words.split(' ').map(str::to_owned).chain([path.display().to_string()]).collect()
+    };
+    let mut bytes = Vec::new();
+    for name in ["a.csv", "b.csv"] {
+        let path = folder.path(name);
+        let arguments = arguments(&path);
+        answer(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        bytes.push(std::fs::read_to_string(path).expect("the simulation wrote it"));
+    }
+    assert_eq!(bytes[0], bytes[1]);
+    for line in [
+        "# simulated: true\n",
+        "# command: pbrdf-explorer simulate --model gauss",
+        "# model: gauss\n",
+        "# n: 1.5\n",
+        "# seed: 3\n",
+        "dolp_sigma",
+        "brdf_sigma",
+    ] {
+        assert!(bytes[0].contains(line), "{line}");
+    }
+    assert_eq!(bytes[0].lines().filter(|line| !line.starts_with('#')).count(), 11);
+}
+
+#[test]
+fn the_examples_are_what_their_own_command_makes() {
+    for name in ["steel45_simulated.csv", "copper_650nm_simulated.csv", "aluminium_650nm_simulated.csv"] {
+        let expected = std::fs::read_to_string(asset(&format!("examples/{name}"))).expect("a bundled example");
+        let command = expected.lines().find_map(|line| line.strip_prefix("# command: pbrdf-explorer ")).expect("the command that made it");
+        let folder = Folder::new();
+        let path = folder.path(name).display().to_string();
+        let arguments: Vec<&str> = command.split(' ').chain(["-o", path.as_str()]).collect();
+        answer(&arguments);
+        assert_eq!(std::fs::read_to_string(path).expect("the simulation wrote it"), expected, "{name}");
+    }
+}
+
+#[test]
+fn fit_prints_the_agreed_json() {
+    let out = answer(&["fit", &example("aluminium_650nm_simulated.csv"), "--json"]);
+    let json: Value = serde_json::from_str(&out).expect("JSON");
+    for key in [
+        "model",
+        "distribution",
+        "objective",
+        "sum_of_squares",
+        "chi2",
+        "dof",
+        "aicc",
+        "stop_reason",
+        "evaluations",
+        "elapsed_ms",
+        "parameters",
+        "undetermined",
+        "correlations",
+        "starts",
+        "trace",
+    ] {
+        assert!(json.get(key).is_some(), "{key}");
+    }
+    assert_eq!((&json["model"], &json["distribution"], &json["stop_reason"]), (&"cauchy".into(), &"cauchy".into(), &"converged".into()));
+    assert!(json["chi2"].is_null());
+    let ks = &json["parameters"]["ks"];
+    assert_eq!((ks["free"].as_bool(), ks["at_bound"].is_null()), (Some(true), true));
+    // The simulation's truth is 1; five standard errors.
+    let (value, error) = (ks["value"].as_f64().expect("a value"), ks["std_error"].as_f64().expect("an error"));
+    assert!((value - 1.0).abs() < 5.0 * error);
+    let names = json["correlations"]["names"].as_array().expect("names").len();
+    assert_eq!((names, json["correlations"]["matrix"].as_array().map(Vec::len)), (9, Some(9)));
+    assert_eq!(json["starts"][0]["objective"], json["objective"]);
+    assert!(json["trace"].as_array().is_some_and(|trace| trace.iter().all(|point| point["evaluations"].is_u64())));
+}
+
+#[test]
+fn fit_heeds_start_fix_free_and_bounds() {
+    let steel = example("steel45_simulated.csv");
+    let fit = |more: &[&str]| -> Value {
+        let arguments: Vec<&str> = ["fit", &steel, "--json"].into_iter().chain(more.iter().copied()).collect();
+        serde_json::from_str(&answer(&arguments)).expect("JSON")
+    };
+    let fixed = fit(&["--fix", "c,q=2.2,sigma=0.35", "--start", "c=-0.4,n=2.5", "--bounds", "n=2.3..3"]);
+    assert_eq!((fixed["parameters"]["c"]["value"].as_f64(), fixed["parameters"]["c"]["free"].as_bool()), (Some(-0.4), Some(false)));
+    assert_eq!(fixed["parameters"]["sigma"]["value"].as_f64(), Some(0.35));
+    let n = fixed["parameters"]["n"]["value"].as_f64().expect("a value");
+    assert!((2.3..=3.0).contains(&n));
+    assert_eq!(fixed["parameters"]["ks"]["free"].as_bool(), Some(false));
+    let freed = fit(&["--free", "ks"]);
+    assert_eq!((freed["parameters"]["ks"]["free"].as_bool(), &freed["stop_reason"]), (Some(true), &"underdetermined".into()));
+    assert!(freed["parameters"]["ks"]["std_error"].is_null());
+    assert!(freed["undetermined"][0]["direction"].get("ks").is_some());
+}
+
+#[test]
+fn fitted_columns_stand_beside_the_input() {
+    let folder = Folder::new();
+    let input = folder.file("in.csv", "# a: b\ntheta_i;dolp;theta_r;mine\n55;0,0623;55;x\n65;0,0976;65;y\n75;0,1484;75;z\n");
+    let output = folder.path("out.csv").display().to_string();
+    answer(&["fit", &input, "--model", "fresnel", "-o", &output]);
+    let written = std::fs::read_to_string(output).expect("the fit wrote it");
+    let lines: Vec<&str> = written.lines().collect();
+    assert_eq!((lines[0], lines[1]), ("# a: b", "theta_i;dolp;theta_r;mine;dolp_model;dolp_residual;brdf_model;brdf_residual"));
+    let cells: Vec<&str> = lines[2].split(';').collect();
+    assert_eq!(cells[..4], ["55", "0,0623", "55", "x"]);
+    let (model, residual): (f64, f64) = (cells[4].parse().expect("a number"), cells[5].parse().expect("a number"));
+    assert_eq!(model - 0.0623, residual);
+}
+
+#[test]
+fn bad_usage_and_input_end_with_two_and_a_sentence() {
+    let folder = Folder::new();
+    let bad = folder.file("bad.csv", "theta_i,theta_r,dolp\n30,20,x\n");
+    let steel = example("steel45_simulated.csv");
+    let missing = folder.path("none.csv").display().to_string();
+    let a_folder = folder.0.path().display().to_string();
+    for (arguments, expected) in [
+        (vec!["fit", &bad], "bad.csv: line 2, column 3 (dolp): found \"x\""),
+        (vec!["fit", &bad, "--json"], "bad.csv: line 2, column 3 (dolp)"),
+        (vec!["fit", &missing], "none.csv: there is no such file"),
+        (vec!["evaluate", &a_folder], "directory"),
+        (vec!["fit", &steel, "--fix", "m"], "\"m\" is no parameter"),
+        (vec!["fit", &steel, "--start", "n=-1"], "not allowed"),
+        (vec!["fit", &steel, "--bounds", "n=5..2"], "must be below"),
+        (vec!["fit", &steel, "--start", "n=12"], "outside its bounds"),
+        (vec!["fit", &steel, "--model", "phong"], "expected one of"),
+        (vec!["fit", &steel, "--model", "gauss", "--fix", "q"], "has no parameter q"),
+        (vec!["fit", &steel, "--weights", "tons"], "tons"),
+        (vec!["simulate", "--theta-i", "95", "--theta-r", "0", "-o", &missing], "theta_i = 95"),
+        (vec!["no.csv"], "No display is available"),
+        (vec![], "pbrdf-explorer"),
+    ] {
+        if cfg!(feature = "gui") || !expected.contains("display") {
+            let message = refusal(&arguments);
+            assert!(message.contains(expected), "{arguments:?}: {message}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_there_yet_is_refused_and_not_ignored() {
+    let steel = example("steel45_simulated.csv");
+    for arguments in [
+        vec!["compare", &steel],
+        vec!["plan", "--set", "n=2"],
+        vec!["report", "cost"],
+        vec!["import", "x.dat"],
+        vec!["export", "mitsuba", "-o", "x"],
+        vec!["metals"],
+        vec!["fit", &steel, "--starts", "8"],
+        vec!["fit", &steel, "--bootstrap", "100"],
+        vec!["fit", &steel, "--profile", "n,k"],
+        vec!["fit", &steel, "--loss", "huber"],
+        vec!["fit", &steel, "--model", "hyde"],
+    ] {
+        assert!(refusal(&arguments).contains("not there yet"), "{arguments:?}");
+    }
+}
+
+#[test]
+fn output_that_cannot_be_written_ends_with_one() {
+    let folder = Folder::new();
+    let nowhere = folder.path("no/such/folder/out.csv").display().to_string();
+    let output = run(&["simulate", "--theta-i", "30", "--theta-r", "30", "-o", &nowhere]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("could not be written"));
+}
