@@ -25,15 +25,15 @@ pub fn foreground(dark: bool) -> Color32 {
 }
 
 pub fn specular(dark: bool) -> Color32 {
-    series(0, dark)
+    series(3, dark)
 }
 
 pub fn diffuse(dark: bool) -> Color32 {
-    series(1, dark)
+    series(4, dark)
 }
 
 pub fn volume(dark: bool) -> Color32 {
-    series(2, dark)
+    series(5, dark)
 }
 
 /// The grid behind a plot.

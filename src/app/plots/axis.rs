@@ -32,12 +32,17 @@ pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     marks
 }
 
-/// A number with as many decimals as the step between marks has.
+/// A number with as many decimals as the step between marks has; in powers of ten where those would be many.
 pub fn decimal(value: f64, step_size: f64) -> String {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 12")]
-    let decimals = (-libm::log10(step_size).floor()).clamp(0.0, 12.0) as usize;
     // Adding 0 turns -0 into 0.
-    format!("{:.decimals$}", value + 0.0)
+    let value = value + 0.0;
+    if value != 0.0 && !(1e-3..1e5).contains(&step_size) {
+        let digits = if value.abs() >= 9.5 * step_size { 1 } else { 0 };
+        return format!("{value:.digits$e}");
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 3")]
+    let decimals = (-libm::log10(step_size).floor()).clamp(0.0, 3.0) as usize;
+    format!("{value:.decimals$}")
 }
 
 /// A power of ten.

@@ -9,7 +9,7 @@ use super::derived::{Pieces, Range};
 use super::theme;
 use super::window::Explorer;
 use egui::Ui;
-use egui_plot::{AxisHints, Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
 
 /// How the axes are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
 #[derive(Debug, Default)]
@@ -59,8 +59,9 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if let Some(fault) = &explorer.derived.fault {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
     }
-    let half = (0.5 * ui.available_height() - 26.0).max(120.0);
+    let half = (0.5 * ui.available_height() - 30.0).max(120.0);
     ui.strong("Degree of linear polarisation");
+    ui.add_space(2.0);
     dolp::dolp_ui(explorer, ui, half);
     ui.horizontal(|ui| {
         ui.strong(format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi));
@@ -75,12 +76,12 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
 fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints<'a>) -> Plot<'a> {
     Plot::new(name)
         .height(height)
-        .legend(Legend::default().follow_insertion_order(true).background_alpha(0.85))
+        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.85))
         .custom_x_axes(vec![x.min_thickness(40.0)])
-        .custom_y_axes(vec![y.min_thickness(64.0)])
+        .custom_y_axes(vec![y.min_thickness(72.0)])
         .x_grid_spacer(|input| axis::marks(&input, 7.0, 0.0))
         .grid_color(theme::grid(ui.visuals().dark_mode))
-        .grid_fade(1.0)
+        .grid_fade(0.0)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
 }
