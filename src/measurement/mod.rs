@@ -1,6 +1,6 @@
 //! Floor 3: measurements, read, written and simulated.
 //!
-//! The file format is documented at [`read`]. Readers take any `impl Read`: opening files, and naming them in messages, is left
+//! The file format is documented at [`read()`]. Readers take any `impl Read`: opening files, and naming them in messages, is left
 //! to whoever calls.
 
 mod read;

@@ -12,7 +12,7 @@ pub fn exact(number: f64) -> String {
 /// Name, whether it is there, whether with standard deviations, and where it stands in a row.
 type Block = (&'static str, bool, bool, fn(&Row) -> Option<Quantity>);
 
-/// Writes a measurement in the form that [`super::read`] reads back to the same values.
+/// Writes a measurement in the form that [`super::read()`] reads back to the same values.
 ///
 /// Angles and standard deviations are written as the shortest text that reads back the same, measured values with 17 digits.
 pub fn write(measurement: &Measurement, mut out: impl Write) -> io::Result<()> {
@@ -56,7 +56,7 @@ pub fn write(measurement: &Measurement, mut out: impl Write) -> io::Result<()> {
     out.flush()
 }
 
-/// Copies a table that [`super::read`] accepts, with further cells at the end of its header and of each row.
+/// Copies a table that [`super::read()`] accepts, with further cells at the end of its header and of each row.
 ///
 /// `cells` has as many rows as the table; what was there stays byte for byte, comments included.
 pub fn append_columns(input: &[u8], names: &[&str], cells: &[Vec<String>], mut out: impl Write) -> io::Result<()> {
