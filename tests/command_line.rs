@@ -256,7 +256,6 @@ fn what_is_not_there_yet_is_refused_and_not_ignored() {
         vec!["import", "x.dat"],
         vec!["export", "mitsuba", "-o", "x"],
         vec!["metals"],
-        vec!["fit", &steel, "--starts", "8"],
         vec!["fit", &steel, "--bootstrap", "100"],
         vec!["fit", &steel, "--profile", "n,k"],
         vec!["fit", &steel, "--loss", "huber"],

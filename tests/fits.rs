@@ -1,7 +1,7 @@
 //! Fits on simulated data: they find the truth, stay in the box, and say how they ended.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Bounds, Choices, Edge, Problem, StopReason, Watch, fit, free_by_default};
+use pbrdf::fit::{Bounds, Choices, Edge, Problem, Starts, StopReason, Watch, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::{self, Cauchy, Gauss};
@@ -60,7 +60,7 @@ fn single_runs_from_far_starts_return_the_truth() {
             .filter(|&i| {
                 let problem = problem(&measurement, distribution, point_in_box(i));
                 let free: ParameterSet = problem.free().iter().copied().collect();
-                let report = fit(&problem, Watch::NOBODY);
+                let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
                 worst_difference(&report.parameters, &TRUTH, free) < TRUE_TO
             })
             .count();
@@ -71,7 +71,7 @@ fn single_runs_from_far_starts_return_the_truth() {
 #[test]
 fn with_a_brdf_all_nine_parameters_are_found() {
     let measurement = dense(Cauchy, Parameters { ks: 1.7, ..TRUTH }, Columns::Both);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
     assert!(worst_difference(&report.parameters, &Parameters { ks: 1.7, ..TRUTH }, ParameterSet::ALL) < TRUE_TO, "{:?}", report.parameters);
     assert_eq!(report.stop_reason, StopReason::ResidualsZero);
 }
@@ -82,7 +82,7 @@ fn a_free_k_s_is_undetermined_by_dolp_alone() {
     let model = Model::full(Gauss);
     let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), Choices::default())
         .expect("a valid problem");
-    let report = fit(&problem, Watch::NOBODY);
+    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
     assert_eq!(report.stop_reason, StopReason::Underdetermined);
     let open: Vec<Parameter> = report.undetermined[0].direction.iter().map(|(parameter, _)| *parameter).collect();
     assert_eq!(open, [Parameter::Ks, Parameter::Kd, Parameter::Kv]);
@@ -100,7 +100,7 @@ fn a_minimum_on_the_edge_is_put_on_the_edge() {
     let free: ParameterSet = [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Kd].into_iter().collect();
     let start = Parameters { kv: 0.0, kd: 0.5, c: TRUTH.c, ..Parameters::default() };
     let problem = Problem::new(&measurement, model, start, free, bounds, Choices::default()).expect("a valid problem");
-    let report = fit(&problem, Watch::NOBODY);
+    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
     let kd = report.estimates.iter().find(|estimate| estimate.parameter == Parameter::Kd).expect("kd is there");
     assert_eq!((kd.value, kd.at_bound, kd.std_error), (0.2, Some(Edge::Lower), None));
 }
@@ -111,7 +111,7 @@ fn a_cancelled_fit_keeps_the_best_so_far() {
     let problem = problem(&measurement, Cauchy, Parameters::default());
     let asked = AtomicUsize::new(0);
     let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 6;
-    let report = fit(&problem, Watch { cancelled: &cancelled, ..Watch::NOBODY });
+    let report = fit(&problem, Starts::One, 0, Watch { cancelled: &cancelled, ..Watch::NOBODY });
     assert_eq!(report.stop_reason, StopReason::Cancelled);
     let best = report.trace.iter().map(|point| point.objective).fold(f64::INFINITY, f64::min);
     // The trace holds sums in another order than ΔE is summed in.
@@ -122,7 +122,7 @@ fn a_cancelled_fit_keeps_the_best_so_far() {
 #[test]
 fn the_trace_falls_and_ends_at_the_objective() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, grid(30, 50, 10), grid(20, 60, 5), 0.005);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
     assert!(report.trace.windows(2).all(|pair| pair[1].objective < pair[0].objective && pair[1].evaluations > pair[0].evaluations));
     let last = report.trace.last().expect("a trace").objective;
     // The trace holds sums in another order than ΔE is summed in.
@@ -133,7 +133,7 @@ fn the_trace_falls_and_ends_at_the_objective() {
 fn nothing_to_fit_is_said() {
     let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
     measurement.rows.iter_mut().for_each(|row| row.masked = true);
-    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Watch::NOBODY);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Watch::NOBODY);
     assert_eq!((report.stop_reason, report.objective), (StopReason::NoData, None));
     assert!(report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
 }
@@ -141,7 +141,7 @@ fn nothing_to_fit_is_said() {
 #[test]
 fn fewer_points_than_parameters_are_underdetermined() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, vec![40.0], vec![20.0, 40.0, 60.0], 0.0);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
     assert_eq!(report.stop_reason, StopReason::Underdetermined);
     assert!(!report.undetermined.is_empty());
 }
@@ -150,7 +150,7 @@ fn fewer_points_than_parameters_are_underdetermined() {
 fn all_dolp_zero_has_no_relative_objective() {
     let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
     measurement.rows.iter_mut().filter_map(|row| row.dolp.as_mut()).for_each(|dolp| dolp.value = 0.0);
-    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Watch::NOBODY);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Watch::NOBODY);
     assert_eq!(report.objective, None);
     assert!(report.sum_of_squares.is_finite());
 }

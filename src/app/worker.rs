@@ -4,7 +4,7 @@
 //! that was replaced meanwhile are dropped by its number.
 
 use crate::open_file::open_file;
-use pbrdf::fit::{FitReport, Problem, TracePoint, Watch, fit};
+use pbrdf::fit::{FitReport, Problem, Starts, TracePoint, Watch, fit};
 use pbrdf::measurement::{self, Measurement};
 use std::io::Read;
 use std::ops::ControlFlow;
@@ -171,7 +171,7 @@ impl Worker {
                 cancelled: &|| stop.load(Ordering::Relaxed),
                 progress: &|point| teller.tell(point),
             };
-            Event::Fitted(Box::new(fit(&problem, watch)))
+            Event::Fitted(Box::new(fit(&problem, Starts::Automatic, 1, watch)))
         })?;
         self.fit = Some(job);
         Ok(())

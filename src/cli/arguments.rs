@@ -94,12 +94,12 @@ pub struct Fit {
     /// Bounds, such as n=0.1..5.
     #[arg(long, value_delimiter = ',', value_parser = values::interval)]
     pub bounds: Vec<Interval>,
-    /// How many starts; only 1 is there yet.
-    #[arg(long, default_value_t = 1)]
-    pub starts: usize,
+    /// How many starts; without, a first guess and as many as find something new. 1 is the start alone.
+    #[arg(long, value_parser = values::count)]
+    pub starts: Option<usize>,
     /// Seed of whatever is random.
-    #[arg(long, hide = true)]
-    pub seed: Option<u64>,
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
     /// What divides the residuals.
     #[arg(long, value_enum, default_value_t = Weights::None)]
     pub weights: Weights,

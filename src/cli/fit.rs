@@ -3,7 +3,7 @@
 use super::arguments::Fit;
 use super::failure::{Failure, INTERRUPTED};
 use super::{input, interrupt, output};
-use pbrdf::fit::{Bounds, Choices, Edge, FitReport, Loss, Problem, Watch, fit, free_by_default};
+use pbrdf::fit::{Bounds, Choices, Edge, FitReport, Loss, Problem, Starts, Watch, fit, free_by_default};
 use pbrdf::measurement::{Measurement, append_columns, exact};
 use pbrdf::model::{Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -27,8 +27,15 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
 
     let progress = Mutex::new(output::Progress::new("fitting"));
     let clock = std::time::Instant::now();
+    let starts = match task.starts {
+        None => Starts::Automatic,
+        Some(1) => Starts::One,
+        Some(count) => Starts::Exactly(count),
+    };
     let report = fit(
         &problem,
+        starts,
+        task.seed,
         Watch {
             clock: &|| clock.elapsed().as_secs_f64() * 1e3,
             cancelled: &interrupt::asked,
@@ -59,8 +66,6 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
 
 fn refuse_what_is_not_there(task: &Fit) -> Result<(), Failure> {
     let later = [
-        ("--starts above 1", task.starts != 1),
-        ("--seed", task.seed.is_some()),
         ("--loss", task.loss.is_some()),
         ("--loss-scale", task.loss_scale.is_some()),
         ("--profile", task.profile.is_some()),

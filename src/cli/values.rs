@@ -40,6 +40,15 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
     number(text).and_then(|number| if number >= 0.0 { Ok(number) } else { Err(format!("{text} is negative; expected 0 or more")) })
 }
 
+/// A whole number from 1 to a million.
+pub fn count(text: &str) -> Result<usize, String> {
+    text.trim()
+        .parse::<usize>()
+        .ok()
+        .filter(|count| (1..=1_000_000).contains(count))
+        .ok_or_else(|| format!("{text:?} is no whole number from 1 to 1000000"))
+}
+
 /// `name=value`, the value in the parameter's mathematical domain.
 pub fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or_else(|| format!("expected name=value, such as n=2, found {text:?}"))?;

@@ -83,6 +83,22 @@ impl Bounds {
         value.clamp(self.low[parameter], self.high[parameter])
     }
 
+    /// The value at a fraction 0 to 1 of the box, spread by factors; c alone, which has no scale, by steps.
+    #[must_use]
+    pub fn spread(&self, parameter: Parameter, fraction: f64) -> f64 {
+        let (low, high) = self.of(parameter);
+        let (origin, smallest) = match parameter {
+            Parameter::C => return self.at(parameter, fraction),
+            // q counts from 1.
+            Parameter::Q => (1.0, 1e-4),
+            Parameter::K => (0.0, 1e-2),
+            // Four decades below the upper bound a weight is next to nothing; 0 has no logarithm.
+            _ => (0.0, 1e-4),
+        };
+        let (top, bottom) = (high - origin, (low - origin).max(smallest * (high - origin)));
+        self.clamp(parameter, origin + bottom * libm::pow(top / bottom, fraction))
+    }
+
     /// The value at a fraction 0 to 1 of the way from the lower to the upper bound.
     #[must_use]
     pub fn at(&self, parameter: Parameter, fraction: f64) -> f64 {

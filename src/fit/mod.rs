@@ -8,10 +8,12 @@ mod coordinates;
 mod outcome;
 mod problem;
 mod solver;
+mod starts;
 mod uncertainty;
 
 pub use bounds::{Bounds, BoundsError};
 pub use outcome::{Edge, Estimate, FitReport, Minimum, fit};
 pub use problem::{BrdfResiduals, Choices, Eq17, Loss, Problem, ProblemError, Weights, free_by_default};
-pub use solver::{Descent, StopReason, TracePoint, Watch, descend};
+pub use solver::{Descent, Effort, StopReason, TracePoint, Watch, descend};
+pub use starts::{Found, Search, Starts, search};
 pub use uncertainty::{OpenDirection, RANK_THRESHOLD, Uncertainty};

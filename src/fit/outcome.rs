@@ -1,7 +1,8 @@
 //! The result of a fit: values, uncertainties, what is open, and how it came about.
 
 use super::problem::{Problem, Weights};
-use super::solver::{Descent, StopReason, TracePoint, Watch, descend};
+use super::solver::{Descent, StopReason, TracePoint, Watch};
+use super::starts::{Search, Starts, search};
 use super::uncertainty::{OpenDirection, Uncertainty};
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
 use nalgebra::DMatrix;
@@ -85,17 +86,24 @@ pub struct FitReport {
 /// A parameter this near a bound, as a fraction of the box, rests on it.
 const AT_BOUND: f64 = 1e-9;
 
-/// Fits from the problem's start and says what came out.
+/// Fits from one start or many and says what came out.
 #[must_use]
-pub fn fit(problem: &Problem, watch: Watch<'_>) -> FitReport {
-    let descent = descend(problem, watch);
+pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> FitReport {
+    let search = search(problem, starts, seed, watch);
     let elapsed_ms = (watch.clock)();
-    FitReport::new(problem, descent, elapsed_ms)
+    FitReport::new(problem, search, elapsed_ms)
 }
 
 impl FitReport {
-    fn new(problem: &Problem, descent: Descent, elapsed_ms: f64) -> Self {
-        let Descent { parameters, sum_of_squares, mut stop_reason, evaluations, trace } = descent;
+    fn new(problem: &Problem, search: Search, elapsed_ms: f64) -> Self {
+        let Search { mut found, evaluations } = search;
+        let minima = found.iter().map(|found| Minimum {
+            objective: problem.delta_e(&found.descent.parameters).unwrap_or(f64::NAN),
+            stop_reason: found.descent.stop_reason,
+            reached: found.reached,
+        });
+        let mut minima: Vec<Minimum> = minima.collect();
+        let Descent { parameters, sum_of_squares, mut stop_reason, trace, .. } = found.swap_remove(0).descent;
         let edges: Vec<(Parameter, Edge)> =
             problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
         let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
@@ -115,7 +123,9 @@ impl FitReport {
         });
         let objective = (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten();
         let in_data_units = sum_of_squares * problem.sum_of_squares_scale();
-        let minimum = Minimum { objective: objective.unwrap_or(f64::NAN), stop_reason, reached: 1 };
+        if let Some(best) = minima.first_mut() {
+            best.stop_reason = stop_reason;
+        }
         Self {
             model: problem.model(),
             estimates: estimates.collect(),
@@ -131,7 +141,7 @@ impl FitReport {
             correlations: uncertainty.correlations(),
             determined: uncertainty.determined,
             undetermined: uncertainty.open,
-            minima: vec![minimum],
+            minima,
             trace,
             parameters,
         }

@@ -11,6 +11,7 @@
 use super::bounds::Bounds;
 use crate::measurement::{Measurement, Quantity};
 use crate::model::{Diffuse, Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
+use crate::optics::Facet;
 use nalgebra::{DMatrix, DVector};
 
 /// What divides a residual.
@@ -447,6 +448,13 @@ impl Problem {
             }
             _ => 1.0,
         }
+    }
+
+    /// Prepared geometries with their measured DoLP, evenly picked where there are more than `most`.
+    pub(super) fn dolp_rows(&self, most: usize) -> Vec<(Facet, f64)> {
+        let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp && datum.measured > 0.0);
+        let step = dolp().count().div_ceil(most).max(1);
+        dolp().step_by(step).map(|datum| (self.scene.facets()[datum.point], datum.measured)).collect()
     }
 
     /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, in its consistent reading.

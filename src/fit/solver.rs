@@ -106,18 +106,29 @@ const PATIENCE: usize = 100;
 /// Relative fall of the objective in a step below which the approach has done its part.
 const APPROACH: f64 = 1e-5;
 
+/// How far a descent is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// To the minimum.
+    Full,
+    /// From near a minimum to the minimum.
+    Finish,
+    /// For one evaluation per free parameter and one.
+    Few,
+}
+
 /// The two parts of a descent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Path {
     /// From anywhere, in plain coordinates, until progress is slow.
-    Plain,
+    Plain(Effort),
     /// To the end, in coordinates that straighten valleys.
     Valley,
 }
 
 /// Fits from the problem's start.
 #[must_use]
-pub fn descend(problem: &Problem, watch: Watch<'_>) -> Descent {
+pub fn descend(problem: &Problem, effort: Effort, watch: Watch<'_>) -> Descent {
     let mut log = Log::new(problem, watch);
     if problem.is_empty() {
         return log.into_descent(StopReason::NoData);
@@ -125,7 +136,10 @@ pub fn descend(problem: &Problem, watch: Watch<'_>) -> Descent {
     let all: ParameterSet = problem.free().iter().copied().collect();
     log.evaluate(problem, problem.start());
     // Far from the minimum the plain coordinates are the safer ones; near it the others cut the valleys short.
-    let mut stop = run(problem, Path::Plain, &mut log);
+    let mut stop = run(problem, Path::Plain(effort), &mut log);
+    if effort == Effort::Few {
+        return log.into_descent(stop);
+    }
     if matches!(stop, StopReason::Converged | StopReason::EvaluationLimit) {
         stop = run(&problem.with_start(log.best), Path::Valley, &mut log);
     }
@@ -186,12 +200,16 @@ fn run(problem: &Problem, path: Path, log: &mut Log<'_>) -> StopReason {
         return StopReason::Converged;
     }
     let coordinates = match path {
-        Path::Plain => Coordinates::plain(problem),
+        Path::Plain(_) => Coordinates::plain(problem),
         Path::Valley => Coordinates::valley(problem),
     };
     let adapter = Adapter { problem, z: coordinates.start(), coordinates, log: RefCell::new(log) };
-    let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_patience(PATIENCE);
-    let solver = if path == Path::Plain { solver.with_ftol(APPROACH) } else { solver };
+    let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND);
+    let solver = match path {
+        Path::Plain(Effort::Few) => solver.with_ftol(APPROACH).with_patience(1),
+        Path::Plain(Effort::Full) => solver.with_ftol(APPROACH).with_patience(PATIENCE),
+        Path::Plain(Effort::Finish) | Path::Valley => solver.with_patience(PATIENCE),
+    };
     let (_, report) = solver.minimize(adapter);
     match report.termination {
         TerminationReason::Converged { .. } | TerminationReason::Orthogonal | TerminationReason::NoParameters => StopReason::Converged,
@@ -211,6 +229,22 @@ struct Log<'a> {
     sum_of_squares: f64,
     evaluations: usize,
     trace: Vec<TracePoint>,
+}
+
+impl Descent {
+    /// Appends a further descent that began at this one's end.
+    pub(super) fn go_on(&mut self, further: Self) {
+        let so_far = self.evaluations;
+        let shifted = further.trace.into_iter().map(|point| TracePoint { evaluations: so_far + point.evaluations, ..point });
+        let last = self.trace.last().map_or(f64::INFINITY, |point| point.objective);
+        self.trace.extend(shifted.filter(|point| point.objective < last));
+        self.evaluations += further.evaluations;
+        if further.sum_of_squares <= self.sum_of_squares {
+            self.parameters = further.parameters;
+            self.sum_of_squares = further.sum_of_squares;
+            self.stop_reason = further.stop_reason;
+        }
+    }
 }
 
 impl<'a> Log<'a> {
