@@ -29,12 +29,10 @@ pub enum Task {
     Fit(Box<Fit>),
     /// Simulate a measurement.
     Simulate(Simulate),
-    /// Not there yet.
-    #[command(hide = true)]
-    Compare(Later),
-    /// Not there yet.
-    #[command(hide = true)]
-    Plan(Later),
+    /// Fit several models to one measurement.
+    Compare(Box<Compare>),
+    /// Predict standard errors from a choice of angles.
+    Plan(Plan),
     /// Not there yet.
     #[command(hide = true)]
     Report(Later),
@@ -77,11 +75,45 @@ pub struct Evaluate {
 /// `fit`.
 #[derive(Debug, Args)]
 pub struct Fit {
-    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and sr⁻¹.
+    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
     pub input: PathBuf,
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
+    #[command(flatten)]
+    pub options: FitOptions,
+    /// Scan these parameters: hold each on a grid and fit the rest again, for an honest interval.
+    #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
+    pub profile: Vec<Parameter>,
+    /// Refit so many data sets with residuals dealt out anew.
+    #[arg(long, value_parser = values::count)]
+    pub bootstrap: Option<usize>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+}
+
+/// `compare`.
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
+    pub input: PathBuf,
+    /// Models to compare; all without.
+    #[arg(long, value_delimiter = ',', value_parser = values::preset)]
+    pub models: Vec<&'static Preset>,
+    #[command(flatten)]
+    pub options: FitOptions,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `fit` and `compare` have in common.
+#[derive(Debug, Args)]
+pub struct FitOptions {
     /// Values to start from, such as n=2,k=3; defaults for the rest.
     #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
     pub start: Vec<Assignment>,
@@ -106,38 +138,58 @@ pub struct Fit {
     /// How BRDF residuals are formed.
     #[arg(long, value_enum, default_value_t = BrdfResiduals::Relative)]
     pub brdf_residuals: BrdfResiduals,
-    /// Not there yet.
-    #[arg(long, hide = true)]
-    pub loss: Option<String>,
-    /// Not there yet.
-    #[arg(long, hide = true)]
+    /// How a residual counts: robust losses spare outliers.
+    #[arg(long, value_enum, default_value_t = Loss::Linear)]
+    pub loss: Loss,
+    /// Where a robust loss begins to spare, in units of X − Xm; without, 1.345 × normalised MAD of the residuals.
+    #[arg(long, value_parser = values::positive)]
     pub loss_scale: Option<f64>,
     /// Which reading of Eq. (17) predicts DoLP; printed leaves k_s out of the numerator.
     #[arg(long, value_enum, default_value_t = Eq17::Consistent)]
     pub eq17: Eq17,
-    /// Not there yet.
-    #[arg(long, hide = true)]
-    pub profile: Option<String>,
-    /// Not there yet.
-    #[arg(long, hide = true)]
-    pub bootstrap: Option<usize>,
+}
+
+/// `plan`.
+#[derive(Debug, Args)]
+pub struct Plan {
+    #[command(flatten)]
+    pub surface: Surface,
+    #[command(flatten)]
+    pub angles: Angles,
+    /// Standard deviation of the noise in DoLP, absolute.
+    #[arg(long, default_value_t = 0.005, value_parser = values::positive)]
+    pub noise: f64,
+    /// Standard deviation of the noise in BRDF, relative.
+    #[arg(long, default_value_t = 0.02, value_parser = values::positive)]
+    pub brdf_noise: f64,
+    /// What is measured.
+    #[arg(long, value_enum, default_value_t = Columns::Dolp)]
+    pub columns: Columns,
+    /// Parameters that are known.
+    #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
+    pub fix: Vec<Parameter>,
+    /// Parameters to free that would be fixed, such as ks.
+    #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
+    pub free: Vec<Parameter>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
-    /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
-    #[arg(short, long)]
-    pub output: Option<PathBuf>,
 }
 
-/// `simulate`.
+/// A model with values.
 #[derive(Debug, Args)]
-pub struct Simulate {
+pub struct Surface {
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
     /// Parameters, such as n=2.07,k=2.9; defaults for the rest.
     #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
     pub set: Vec<Assignment>,
+}
+
+/// Where is measured.
+#[derive(Debug, Args)]
+pub struct Angles {
     /// Angles of incidence in degrees: a list 30,40,50 or a range 10:80:10.
     #[arg(long, value_parser = values::grid)]
     pub theta_i: Grid,
@@ -145,8 +197,17 @@ pub struct Simulate {
     #[arg(long, allow_hyphen_values = true, value_parser = values::grid)]
     pub theta_r: Grid,
     /// Relative azimuth in degrees; 180 is the forward side.
-    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
     pub dphi: f64,
+}
+
+/// `simulate`.
+#[derive(Debug, Args)]
+pub struct Simulate {
+    #[command(flatten)]
+    pub surface: Surface,
+    #[command(flatten)]
+    pub angles: Angles,
     /// What is measured.
     #[arg(long, value_enum, default_value_t = Columns::Dolp)]
     pub columns: Columns,
@@ -197,6 +258,17 @@ choice! {
         Relative,
         /// ln X − ln Xm.
         Log
+    }
+}
+choice! {
+    /// How a residual counts.
+    Loss => fit::Loss {
+        /// By its square.
+        Linear,
+        /// By its square up to the scale, by its size beyond.
+        Huber,
+        /// The same with a smooth passage.
+        SoftL1
     }
 }
 choice! {

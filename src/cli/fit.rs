@@ -1,58 +1,50 @@
 //! `fit`: the model on a measurement.
 
 use super::arguments::Fit;
-use super::failure::{Failure, INTERRUPTED};
+use super::failure::Failure;
+use super::problem::{Strictness, problem, starts};
+use super::watched::Watched;
 use super::{input, interrupt, output};
-use pbrdf::fit::{Bounds, Choices, Edge, FitReport, Loss, Problem, Starts, Watch, fit, free_by_default};
+use pbrdf::fit::{Edge, FitReport, Profile, Scatter, bootstrap, fit, profile};
 use pbrdf::measurement::{Measurement, append_columns, exact};
-use pbrdf::model::{Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 use pbrdf::report::fit_json;
+use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
-    refuse_what_is_not_there(task)?;
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
     let measurement = input::measurement(&task.input, &bytes)?;
-    let problem = problem(task, &measurement)?;
+    let problem = problem(task.model, &task.options, &measurement, Strictness::Strict).map_err(|reason| reason.about(&task.input))?;
     if problem.left_out() > 0 {
         output::notice(format_args!(
             "{} measured BRDF values of 0 are left out: they have no relative or logarithmic residual.",
             problem.left_out()
         ));
     }
-
-    let progress = Mutex::new(output::Progress::new("fitting"));
-    let clock = std::time::Instant::now();
-    let starts = match task.starts {
-        None => Starts::Automatic,
-        Some(1) => Starts::One,
-        Some(count) => Starts::Exactly(count),
-    };
-    let report = fit(
-        &problem,
-        starts,
-        task.seed,
-        Watch {
-            clock: &|| clock.elapsed().as_secs_f64() * 1e3,
-            cancelled: &interrupt::asked,
-            progress: &|point| {
-                if let Ok(mut progress) = progress.lock() {
-                    progress.tell(|| format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective));
-                }
-            },
-        },
-    );
-    drop(progress);
+    if let Some(parameter) = task.profile.iter().find(|parameter| !problem.free().contains(parameter)) {
+        return Err(Failure::usage(format!("{} is not free in this fit and has no profile.", parameter.key())));
+    }
+    let watched = Watched::new("fitting");
+    let watch = watched.watch();
+    let report = fit(&problem, starts(&task.options), task.options.seed, watch.as_watch());
+    let profiles: Vec<Profile> = task.profile.iter().map(|&parameter| profile(&problem, &report, parameter, watch.as_watch())).collect();
+    let scatters = task.bootstrap.map_or_else(Vec::new, |count| bootstrap(&problem, &report, count, task.options.seed, watch.as_watch()));
+    drop(watch);
+    drop(watched);
 
     if task.json {
-        let text = serde_json::to_string_pretty(&fit_json(task.model, &report)).map_err(|error| Failure::output("JSON", &error.into()))?;
-        output::write(None, |out| writeln!(out, "{text}"))?;
+        let mut json = fit_json(task.model, &report);
+        add_scans(&mut json, &profiles, &scatters);
+        output::write_json(&json)?;
     } else {
-        output::write(None, |out| print(out, task, &measurement, &report))?;
+        output::write(None, |out| {
+            print(out, task, &measurement, &report)?;
+            print_scans(out, &profiles, &scatters)
+        })?;
     }
     if let Some(path) = &task.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
@@ -61,76 +53,12 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
             append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out)
         })?;
     }
-    Ok(if interrupt::asked() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
-}
-
-fn refuse_what_is_not_there(task: &Fit) -> Result<(), Failure> {
-    let later = [
-        ("--loss", task.loss.is_some()),
-        ("--loss-scale", task.loss_scale.is_some()),
-        ("--profile", task.profile.is_some()),
-        ("--bootstrap", task.bootstrap.is_some()),
-    ];
-    match later.into_iter().find(|(_, asked)| *asked) {
-        Some((option, _)) => Err(Failure::not_yet(option)),
-        None => Ok(()),
-    }
-}
-
-/// The problem that the options describe.
-fn problem(task: &Fit, measurement: &Measurement) -> Result<Problem, Failure> {
-    let usage = |error: &dyn std::fmt::Display| Failure::usage(format!("{error}."));
-    let model = task.model.model;
-    let choices = Choices {
-        weights: task.weights.into(),
-        brdf_residuals: task.brdf_residuals.into(),
-        loss: Loss::Linear,
-        loss_scale: None,
-        eq17: task.eq17.into(),
-        dolp_only: task.model.dolp_only,
-    };
-    let mut free = free_by_default(model, measurement, &choices);
-    let mut bounds = Bounds::default();
-    for &(parameter, low, high) in &task.bounds {
-        bounds.set(parameter, low, high).map_err(|error| usage(&error))?;
-    }
-    let mut start = Parameters::default();
-    let mut given = ParameterSet::EMPTY;
-    let fixed_values = task.fix.iter().filter_map(|&(parameter, value)| Some((parameter, value?)));
-    for (parameter, value) in task.start.iter().copied().chain(fixed_values) {
-        start[parameter] = value;
-        given = given.with(parameter);
-    }
-    for &(parameter, _) in &task.fix {
-        require_used(task, parameter)?;
-        free = free.without(parameter);
-    }
-    for &parameter in &task.free {
-        require_used(task, parameter)?;
-        free = free.with(parameter);
-    }
-    for parameter in free {
-        if !given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {
-            // A default that the given bounds exclude is nobody's wish.
-            start[parameter] = bounds.at(parameter, 0.5);
-            output::notice(format_args!("{} starts at {}, in the middle of its bounds.", parameter.key(), start[parameter]));
-        }
-    }
-    start.validate(model.parameters()).map_err(|error| usage(&error))?;
-    Problem::new(measurement, model, start, free, bounds, choices).map_err(|error| Failure::input(&task.input, error))
-}
-
-fn require_used(task: &Fit, parameter: Parameter) -> Result<(), Failure> {
-    if task.model.model.parameters().contains(parameter) {
-        Ok(())
-    } else {
-        Err(Failure::usage(format!("The model {} has no parameter {}.", task.model.key, parameter.key())))
-    }
+    Ok(output::exit_code())
 }
 
 /// Model and residual of both quantities for each row; a quantity that was not measured or is not predicted leaves its cells empty.
 fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, task: &Fit) -> Vec<Vec<String>> {
-    let printed_gain = match task.eq17 {
+    let printed_gain = match task.options.eq17 {
         super::arguments::Eq17::Consistent => 1.0,
         super::arguments::Eq17::Printed => surface.parameters().ks,
     };
@@ -182,6 +110,46 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
         for direction in &report.undetermined {
             writeln!(out, "  {}", direction.text)?;
         }
+    }
+    Ok(())
+}
+
+/// Profiles and bootstrap beside the agreed keys.
+fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[Scatter]) {
+    let Some(object) = json.as_object_mut() else { return };
+    if !profiles.is_empty() {
+        let of = |profile: &Profile| {
+            (profile.parameter.key().to_owned(), json!({ "low": profile.low, "high": profile.high, "points": profile.points }))
+        };
+        object.insert("profile".to_owned(), Value::Object(profiles.iter().map(of).collect::<Map<_, _>>()));
+    }
+    if !scatters.is_empty() {
+        let of = |scatter: &Scatter| {
+            (scatter.parameter.key().to_owned(), json!({ "std_error": scatter.std_error, "low": scatter.low, "high": scatter.high }))
+        };
+        object.insert("bootstrap".to_owned(), Value::Object(scatters.iter().map(of).collect::<Map<_, _>>()));
+    }
+}
+
+fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[Scatter]) -> io::Result<()> {
+    for profile in profiles {
+        let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), |value| format!("{value:.6}"));
+        writeln!(
+            out,
+            "\nprofile of {}: one-standard-error interval {} … {}",
+            profile.parameter.key(),
+            end(profile.low),
+            end(profile.high)
+        )?;
+        for point in &profile.points {
+            writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.sum_of_squares, point.objective)?;
+        }
+    }
+    if !scatters.is_empty() {
+        writeln!(out, "\nbootstrap: standard deviation, 16th and 84th percentile")?;
+    }
+    for scatter in scatters {
+        writeln!(out, "  {:<8} {:>12.3e} {:>14.8} {:>14.8}", scatter.parameter.key(), scatter.std_error, scatter.low, scatter.high)?;
     }
     Ok(())
 }

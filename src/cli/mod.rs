@@ -4,14 +4,18 @@
 //! Errors are plain sentences on stderr; progress goes there too.
 
 mod arguments;
+mod compare;
 mod evaluate;
 mod failure;
 mod fit;
 mod input;
 mod interrupt;
 mod output;
+mod plan;
+mod problem;
 mod simulate;
 mod values;
+mod watched;
 
 use arguments::{Arguments, Task};
 use clap::Parser as _;
@@ -25,8 +29,8 @@ pub fn run() -> ExitCode {
         Some(Task::Evaluate(task)) => evaluate::run(&task),
         Some(Task::Fit(task)) => fit::run(&task),
         Some(Task::Simulate(task)) => simulate::run(&task),
-        Some(Task::Compare(_)) => Err(Failure::not_yet("compare")),
-        Some(Task::Plan(_)) => Err(Failure::not_yet("plan")),
+        Some(Task::Compare(task)) => compare::run(&task),
+        Some(Task::Plan(task)) => plan::run(&task),
         Some(Task::Report(_)) => Err(Failure::not_yet("report")),
         Some(Task::Import(_)) => Err(Failure::not_yet("import")),
         Some(Task::Export(_)) => Err(Failure::not_yet("export")),

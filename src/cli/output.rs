@@ -1,8 +1,10 @@
 //! Where answers and progress go.
 
-use super::failure::Failure;
+use super::failure::{Failure, INTERRUPTED};
+use super::interrupt;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 /// Writes a file in one move, or stdout without a path: what was there before stays until the new file is whole.
@@ -82,6 +84,17 @@ impl Drop for Progress {
             self.print(format_args!("\r\x1b[K"));
         }
     }
+}
+
+/// Writes JSON to standard output.
+pub fn write_json(json: &serde_json::Value) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(json).map_err(|error| Failure::output("JSON", &error.into()))?;
+    write(None, |out| writeln!(out, "{text}"))
+}
+
+/// 0, or 130 where the answer is the best so far of an interrupted job.
+pub fn exit_code() -> ExitCode {
+    if interrupt::asked() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS }
 }
 
 /// A line on stderr that is no error.

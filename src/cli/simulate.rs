@@ -1,6 +1,6 @@
 //! `simulate`: a measurement that says of itself that it is none.
 
-use super::arguments::Simulate;
+use super::arguments::{Angles, Columns, Simulate, Surface};
 use super::failure::Failure;
 use super::output;
 use pbrdf::measurement::{Simulation, write};
@@ -8,25 +8,35 @@ use pbrdf::model::{Parameters, Pbrdf};
 use std::process::ExitCode;
 
 pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
-    let mut parameters = Parameters::default();
-    for &(parameter, value) in &task.set {
-        parameters[parameter] = value;
-    }
     let simulation = Simulation {
-        surface: Pbrdf::new(task.model.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
-        theta_i: task.theta_i.0.clone(),
-        theta_r: task.theta_r.0.clone(),
-        dphi: task.dphi,
-        columns: task.columns.into(),
         noise: task.noise,
         brdf_noise: task.brdf_noise,
         seed: task.seed,
+        ..simulation(&task.surface, &task.angles, task.columns)?
     };
     let mut measurement = simulation.run().map_err(|error| Failure::usage(format!("{error}.")))?;
     let command = command_without_output(std::env::args().skip(1));
     measurement.metadata.insert(1, ("command".to_owned(), command));
     output::write(Some(&task.output), |out| write(&measurement, out))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// A simulation without noise.
+pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Result<Simulation, Failure> {
+    let mut parameters = Parameters::default();
+    for &(parameter, value) in &surface.set {
+        parameters[parameter] = value;
+    }
+    Ok(Simulation {
+        surface: Pbrdf::new(surface.model.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
+        theta_i: angles.theta_i.0.clone(),
+        theta_r: angles.theta_r.0.clone(),
+        dphi: angles.dphi,
+        columns: columns.into(),
+        noise: 0.0,
+        brdf_noise: 0.0,
+        seed: 0,
+    })
 }
 
 /// The command as it was given, but for where the result went, so that the same command gives the same bytes anywhere.

@@ -40,6 +40,11 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
     number(text).and_then(|number| if number >= 0.0 { Ok(number) } else { Err(format!("{text} is negative; expected 0 or more")) })
 }
 
+/// A finite number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text).and_then(|number| if number > 0.0 { Ok(number) } else { Err(format!("{text} is not above 0")) })
+}
+
 /// A whole number from 1 to a million.
 pub fn count(text: &str) -> Result<usize, String> {
     text.trim()

@@ -3,17 +3,21 @@
 //! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitReport`]: a value with parameters, standard errors, what
 //! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Watch`]).
 
+mod bootstrap;
 mod bounds;
 mod coordinates;
 mod outcome;
 mod problem;
+mod profile;
 mod solver;
 mod starts;
 mod uncertainty;
 
+pub use bootstrap::{Scatter, bootstrap};
 pub use bounds::{Bounds, BoundsError};
 pub use outcome::{Edge, Estimate, FitReport, Minimum, fit};
 pub use problem::{BrdfResiduals, Choices, Eq17, Loss, Problem, ProblemError, Weights, free_by_default};
+pub use profile::{Profile, ProfilePoint, profile};
 pub use solver::{Descent, Effort, StopReason, TracePoint, Watch, descend};
 pub use starts::{Found, Search, Starts, search};
 pub use uncertainty::{OpenDirection, RANK_THRESHOLD, Uncertainty};

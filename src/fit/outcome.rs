@@ -1,6 +1,6 @@
 //! The result of a fit: values, uncertainties, what is open, and how it came about.
 
-use super::problem::{Problem, Weights};
+use super::problem::{Loss, Problem, Weights};
 use super::solver::{Descent, StopReason, TracePoint, Watch};
 use super::starts::{Search, Starts, search};
 use super::uncertainty::{OpenDirection, Uncertainty};
@@ -89,9 +89,17 @@ const AT_BOUND: f64 = 1e-9;
 /// Fits from one start or many and says what came out.
 #[must_use]
 pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> FitReport {
-    let search = search(problem, starts, seed, watch);
-    let elapsed_ms = (watch.clock)();
-    FitReport::new(problem, search, elapsed_ms)
+    let choices = problem.choices();
+    if choices.loss == Loss::Linear || choices.loss_scale.is_some() {
+        let found = search(problem, starts, seed, watch);
+        return FitReport::new(problem, found, (watch.clock)());
+    }
+    let linear = search(&problem.with_linear_loss(), starts, seed, watch);
+    let scaled = linear.found.first().map(|best| problem.with_loss_scale_of(&best.descent.parameters).with_start(best.descent.parameters));
+    let robust = scaled.unwrap_or_else(|| problem.clone());
+    let mut found = search(&robust, starts, seed, watch);
+    found.evaluations += linear.evaluations;
+    FitReport::new(&robust.with_start(*problem.start()), found, (watch.clock)())
 }
 
 impl FitReport {

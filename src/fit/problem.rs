@@ -48,6 +48,27 @@ pub enum Loss {
     SoftL1,
 }
 
+/// Huber's constant: 95 % efficient where the noise is Gaussian.
+const HUBER_EFFICIENCY: f64 = 1.345;
+/// Median absolute deviation of the standard normal distribution.
+const NORMAL_MAD: f64 = 0.674_489_750_196_081_7;
+
+/// Median of the distances from the median; 0 without values.
+fn median_absolute_deviation(mut values: Vec<f64>) -> f64 {
+    let middle = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        let half = values.len() / 2;
+        match values.len() {
+            0 => 0.0,
+            n if n % 2 == 1 => values[half],
+            _ => f64::midpoint(values[half - 1], values[half]),
+        }
+    };
+    let center = middle(&mut values);
+    let mut distances: Vec<f64> = values.into_iter().map(|value| (value - center).abs()).collect();
+    middle(&mut distances)
+}
+
 /// Which reading of Eq. (17) predicts DoLP.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Eq17 {
@@ -67,8 +88,8 @@ pub struct Choices {
     pub brdf_residuals: BrdfResiduals,
     /// How a residual counts.
     pub loss: Loss,
-    /// Scale of the loss in units of the unweighted residual; without, 1.345 × the normalised median absolute
-    /// deviation of the residuals of the start.
+    /// Scale of the loss, in units of X − Xm (or of what else the residual is before Eq. (18) scales it; in standard deviations
+    /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with linear loss.
     pub loss_scale: Option<f64>,
     /// Which reading of Eq. (17).
     pub eq17: Eq17,
@@ -111,6 +132,13 @@ enum Kind {
     LogBrdf,
 }
 
+impl Kind {
+    /// 0 for DoLP, 1 for BRDF.
+    fn block(self) -> usize {
+        usize::from(self != Self::Dolp)
+    }
+}
+
 /// One residual.
 #[derive(Debug, Clone, Copy)]
 struct Datum {
@@ -136,7 +164,8 @@ pub struct Problem {
     wanted: Wanted,
     /// Σ Xm² of DoLP and of BRDF, where there are any.
     sums: [Option<f64>; 2],
-    loss_scale: f64,
+    /// Where the loss changes from squares to sizes, for DoLP and BRDF, in units of the scaled residual.
+    loss_scales: [f64; 2],
     left_out: usize,
 }
 
@@ -171,7 +200,7 @@ impl Problem {
             data: Vec::new(),
             wanted: Wanted { by: free, brdf: false, dolp: false },
             sums: [None; 2],
-            loss_scale: 1.0,
+            loss_scales: [1.0; 2],
             left_out: 0,
         };
         for (point, (row, values)) in rows().enumerate() {
@@ -185,7 +214,6 @@ impl Problem {
         problem.normalise();
         problem.wanted.dolp = problem.data.iter().any(|datum| datum.kind == Kind::Dolp);
         problem.wanted.brdf = problem.data.iter().any(|datum| datum.kind != Kind::Dolp);
-        problem.loss_scale = problem.choose_loss_scale();
         Ok(problem)
     }
 
@@ -216,36 +244,44 @@ impl Problem {
 
     /// Divides the residuals of each quantity by the root of what makes the sum of squares ΔE, Eq. (18).
     fn normalise(&mut self) {
+        self.loss_scales = [self.choices.loss_scale.unwrap_or(1.0); 2];
         if self.choices.weights == Weights::Sigma {
             return;
         }
-        for dolp in [true, false] {
-            let block = || self.data.iter().filter(|datum| (datum.kind == Kind::Dolp) == dolp);
+        for index in [0, 1] {
+            let block = || self.data.iter().filter(|datum| datum.kind.block() == index);
             #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
             let count = block().count() as f64;
-            let whole = if dolp || self.choices.brdf_residuals == BrdfResiduals::Absolute {
+            let whole = if index == 0 || self.choices.brdf_residuals == BrdfResiduals::Absolute {
                 block().map(|datum| datum.measured * datum.measured).sum()
             } else {
                 count
             };
             if whole > 0.0 {
                 let scale = 1.0 / whole.sqrt();
-                self.data.iter_mut().filter(|datum| (datum.kind == Kind::Dolp) == dolp).for_each(|datum| datum.weight *= scale);
+                self.data.iter_mut().filter(|datum| datum.kind.block() == index).for_each(|datum| datum.weight *= scale);
+                self.loss_scales[index] *= scale;
             }
         }
     }
 
-    fn choose_loss_scale(&self) -> f64 {
-        if self.choices.loss == Loss::Linear || self.data.is_empty() {
-            return 1.0;
-        }
-        let unit = self.data.iter().map(|datum| datum.weight).sum::<f64>();
-        #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-        let mean_weight = unit / self.data.len() as f64;
-        match self.choices.loss_scale {
-            Some(scale) => scale * mean_weight,
-            None => 1.0,
-        }
+    /// The same problem with every residual counted by its square.
+    #[must_use]
+    pub fn with_linear_loss(&self) -> Self {
+        Self { choices: Choices { loss: Loss::Linear, ..self.choices }, ..self.clone() }
+    }
+
+    /// The same problem with the scale of its loss taken from the residuals at those parameters, for each quantity by itself:
+    /// 1.345 × their median absolute deviation over 0.6745 (Huber's 95 % efficiency for Gaussian noise).
+    #[must_use]
+    pub fn with_loss_scale_of(&self, parameters: &Parameters) -> Self {
+        let mut residuals = DVector::zeros(self.len());
+        self.with_linear_loss().residuals(parameters, &mut residuals);
+        let scale = |block: usize| {
+            let of_block = residuals.iter().zip(&self.data).filter(|(_, datum)| datum.kind.block() == block);
+            HUBER_EFFICIENCY * median_absolute_deviation(of_block.map(|(residual, _)| *residual).collect()) / NORMAL_MAD
+        };
+        Self { loss_scales: [scale(0), scale(1)], ..self.clone() }
     }
 
     /// Which terms there are.
@@ -312,6 +348,26 @@ impl Problem {
         }
     }
 
+    /// The same problem with other data: the values at its start plus residuals drawn from its own, within each quantity, by
+    /// `pick` (an index below its argument), times a factor.
+    #[must_use]
+    pub fn resampled(&self, widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self {
+        let mut residuals = DVector::zeros(self.len());
+        let linear = self.with_linear_loss();
+        linear.residuals(&self.start, &mut residuals);
+        let mut other = self.clone();
+        for block in [0, 1] {
+            let members: Vec<usize> = (0..self.len()).filter(|&i| self.data[i].kind.block() == block).collect();
+            for &i in &members {
+                let drawn = residuals[members[pick(members.len())]];
+                let datum = &mut other.data[i];
+                // The residual of the datum becomes −widen · drawn at the start.
+                datum.measured += (residuals[i] + widen * drawn) / datum.weight;
+            }
+        }
+        other
+    }
+
     /// Writes the residuals; false where the parameters are no surface or a residual is not finite.
     pub fn residuals(&self, parameters: &Parameters, out: &mut DVector<f64>) -> bool {
         let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
@@ -325,7 +381,7 @@ impl Problem {
                 reflection =
                     if self.wanted.brdf { surface.reflection(facet) } else { Reflection { dolp: surface.dolp(facet), ..reflection } };
             }
-            *slot = self.loss(self.residual(datum, &reflection, parameters.ks)).0;
+            *slot = self.loss(datum, self.residual(datum, &reflection, parameters.ks)).0;
             finite &= slot.is_finite();
         }
         finite
@@ -342,7 +398,7 @@ impl Problem {
                 point = datum.point;
                 at = surface.reflection_and_gradient(&self.scene.facets()[point], self.wanted);
             }
-            let slope = self.loss(self.residual(datum, &at.0, parameters.ks)).1;
+            let slope = self.loss(datum, self.residual(datum, &at.0, parameters.ks)).1;
             for (j, &parameter) in self.free.iter().enumerate() {
                 let derivative = slope * datum.weight * self.derivative(datum.kind, parameter, &at, parameters.ks);
                 out[(i, j)] = derivative;
@@ -381,11 +437,12 @@ impl Problem {
     }
 
     /// A residual as the loss counts it, and the slope of that.
-    fn loss(&self, residual: f64) -> (f64, f64) {
-        if self.choices.loss == Loss::Linear {
+    fn loss(&self, datum: &Datum, residual: f64) -> (f64, f64) {
+        let scale = self.loss_scales[datum.kind.block()];
+        if self.choices.loss == Loss::Linear || scale <= 0.0 {
             return (residual, 1.0);
         }
-        let r = residual / self.loss_scale;
+        let r = residual / scale;
         let z = r * r;
         let (rho, slope) = match self.choices.loss {
             Loss::Linear => (z, 1.0),
@@ -395,7 +452,7 @@ impl Problem {
             Loss::SoftL1 => (2.0 * z / (1.0 + (1.0 + z).sqrt()), 1.0 / (1.0 + z).sqrt()),
         };
         let root = rho.sqrt();
-        if root > 0.0 { (self.loss_scale * root.copysign(r), slope * r.abs() / root) } else { (residual, 1.0) }
+        if root > 0.0 { (scale * root.copysign(r), slope * r.abs() / root) } else { (residual, 1.0) }
     }
 
     /// ΔE of Eq. (18), given the sum of squared residuals: the same number wherever that is what is minimised.

@@ -83,7 +83,7 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
     }
     let mut candidates = Candidates::new(problem, seed);
     if most > ALL_THE_WAY {
-        search.follow_the_best(problem, candidates.take(most), watch);
+        search.follow_the_best(problem, &candidates.take(most), watch);
         search.finish(problem, watch);
         return search;
     }
@@ -158,8 +158,8 @@ impl Search {
     }
 
     /// A few steps from every start, then the best distinct ones to the end.
-    fn follow_the_best(&mut self, problem: &Problem, starts: Vec<Parameters>, watch: Watch<'_>) {
-        let mut short = run_all(problem, &starts, Effort::Few, watch);
+    fn follow_the_best(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) {
+        let mut short = run_all(problem, starts, Effort::Few, watch);
         self.evaluations += short.iter().map(|descent| descent.evaluations).sum::<usize>();
         short.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
         short.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);

@@ -1,0 +1,108 @@
+//! `compare`: the ladder of models on one measurement, from the same starts.
+
+use super::arguments::Compare;
+use super::failure::Failure;
+use super::problem::{NoProblem, Strictness, problem, starts};
+use super::watched::Watched;
+use super::{input, interrupt, output};
+use pbrdf::fit::{FitReport, ProblemError, fit};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{PRESETS, Parameter, Preset};
+use pbrdf::report::fit_json;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// A model with its fit, or why there is none.
+type Rung = (&'static Preset, Result<FitReport, String>);
+
+pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
+    interrupt::watch();
+    let bytes = input::bytes(&task.input)?;
+    let measurement = input::measurement(&task.input, &bytes)?;
+    let presets: Vec<&'static Preset> = if task.models.is_empty() { PRESETS.iter().collect() } else { task.models.clone() };
+    let mut rungs: Vec<Rung> = Vec::new();
+    for preset in presets {
+        if interrupt::asked() {
+            break;
+        }
+        let result = match problem(preset, &task.options, &measurement, Strictness::Lenient) {
+            Ok(problem) => {
+                let watched = Watched::new(preset.key);
+                let closures = watched.watch();
+                Ok(fit(&problem, starts(&task.options), task.options.seed, closures.as_watch()))
+            }
+            Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
+            Err(other) => return Err(other.about(&task.input)),
+        };
+        rungs.push((preset, result));
+    }
+    if task.json {
+        let fits: Vec<Value> = rungs
+            .iter()
+            .map(|(preset, result)| match result {
+                Ok(report) => fit_json(preset, report),
+                Err(reason) => json!({ "model": preset.key, "skipped": reason }),
+            })
+            .collect();
+        output::write_json(&json!({ "fits": fits }))?;
+    } else {
+        output::write(None, |out| print(out, &measurement, &rungs))?;
+    }
+    Ok(output::exit_code())
+}
+
+/// Two tables: how good each model is, and what it says of each parameter, beside the truth of a simulation.
+fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::Result<()> {
+    writeln!(
+        out,
+        "{:<16} {:>12} {:>12} {:>10} {:>5} {:>11} {:>10}  stop",
+        "model", "ΔE", "χ²/dof", "AICc", "dof", "evaluations", "time/ms"
+    )?;
+    for (preset, result) in rungs {
+        match result {
+            Err(reason) => writeln!(out, "{:<16} skipped: {reason}", preset.key)?,
+            Ok(report) => {
+                let number = |value: Option<f64>, digits: usize| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"));
+                #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
+                let reduced = report.chi2.map(|chi2| chi2 / report.dof as f64);
+                writeln!(
+                    out,
+                    "{:<16} {:>12} {:>12} {:>10} {:>5} {:>11} {:>10.1}  {}",
+                    preset.key,
+                    report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")),
+                    number(reduced, 4),
+                    number(report.aicc, 1),
+                    report.dof,
+                    report.evaluations,
+                    report.elapsed_ms,
+                    report.stop_reason.text()
+                )?;
+            }
+        }
+    }
+    let fitted: Vec<(&str, &FitReport)> = rungs.iter().filter_map(|(preset, result)| Some((preset.key, result.as_ref().ok()?))).collect();
+    let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
+    write!(out, "\n{:<9}", "")?;
+    for (key, _) in &fitted {
+        write!(out, " {key:>22}")?;
+    }
+    writeln!(out, " {:>10}", if measurement.metadata("simulated") == Some("true") { "truth" } else { "" })?;
+    for parameter in Parameter::ALL {
+        write!(out, "{:<9}", parameter.key())?;
+        for (_, report) in &fitted {
+            let cell = report.estimates.iter().find(|estimate| estimate.parameter == parameter).map_or_else(
+                || "-".to_owned(),
+                |estimate| match (estimate.free, estimate.std_error, estimate.at_bound) {
+                    (false, ..) => format!("{:.5} fixed", estimate.value),
+                    (true, _, Some(_)) => format!("{:.5} at bound", estimate.value),
+                    (true, Some(error), None) => format!("{:.5} ± {error:.1e}", estimate.value),
+                    (true, None, None) => format!("{:.5} open", estimate.value),
+                },
+            );
+            write!(out, " {cell:>22}")?;
+        }
+        writeln!(out, " {:>10}", truth(parameter).unwrap_or(""))?;
+    }
+    Ok(())
+}

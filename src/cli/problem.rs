@@ -1,0 +1,98 @@
+//! The problem that the options of `fit` and `compare` describe.
+
+use super::arguments::FitOptions;
+use super::failure::Failure;
+use super::output;
+use pbrdf::fit::{Bounds, Choices, Problem, ProblemError, Starts, free_by_default};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Parameter, ParameterSet, Parameters, Preset};
+use std::path::Path;
+
+/// What to do with options about parameters that a model does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strictness {
+    /// Refuse them.
+    Strict,
+    /// Pass over them: another model may have them.
+    Lenient,
+}
+
+/// Why there is no problem.
+pub enum NoProblem {
+    /// The options are wrong.
+    Usage(String),
+    /// The data do not fit the options.
+    Data(ProblemError),
+}
+
+impl NoProblem {
+    /// As the failure of a command on that file.
+    pub fn about(self, path: &Path) -> Failure {
+        match self {
+            Self::Usage(reason) => Failure::usage(format!("{reason}.")),
+            Self::Data(error @ ProblemError::StartOutsideBounds { .. }) => Failure::usage(format!("{error}.")),
+            Self::Data(error) => Failure::input(path, error),
+        }
+    }
+}
+
+/// How many starts are asked for.
+pub fn starts(options: &FitOptions) -> Starts {
+    match options.starts {
+        None => Starts::Automatic,
+        Some(1) => Starts::One,
+        Some(count) => Starts::Exactly(count),
+    }
+}
+
+/// The problem of fitting that preset.
+pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement, strictness: Strictness) -> Result<Problem, NoProblem> {
+    let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
+    let model = preset.model;
+    let choices = Choices {
+        weights: options.weights.into(),
+        brdf_residuals: options.brdf_residuals.into(),
+        loss: options.loss.into(),
+        loss_scale: options.loss_scale,
+        eq17: options.eq17.into(),
+        dolp_only: preset.dolp_only,
+    };
+    let used = |parameter: Parameter| -> Result<bool, NoProblem> {
+        match (model.parameters().contains(parameter), strictness) {
+            (true, _) => Ok(true),
+            (false, Strictness::Lenient) => Ok(false),
+            (false, Strictness::Strict) => Err(NoProblem::Usage(format!("the model {} has no parameter {}", preset.key, parameter.key()))),
+        }
+    };
+    let mut bounds = Bounds::default();
+    for &(parameter, low, high) in &options.bounds {
+        bounds.set(parameter, low, high).map_err(|error| usage(&error))?;
+    }
+    let mut start = Parameters::default();
+    let mut given = ParameterSet::EMPTY;
+    let fixed_values = options.fix.iter().filter_map(|&(parameter, value)| Some((parameter, value?)));
+    for (parameter, value) in options.start.iter().copied().chain(fixed_values) {
+        start[parameter] = value;
+        given = given.with(parameter);
+    }
+    let mut free = free_by_default(model, measurement, &choices);
+    for &(parameter, _) in &options.fix {
+        if used(parameter)? {
+            free = free.without(parameter);
+        }
+    }
+    for &parameter in &options.free {
+        if used(parameter)? {
+            free = free.with(parameter);
+        }
+    }
+    for parameter in free {
+        if !given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {
+            // A default that the given bounds exclude is nobody's wish.
+            start[parameter] = bounds.at(parameter, 0.5);
+            output::notice(format_args!("{} starts at {}, in the middle of its bounds.", parameter.key(), start[parameter]));
+        }
+    }
+    start.validate(model.parameters()).map_err(|error| usage(&error))?;
+    Problem::new(measurement, model, start, free, bounds, choices).map_err(NoProblem::Data)
+}

@@ -1,0 +1,45 @@
+//! A fit that is watched from the terminal: clock, Ctrl-C, progress.
+
+use super::interrupt;
+use super::output::Progress;
+use pbrdf::fit::{TracePoint, Watch};
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// What a fit is told and tells.
+pub struct Watched {
+    begun: Instant,
+    progress: Mutex<Progress>,
+}
+
+/// Its closures, which a [`Watch`] borrows.
+pub struct Closures<'a> {
+    clock: Box<dyn Fn() -> f64 + Sync + 'a>,
+    progress: Box<dyn Fn(TracePoint) + Sync + 'a>,
+}
+
+impl Watched {
+    /// Begins to watch.
+    pub fn new(what: &'static str) -> Self {
+        Self { begun: Instant::now(), progress: Mutex::new(Progress::new(what)) }
+    }
+
+    /// The closures.
+    pub fn watch(&self) -> Closures<'_> {
+        Closures {
+            clock: Box::new(|| self.begun.elapsed().as_secs_f64() * 1e3),
+            progress: Box::new(|point| {
+                if let Ok(mut progress) = self.progress.lock() {
+                    progress.tell(|| format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective));
+                }
+            }),
+        }
+    }
+}
+
+impl Closures<'_> {
+    /// As the core takes them.
+    pub fn as_watch(&self) -> Watch<'_> {
+        Watch { clock: &*self.clock, cancelled: &interrupt::asked, progress: &*self.progress }
+    }
+}
