@@ -47,7 +47,13 @@ fn the_truth_lies_within_the_standard_errors_as_often_as_it_should() {
         for parameter in free_of(model) {
             let j = parameter as usize;
             let share = |k: usize| 100.0 * f64::from(within[j][k]) / f64::from(determined[j]);
-            println!("{distribution:?} {:<8} within 1σ {:.1} %, within 2σ {:.1} % of {}", parameter.key(), share(0), share(1), determined[j]);
+            println!(
+                "{distribution:?} {:<8} within 1σ {:.1} %, within 2σ {:.1} % of {}",
+                parameter.key(),
+                share(0),
+                share(1),
+                determined[j]
+            );
             assert!((64.0..=72.0).contains(&share(0)) && (93.0..=97.5).contains(&share(1)), "{distribution:?} {parameter:?}");
         }
     }

@@ -44,3 +44,14 @@ fn dolp_of_the_mueller_matrix_is_the_short_form_of_dolp() {
         }
     }
 }
+
+#[test]
+fn the_frames_turn_by_dphi_up_to_normal_incidence() {
+    for dphi in [0.0, 30.0, 117.0, 180.0, 250.0] {
+        let surface = Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters::default()).expect("a valid surface");
+        let at = |theta: f64| surface.mueller(Geometry::new(theta, theta, dphi).expect("a geometry"));
+        let (normal, near) = (at(0.0), at(1e-7));
+        // sin² of 1e-7 degrees is 3e-18.
+        assert!((normal.0 - near.0).amax() <= ROUNDING * normal.element(0, 0), "dphi {dphi}: {} {}", normal.0, near.0);
+    }
+}

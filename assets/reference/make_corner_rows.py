@@ -118,6 +118,10 @@ def cases():
         "q_near_one": lambda: dict(q=1 + 10 ** rng.uniform(-8, -2)),
         "q_huge": lambda: dict(q=10 ** rng.uniform(1, 4)),
         "brewster": lambda: (lambda n: (lambda t: dict(n=n, k=0.0, ti=t, tr=t, dphi=180))(float(180 * atan(n) / pi)))(rng.uniform(1.1, 4)),
+        "faint_weights_in_the_dark": lambda: dict(sigma=10 ** rng.uniform(-2.2, -1.2), kd=10 ** rng.uniform(-320, -255), kv=0.0),
+        "no_specular_and_no_volume_to_speak_of": lambda: dict(ks=0.0, kd=0.0, sigma_v=10 ** rng.uniform(-4, -2.5), tr=rng.uniform(20, 80)),
+        "volume_absent_and_beyond_f64": lambda: dict(kv=0.0, sigma_v=5e-324, tr=0.0),
+        "glaring_weights": lambda: dict(ks=10 ** rng.uniform(150, 305), kd=10 ** rng.uniform(150, 305), kv=10 ** rng.uniform(150, 305)),
         "index_huge": lambda: dict(n=10 ** rng.uniform(3, 90), k=10 ** rng.uniform(3, 90)),
     }
     for name, corner in corners.items():

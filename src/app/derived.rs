@@ -83,11 +83,15 @@ pub struct Derived {
     pub series: Vec<Curves>,
     /// Model at the sliders' own θi and Δφ, unless a series is there already.
     pub own: Curves,
+    /// DoLP of the model less the measured one, of each series; masked points left out.
+    pub residuals: Vec<Vec<PlotPoint>>,
     /// The series that has the sliders' own θi and Δφ.
     pub own_is_series: Option<usize>,
     pub x: Option<Range>,
     pub dolp_range: Option<Range>,
     pub brdf_range: Option<Range>,
+    /// None where no DoLP was measured.
+    pub residual_range: Option<Range>,
     /// ΔE of the sliders.
     pub delta_e: Option<f64>,
     /// Series and points that are not drawn.
@@ -123,6 +127,7 @@ impl Derived {
         if self.curve_key.as_ref() != Some(&key) {
             self.refresh_curves(settings, document, key.backscatter);
             self.refresh_delta_e(settings, document);
+            self.refresh_residuals(settings, document);
             self.curve_key = Some(key);
             self.refresh_ranges(settings, dragging && !marks_changed);
         } else if !dragging {
@@ -181,6 +186,22 @@ impl Derived {
             self.problem = problem(&document.measurement, settings.model, settings.parameters, ParameterSet::EMPTY);
         }
         self.delta_e = self.problem.as_ref().and_then(|problem| problem.delta_e(&settings.parameters));
+    }
+
+    fn refresh_residuals(&mut self, settings: &Settings, document: &Document) {
+        self.residuals.clear();
+        let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return };
+        for series in drawn(document) {
+            let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
+            let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
+            let residual = |mark: &Mark| {
+                let facet = Facet::new(series.geometry(mark.theta_r)?);
+                Some(PlotPoint::new(mark.theta_r, surface.dolp(&facet) - mark.quantity.value))
+            };
+            self.residuals.push(used.filter_map(residual).collect());
+        }
+        let largest = self.residuals.iter().flatten().map(|point| point.y.abs()).fold(0.0, f64::max);
+        self.residual_range = (largest > 0.0).then(|| Range { low: -round_up(largest), high: round_up(largest) });
     }
 
     fn refresh_ranges(&mut self, settings: &Settings, only_grow: bool) {

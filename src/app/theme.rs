@@ -46,6 +46,13 @@ pub fn muted(dark: bool) -> Color32 {
     pick(dark, (150, 150, 150), (110, 110, 110))
 }
 
+/// A correlation from −1 (orange) over 0 (background) to 1 (blue).
+pub fn correlation(r: f64, dark: bool) -> Color32 {
+    #[expect(clippy::cast_possible_truncation, reason = "a strength from 0 to 1")]
+    let strength = r.abs().min(1.0) as f32;
+    series(if r < 0.0 { 1 } else { 0 }, dark).gamma_multiply(0.55 * strength)
+}
+
 /// What wants attention.
 pub fn warning(dark: bool) -> Color32 {
     pick(dark, (160, 60, 0), (255, 170, 80))

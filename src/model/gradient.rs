@@ -64,15 +64,15 @@ impl Pbrdf {
     pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
         let p = self.parameters();
         let lobes = self.lobes(facet);
-        let (diffuse, volume) = (lobes.diffuse.scaled(p.kd), lobes.volume.scaled(p.kv));
-        let mut reflection = Reflection { diffuse: diffuse.value(), volume: volume.value(), ..Reflection::default() };
+        let mut reflection =
+            Reflection { diffuse: lobes.diffuse.weighted(p.kd), volume: lobes.volume.weighted(p.kv), ..Reflection::default() };
         let mut gradient = Gradient::default();
         if self.model().specular {
             let fresnel = Fresnel::new(self.index(), facet);
             let mean = fresnel.mean();
             let depolarised = self.depolarised_over_specular(&lobes);
             let share = self.specular_share(mean, depolarised);
-            reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
+            reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
             reflection.dolp = fresnel.dolp() * share;
             let by_index = if wanted.by.contains(Parameter::N) || wanted.by.contains(Parameter::K) {
                 fresnel.gradient()
@@ -113,12 +113,12 @@ impl Pbrdf {
         let p = self.parameters();
         let distribution = self.model().distribution;
         let unit = lobes.specular.value();
-        let weighted = lobes.specular.scaled(p.ks).value();
+        let weighted = lobes.specular.weighted(p.ks);
         out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
         out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
         out[Parameter::Sigma as usize] = fading(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         out[Parameter::Ks as usize] = unit * mean;
-        let per_height = lobes.specular.scaled(p.ks * mean / distribution.height(p.q)).value();
+        let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
         out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.w, p.q));
     }
 
@@ -139,40 +139,26 @@ impl Pbrdf {
         let &Mixture { limit, share, rest, total } = mixture;
         let distribution = self.model().distribution;
         // ∂r/∂R and ∂r/∂k_s, without r/R or r/k_s, which are 0/0 in the dark.
-        let by_mean = fading(rest, self.raised(p.ks) / total);
-        let by_ks = fading(rest, self.raised(mean / total));
+        let by_mean = fading(rest * self.raised(p.ks), 1.0 / total);
         for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
             out[parameter as usize] = fading(share, by_index.dolp[j]) + fading(limit * by_mean, by_index.mean[j]);
         }
-        out[Parameter::Ks as usize] = limit * by_ks;
+        out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
         let both = limit * (share * rest);
         out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
 
-        let (kd_part, by_kd) = self.part(lobes.diffuse, p.kd, lobes.specular, total);
-        let (kv_part, by_kv) = self.part(lobes.volume, p.kv, lobes.specular, total);
-        let down = -limit * share;
-        out[Parameter::Kd as usize] = fading(down, by_kd);
-        out[Parameter::Kv as usize] = fading(down, by_kv);
+        // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
+        let gain = fading(-limit * share, 1.0 / total);
+        let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gain);
+        out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0);
+        out[Parameter::Kv as usize] = darken(lobes.volume, 1.0);
         if self.model().diffuse == Diffuse::Minnaert {
-            out[Parameter::C as usize] = down * kd_part * facet.ln_cosines;
+            out[Parameter::C as usize] = darken(lobes.diffuse, p.kd) * facet.ln_cosines;
         }
         if self.model().volume {
-            out[Parameter::SigmaV as usize] = fading(down * kv_part, volume_slope(lobes.volume, p.sigma_v));
+            out[Parameter::SigmaV as usize] = fading(darken(lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
         }
-    }
-
-    /// A depolarising term's share of the radiance, and that share per unit of its weight.
-    fn part(&self, lobe: Lobe, weight: f64, specular: Lobe, total: f64) -> (f64, f64) {
-        if lobe.factor == 0.0 {
-            return (0.0, 0.0);
-        }
-        if weight == 0.0 {
-            return (0.0, self.raised(lobe.over(specular) / total));
-        }
-        let over = lobe.scaled(self.raised(weight)).over(specular);
-        let share = if over.is_finite() { over / total } else { 1.0 };
-        (share, share / weight)
     }
 }
 

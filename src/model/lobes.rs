@@ -34,13 +34,26 @@ impl Lobe {
     /// This lobe divided by another one.
     #[must_use]
     pub fn over(self, other: Self) -> f64 {
-        times_exp(self.factor / other.factor, other.exponent - self.exponent)
+        self.over_times(other, 1.0)
     }
 
-    /// With another weight.
+    /// This lobe divided by another one, times a gain: right also where the ratio alone leaves the range of f64.
+    #[must_use]
+    pub fn over_times(self, other: Self, gain: f64) -> f64 {
+        if gain == 0.0 { 0.0 } else { times_exp(gain * (self.factor / other.factor), other.exponent - self.exponent) }
+    }
+
+    /// With another weight; a weight of 0 puts out even an infinite lobe.
     #[must_use]
     pub fn scaled(self, weight: f64) -> Self {
-        Self { factor: weight * self.factor, ..self }
+        if weight == 0.0 { Self::DARK } else { Self { factor: weight * self.factor, ..self } }
+    }
+
+    /// The value of the lobe with that weight, also where weight times factor alone leaves the range of f64.
+    #[must_use]
+    pub fn weighted(self, weight: f64) -> f64 {
+        let scaled = self.scaled(weight);
+        if scaled.factor.is_finite() { scaled.value() } else { weight * self.value() }
     }
 }
 

@@ -103,10 +103,26 @@ pub struct Pbrdf {
     weight_scale: f64,
 }
 
-/// Below this, k_s loses digits when it is multiplied; DoLP, a ratio, is then formed with all three weights raised.
+/// Weights below this lose digits when they are multiplied, and above [`GLARING`] the products overflow: DoLP, a ratio, is then
+/// formed with all three weights moved by one power of two.
 const FAINT: f64 = 1e-250;
-/// By what they are raised: 2^300.
+const GLARING: f64 = 1e150;
+/// 2^300 and 2^−500.
 const RAISED: f64 = 2.037_035_976_334_486e90;
+const LOWERED: f64 = 3.054_936_363_499_605e-151;
+
+/// By what the weights are multiplied before DoLP is formed.
+fn weight_scale(weights: [f64; 3]) -> f64 {
+    let largest = weights.into_iter().fold(0.0, f64::max);
+    let smallest = weights.into_iter().filter(|&weight| weight > 0.0).fold(f64::INFINITY, f64::min);
+    if largest > GLARING {
+        LOWERED
+    } else if smallest < FAINT {
+        RAISED
+    } else {
+        1.0
+    }
+}
 
 /// The lobes of unit weight under one geometry.
 #[derive(Debug, Clone, Copy)]
@@ -126,7 +142,8 @@ impl Pbrdf {
         // A model without a specular lobe has no index: any serves.
         let vacuum = RefractiveIndex::new(1.0, 0.0);
         let index = index.or(vacuum).map_err(|_| ParameterError::NoIndex)?;
-        let weight_scale = if parameters.ks > 0.0 && parameters.ks < FAINT { RAISED } else { 1.0 };
+        let used = |parameter| if model.parameters().contains(parameter) { parameters[parameter] } else { 0.0 };
+        let weight_scale = weight_scale([Parameter::Ks, Parameter::Kd, Parameter::Kv].map(used));
         Ok(Self { model, parameters, index, weight_scale })
     }
 
@@ -147,13 +164,12 @@ impl Pbrdf {
     pub fn reflection(&self, facet: &Facet) -> Reflection {
         let p = &self.parameters;
         let lobes = self.lobes(facet);
-        let diffuse = lobes.diffuse.scaled(p.kd);
-        let volume = lobes.volume.scaled(p.kv);
-        let mut reflection = Reflection { diffuse: diffuse.value(), volume: volume.value(), ..Reflection::default() };
+        let mut reflection =
+            Reflection { diffuse: lobes.diffuse.weighted(p.kd), volume: lobes.volume.weighted(p.kv), ..Reflection::default() };
         if self.model.specular {
             let fresnel = Fresnel::new(self.index, facet);
             let mean = fresnel.mean();
-            reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
+            reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
             reflection.dolp = fresnel.dolp() * self.specular_share(mean, self.depolarised_over_specular(&lobes));
         }
         reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
@@ -186,7 +202,7 @@ impl Pbrdf {
         let meridian_from_incidence = Mueller::rotator(geometry.rotation_out().inverse());
         let incidence_from_meridian = Mueller::rotator(geometry.rotation_in());
         let fresnel = Mueller::fresnel(&Fresnel::new(self.index, &facet));
-        let d_g = self.lobes(&facet).specular.scaled(self.parameters.ks).value();
+        let d_g = self.lobes(&facet).specular.weighted(self.parameters.ks);
         meridian_from_incidence * fresnel * incidence_from_meridian * d_g + depolarised
     }
 

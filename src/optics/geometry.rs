@@ -91,7 +91,7 @@ impl Geometry {
     pub fn rotation_in(self) -> Rotation {
         let (sin_i, cos_i) = self.theta_i.sin_cos();
         let (sin_r, cos_r) = self.theta_r.sin_cos();
-        self.rotation(sin_i, cos_i, sin_r, cos_r)
+        self.rotation(sin_i, cos_i, sin_r, cos_r, (1.0, 0.0))
     }
 
     /// Rotation from the meridian plane of the reflected ray into the facet's plane of incidence (η_r):
@@ -100,11 +100,13 @@ impl Geometry {
     pub fn rotation_out(self) -> Rotation {
         let (sin_i, cos_i) = self.theta_i.sin_cos();
         let (sin_r, cos_r) = self.theta_r.sin_cos();
-        self.rotation(sin_r, cos_r, sin_i, cos_i)
+        // At β = 0 the facet has no plane of its own: that of the incident meridian serves.
+        let (sin_dphi, cos_dphi) = self.dphi.sin_cos();
+        self.rotation(sin_r, cos_r, sin_i, cos_i, (-cos_dphi, sin_dphi))
     }
 
     /// The common form: `a` is the ray whose meridian plane is left, `b` the other one.
-    fn rotation(self, sin_a: f64, cos_a: f64, sin_b: f64, cos_b: f64) -> Rotation {
+    fn rotation(self, sin_a: f64, cos_a: f64, sin_b: f64, cos_b: f64, at_normal: (f64, f64)) -> Rotation {
         let (sin_dphi, cos_dphi) = self.dphi.sin_cos();
         let cos = if cos_dphi > 0.0 {
             let half = Degrees(0.5 * self.dphi.0).sin();
@@ -112,7 +114,7 @@ impl Geometry {
         } else {
             sin_a * cos_b - cos_a * sin_b * cos_dphi
         };
-        Rotation::from_direction(cos, sin_b * sin_dphi)
+        Rotation::from_direction((cos, sin_b * sin_dphi), at_normal)
     }
 }
 
@@ -124,11 +126,11 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// By the direction of a vector of any length. Where it has none (θi = θr with Δφ = 0: the facet faces
-    /// both rays and reflects without a preferred plane) no rotation is as right as any.
-    fn from_direction(x: f64, y: f64) -> Self {
+    /// By the direction of a vector of any length, or by `otherwise` where it has none.
+    fn from_direction((x, y): (f64, f64), otherwise: (f64, f64)) -> Self {
         let length = libm::hypot(x, y);
-        if length > 0.0 { Self { cos: x / length, sin: y / length } } else { Self { cos: 1.0, sin: 0.0 } }
+        let (cos, sin) = if length > 0.0 { (x / length, y / length) } else { otherwise };
+        Self { cos, sin }
     }
 
     /// The opposite rotation.

@@ -6,7 +6,7 @@ use crate::app::command::Command;
 use crate::app::theme;
 use crate::app::window::{Explorer, LastFit};
 use egui::{Grid, Ui};
-use pbrdf::fit::{Edge, Estimate, StopReason};
+use pbrdf::fit::{Edge, Estimate, FitReport, StopReason};
 use pbrdf::model::{Parameter, ParameterSet};
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -46,6 +46,9 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         }
     });
 }
+
+/// Minima that are listed at most.
+const MOST_MINIMA: usize = 8;
 
 fn free_text(free: ParameterSet) -> String {
     let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();
@@ -95,6 +98,9 @@ fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
             ui.end_row();
         }
     });
+    ui.add_space(6.0);
+    minima_ui(report, ui);
+    correlations_ui(report, ui);
     if !report.undetermined.is_empty() {
         ui.add_space(6.0);
         ui.strong("The data leave open:");
@@ -102,6 +108,64 @@ fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
             ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
         }
     }
+}
+
+/// Where the starts led: distinct minima, best first.
+fn minima_ui(report: &FitReport, ui: &mut Ui) {
+    let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
+    ui.collapsing(format!("{} minima from {starts} starts", report.minima.len()), |ui| {
+        Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
+            for heading in ["ΔE", "reached", "stop"] {
+                ui.strong(heading);
+            }
+            ui.end_row();
+            for minimum in report.minima.iter().take(MOST_MINIMA) {
+                ui.monospace(format!("{:.5e}", minimum.objective));
+                ui.label(format!("{} ×", minimum.reached));
+                ui.add(egui::Label::new(minimum.stop_reason.text()).truncate());
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// Correlations of the determined parameters as a coloured table: blue where two rise together, orange where one makes up for the other.
+fn correlations_ui(report: &FitReport, ui: &mut Ui) {
+    if report.determined.len() < 2 {
+        return;
+    }
+    ui.collapsing("Correlations", |ui| {
+        let dark = ui.visuals().dark_mode;
+        Grid::new("correlations").spacing([2.0, 2.0]).show(ui, |ui| {
+            ui.label("");
+            for parameter in &report.determined {
+                ui.label(parameter.symbol());
+            }
+            ui.end_row();
+            for (i, parameter) in report.determined.iter().enumerate() {
+                ui.label(parameter.symbol());
+                for (j, other) in report.determined.iter().enumerate() {
+                    let r = report.correlations[(i, j)];
+                    let (rect, response) = ui.allocate_exact_size(egui::vec2(30.0, 20.0), egui::Sense::hover());
+                    ui.painter().rect_filled(rect, 2.0, theme::correlation(r, dark));
+                    ui.painter().text(
+                        rect.center(),
+                        egui::Align2::CENTER_CENTER,
+                        short_correlation(r),
+                        egui::FontId::proportional(11.0),
+                        ui.visuals().text_color(),
+                    );
+                    response.on_hover_text(format!("{} and {}: r = {r:.4}", parameter.symbol(), other.symbol()));
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// Two decimals without the leading zero.
+fn short_correlation(r: f64) -> String {
+    if r.is_nan() { "-".to_owned() } else { format!("{r:.2}").replace("0.", ".") }
 }
 
 fn error_text(estimate: &Estimate) -> String {

@@ -2,7 +2,7 @@
 
 use super::axis::{self, axis, decimal};
 use super::error_bars::ErrorBars;
-use super::{curve, plot};
+use super::{curve, legend, plot};
 use crate::app::derived::Marks;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -16,10 +16,11 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let derived = &*derived;
     let own_name = format!("θi = {}° (slider)", settings.theta_i);
     let dashed = Some(LineStyle::dashed_dense());
-    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal);
+    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "DoLP", decimal);
     let response = plot("dolp", ui, height, x, y)
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
+        .legend(legend())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}", position.x, position.y))

@@ -2,7 +2,7 @@
 
 use super::axis::{self, axis, decimal, power_of_ten};
 use super::dolp::marks_in;
-use super::{curve, plot};
+use super::{curve, legend, plot};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -14,10 +14,11 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let axes = &mut view.lobes;
     let derived = &*derived;
     let log = settings.log_brdf;
-    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal);
+    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "BRDF / (1/sr)", if log { power_of_ten } else { decimal });
     let response = plot("lobes", ui, height, x, y)
         .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
+        .legend(legend())
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };

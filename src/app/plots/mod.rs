@@ -4,6 +4,7 @@ mod axis;
 mod dolp;
 mod error_bars;
 mod lobes;
+mod residuals;
 
 use super::derived::{Pieces, Range};
 use super::theme;
@@ -15,6 +16,7 @@ use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotPoints, Pl
 #[derive(Debug, Default)]
 pub struct View {
     dolp: Axes,
+    residuals: Axes,
     lobes: Axes,
 }
 
@@ -54,36 +56,46 @@ impl Axes {
     }
 }
 
-/// Both plots, one above the other, with their legends beside the axes.
+/// DoLP, what it misses, and the lobes, one above the other.
 pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if let Some(fault) = &explorer.derived.fault {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
     }
-    let half = (0.5 * ui.available_height() - 30.0).max(120.0);
+    let strip = explorer.derived.residual_range.is_some();
+    let room = ui.available_height() - 34.0;
+    let (dolp_share, strip_share) = if strip { (0.42, 0.16) } else { (0.5, 0.0) };
+    let height = |share: f32| (share * room).max(70.0);
     ui.strong("Degree of linear polarisation");
     ui.add_space(2.0);
-    dolp::dolp_ui(explorer, ui, half);
+    dolp::dolp_ui(explorer, ui, height(dolp_share));
+    if strip {
+        residuals::residuals_ui(explorer, ui, height(strip_share) - 4.0);
+    }
     ui.horizontal(|ui| {
         ui.strong(format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.checkbox(&mut explorer.settings.log_brdf, "log");
         });
     });
-    lobes::lobes_ui(explorer, ui, half);
+    lobes::lobes_ui(explorer, ui, height(1.0 - dolp_share - strip_share));
 }
 
-/// What both plots have in common.
+/// What all plots have in common.
 fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints<'a>) -> Plot<'a> {
     Plot::new(name)
         .height(height)
-        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.85))
-        .custom_x_axes(vec![x.min_thickness(40.0)])
+        .custom_x_axes(vec![x])
         .custom_y_axes(vec![y.min_thickness(72.0)])
         .x_grid_spacer(|input| axis::marks(&input, 7.0, 0.0))
         .grid_color(theme::grid(ui.visuals().dark_mode))
         .grid_fade(0.0)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
+}
+
+/// Where the names of curves stand: in the corner that lobes and DoLP seldom reach.
+fn legend() -> Legend {
+    Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.85)
 }
 
 /// A curve in its pieces, under one name.
