@@ -21,6 +21,11 @@ pub enum Command {
     /// The values from before the fit to the sliders.
     Back,
     DismissNotice,
+    Undo,
+    Redo,
+    /// Fit all models of the ladder.
+    CompareModels,
+    CancelComparison,
     SetTheme(Theme),
     Quit,
 }

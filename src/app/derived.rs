@@ -5,7 +5,7 @@
 use super::document::{Document, Mark, Series};
 use super::state::Settings;
 use egui_plot::PlotPoint;
-use pbrdf::fit::{Bounds, Choices, Problem};
+use pbrdf::fit::{Bounds, Choices, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, ParameterSet, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::Facet;
@@ -31,6 +31,13 @@ pub struct Marks {
     pub used: Vec<PlotPoint>,
     pub masked: Vec<PlotPoint>,
     pub bars: Vec<Bar>,
+}
+
+impl Marks {
+    /// Whether anything was measured.
+    pub fn is_there(&self) -> bool {
+        !(self.used.is_empty() && self.masked.is_empty())
+    }
 }
 
 /// What is drawn of one measured θi.
@@ -83,6 +90,9 @@ pub struct Derived {
     pub series: Vec<Curves>,
     /// Model at the sliders' own θi and Δφ, unless a series is there already.
     pub own: Curves,
+    /// DoLP of the last fit along each series, where the sliders have left it.
+    pub ghost: Vec<Pieces>,
+    ghost_key: Option<(Parameters, Model, u64, bool)>,
     /// DoLP of the model less the measured one, of each series; masked points left out.
     pub residuals: Vec<Vec<PlotPoint>>,
     /// The series that has the sliders' own θi and Δφ.
@@ -132,6 +142,20 @@ impl Derived {
             self.refresh_ranges(settings, dragging && !marks_changed);
         } else if !dragging {
             self.refresh_ranges(settings, false);
+        }
+    }
+
+    /// Keeps the curves of the last fit, as long as the sliders are elsewhere.
+    pub fn refresh_ghost(&mut self, settings: &Settings, document: &Document, fitted: Option<(Parameters, Model)>) {
+        let backscatter = settings.show_backscatter || document.has_backscatter();
+        let key = fitted
+            .filter(|(parameters, _)| *parameters != settings.parameters)
+            .map(|(parameters, model)| (parameters, model, document.generation, backscatter));
+        if self.ghost_key != key {
+            let surface = key.and_then(|(parameters, model, ..)| Pbrdf::new(model, parameters).ok());
+            let curves = |surface: Pbrdf| drawn(document).map(|series| Curves::new(&surface, series, backscatter, false).dolp).collect();
+            self.ghost = surface.map_or_else(Vec::new, curves);
+            self.ghost_key = key;
         }
     }
 
@@ -213,7 +237,9 @@ impl Derived {
         let limit = |curves: &Curves| if settings.show_limit { values(&curves.limit) } else { Vec::new() };
         let dolp_top = all().flat_map(|curves| [values(&curves.dolp), limit(curves)]).flatten();
         let dolp_top = dolp_top.chain(self.marks.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high))).fold(0.0, f64::max);
-        let brdf = all().flat_map(|curves| values(&curves.total));
+        // Only what the plot of the lobes shows.
+        let measured = self.series.iter().zip(&self.marks).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
+        let brdf = measured.chain([&self.own]).flat_map(|curves| values(&curves.total));
         let brdf: Vec<f64> = brdf.chain(self.marks.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y))).collect();
         let top = brdf.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let brdf_range = if settings.log_brdf {
@@ -232,13 +258,24 @@ impl Derived {
     }
 }
 
-/// The problem of fitting a measurement from those values; the box makes room for a start outside the sliders' ranges.
+/// The problem of fitting a measurement from those values.
 pub fn problem(measurement: &Measurement, model: Model, start: Parameters, free: ParameterSet) -> Option<Problem> {
+    problem_with(measurement, model, start, free, Choices::default()).ok()
+}
+
+/// The same with choices; the box makes room for a start outside the sliders' ranges.
+pub fn problem_with(
+    measurement: &Measurement,
+    model: Model,
+    start: Parameters,
+    free: ParameterSet,
+    choices: Choices,
+) -> Result<Problem, ProblemError> {
     let mut bounds = Bounds::default();
     for parameter in free {
         bounds.widen_to(parameter, start[parameter]);
     }
-    Problem::new(measurement, model, start, free, bounds, Choices::default()).ok()
+    Problem::new(measurement, model, start, free, bounds, choices)
 }
 
 /// The series that are drawn.

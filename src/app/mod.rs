@@ -7,6 +7,7 @@ mod command;
 mod derived;
 mod document;
 mod frame_times;
+mod history;
 mod panels;
 mod plots;
 mod state;

@@ -43,6 +43,8 @@ pub struct Settings {
     pub show_limit: bool,
     /// Whether the backscatter side is plotted though nothing was measured there.
     pub show_backscatter: bool,
+    /// Whether what is free is fitted again whenever a slider moves.
+    pub refit_live: bool,
     /// Whether the status line tells how long frames take.
     pub show_frame_times: bool,
     pub theme: Theme,
@@ -62,6 +64,7 @@ impl Default for Settings {
             log_brdf: false,
             show_limit: true,
             show_backscatter: false,
+            refit_live: false,
             show_frame_times: false,
             theme: Theme::System,
             window_size: [1280.0, 800.0],

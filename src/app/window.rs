@@ -1,9 +1,10 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
 use super::command::Command;
-use super::derived::{Derived, problem};
+use super::derived::{Derived, problem, problem_with};
 use super::document::{Document, EXAMPLES};
 use super::frame_times::FrameTimes;
+use super::history::History;
 use super::panels;
 use super::plots;
 use super::state::{Settings, Theme};
@@ -11,7 +12,7 @@ use super::worker::{Event, Worker};
 use super::{store, theme};
 use pbrdf::fit::FitReport;
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Parameter, ParameterSet, Parameters};
+use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters, Preset};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -33,6 +34,11 @@ pub struct Explorer {
     pub derived: Derived,
     pub worker: Worker,
     pub last_fit: Option<LastFit>,
+    /// The ladder of models on the open measurement.
+    pub comparison: Vec<(&'static Preset, FitReport)>,
+    pub history: History,
+    /// Where the last refit left the sliders: what differs from it was moved since.
+    refitted: Option<Parameters>,
     pub notice: Option<String>,
     pub view: plots::View,
     /// A path typed by hand, where there is no file dialog.
@@ -59,6 +65,9 @@ impl Explorer {
             derived: Derived::default(),
             worker: Worker::new(ctx),
             last_fit: None,
+            comparison: Vec::new(),
+            history: History::default(),
+            refitted: None,
             notice: None,
             view: plots::View::default(),
             typed_path: String::new(),
@@ -98,7 +107,11 @@ impl Explorer {
             self.settings.dphi = first.plane;
         }
         self.last_fit = None;
+        self.comparison.clear();
         self.view.reset();
+        if let Some(job) = &self.worker.comparison {
+            job.cancel();
+        }
         if let Some(job) = &self.worker.fit {
             job.cancel();
         }
@@ -109,6 +122,7 @@ impl Explorer {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
             self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
         }
+        self.listen_to_keys(ctx);
         while let Some(event) = self.worker.next() {
             self.receive(event);
         }
@@ -118,7 +132,13 @@ impl Explorer {
             }
         }
         let dragging = ctx.input(|input| input.pointer.any_down());
+        self.refit_if_moved();
+        if !dragging && self.worker.refit.is_none() {
+            self.history.rest((self.settings.parameters, self.settings.model));
+        }
         self.derived.refresh(&self.settings, &self.document, dragging);
+        let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model));
+        self.derived.refresh_ghost(&self.settings, &self.document, fitted);
         self.remember_window(ctx);
         self.save_when_rested(ctx);
     }
@@ -131,12 +151,69 @@ impl Explorer {
                 self.take(name, measurement);
             }
             Event::Loaded { result: Err(sentence), .. } => self.say(sentence),
+            Event::Refitted(report) => {
+                // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
+                for parameter in self.free() {
+                    self.settings.parameters[parameter] = report.parameters[parameter];
+                }
+                if self.settings.parameters == report.parameters {
+                    self.refitted = Some(report.parameters);
+                }
+            }
+            Event::Compared(fits) => self.comparison = fits,
             Event::Fitted(report) => {
                 let before = self.settings.parameters;
                 self.settings.parameters = report.parameters;
+                self.refitted = Some(report.parameters);
                 self.last_fit = Some(LastFit { report: *report, before, generation: self.generation });
             }
         }
+    }
+
+    fn listen_to_keys(&mut self, ctx: &egui::Context) {
+        if ctx.egui_wants_keyboard_input() {
+            return;
+        }
+        let redo = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+        let undo = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, egui::Key::Z);
+        let open = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, egui::Key::O);
+        // The longer shortcut first: the shorter one is part of it.
+        for (shortcut, command) in [(redo, Command::Redo), (undo, Command::Undo), (open, Command::ChooseMeasurement)] {
+            if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
+                self.commands.push(command);
+            }
+        }
+    }
+
+    /// Fits what is free again after a slider was moved, one fit at a time.
+    fn refit_if_moved(&mut self) {
+        let parameters = self.settings.parameters;
+        if !self.settings.refit_live || self.worker.refit.is_some() || self.worker.fit.is_some() || self.refitted == Some(parameters) {
+            return;
+        }
+        self.refitted = Some(parameters);
+        if parameters.validate(self.settings.model.parameters()).is_err() || self.free().is_empty() {
+            return;
+        }
+        if let Some(problem) = problem(&self.document.measurement, self.settings.model, parameters, self.free())
+            && let Err(sentence) = self.worker.start_refit(problem)
+        {
+            self.say(sentence);
+        }
+    }
+
+    fn compare_models(&mut self) -> Result<(), String> {
+        let measurement = &self.document.measurement;
+        let start = self.settings.parameters;
+        let problems = PRESETS.iter().filter_map(|preset| {
+            let choices = pbrdf::fit::Choices { dolp_only: preset.dolp_only, ..pbrdf::fit::Choices::default() };
+            let free = pbrdf::fit::free_by_default(preset.model, measurement, &choices);
+            let problem = problem_with(measurement, preset.model, start, free, choices).ok()?;
+            Some((preset, problem))
+        });
+        let problems = problems.collect();
+        self.comparison.clear();
+        self.worker.start_comparison(problems)
     }
 
     fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
@@ -156,6 +233,13 @@ impl Explorer {
             }
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
             Command::DismissNotice => self.notice = None,
+            Command::Undo | Command::Redo => {
+                let step = if command == Command::Undo { self.history.undo() } else { self.history.redo() };
+                (self.settings.parameters, self.settings.model) = step.unwrap_or((self.settings.parameters, self.settings.model));
+                self.refitted = Some(self.settings.parameters);
+            }
+            Command::CompareModels => self.compare_models()?,
+            Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
             Command::SetTheme(theme) => {
                 self.settings.theme = theme;
                 set_theme(ctx, theme);

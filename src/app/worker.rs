@@ -6,6 +6,7 @@
 use crate::open_file::open_file;
 use pbrdf::fit::{FitReport, Problem, Starts, TracePoint, Watch, fit};
 use pbrdf::measurement::{self, Measurement};
+use pbrdf::model::Preset;
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,10 @@ pub enum Event {
         result: Result<Measurement, String>,
     },
     Fitted(Box<FitReport>),
+    /// A fit from the sliders while they move.
+    Refitted(Box<FitReport>),
+    /// The ladder of models.
+    Compared(Vec<(&'static Preset, FitReport)>),
 }
 
 /// A job on its way.
@@ -57,6 +62,8 @@ pub struct Worker {
     jobs: u64,
     pub fit: Option<Job<TracePoint>>,
     pub load: Option<Job<f64>>,
+    pub refit: Option<Job<()>>,
+    pub comparison: Option<Job<&'static str>>,
     dialog: Option<u64>,
 }
 
@@ -82,7 +89,7 @@ impl<P> Teller<P> {
 impl Worker {
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, receiver) = sync_channel(16);
-        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, dialog: None }
+        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, refit: None, comparison: None, dialog: None }
     }
 
     /// Begins a job on a thread of its own name; none if the machine refuses a thread.
@@ -177,12 +184,44 @@ impl Worker {
         Ok(())
     }
 
+    /// Fits from the sliders alone, for a window that follows while they move.
+    pub fn start_refit(&mut self, problem: Problem) -> Result<(), String> {
+        let job = self.spawn("refit", move |_: &Teller<()>, stop| {
+            let watch = Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
+            Event::Refitted(Box::new(fit(&problem, Starts::One, 0, watch)))
+        })?;
+        self.refit = Some(job);
+        Ok(())
+    }
+
+    /// Fits several models, one after the other.
+    pub fn start_comparison(&mut self, problems: Vec<(&'static Preset, Problem)>) -> Result<(), String> {
+        let job = self.spawn("compare models", move |teller: &Teller<&'static str>, stop| {
+            let mut fits = Vec::new();
+            for (preset, problem) in problems {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                teller.tell(preset.name);
+                let begun = Instant::now();
+                let watch =
+                    Watch { clock: &|| begun.elapsed().as_secs_f64() * 1e3, cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
+                fits.push((preset, fit(&problem, Starts::Automatic, 1, watch)));
+            }
+            Event::Compared(fits)
+        })?;
+        self.comparison = Some(job);
+        Ok(())
+    }
+
     /// The next result that still matters.
     pub fn next(&mut self) -> Option<Event> {
         while let Ok((number, event)) = self.receiver.try_recv() {
             let matters = match event {
                 Event::Chosen(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
                 Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
+                Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
+                Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
                 Event::Fitted(_) => self.fit.take_if(|job| job.number == number).is_some(),
             };
             if matters {
@@ -195,7 +234,7 @@ impl Worker {
     /// Whether a job is on its way.
     #[cfg(test)]
     pub fn is_busy(&self) -> bool {
-        self.fit.is_some() || self.load.is_some()
+        self.fit.is_some() || self.load.is_some() || self.refit.is_some() || self.comparison.is_some()
     }
 }
 

@@ -7,11 +7,11 @@ use crate::app::theme;
 use crate::app::window::{Explorer, LastFit};
 use egui::{Grid, Ui};
 use pbrdf::fit::{Edge, Estimate, FitReport, StopReason};
-use pbrdf::model::{Parameter, ParameterSet};
+use pbrdf::model::{Parameter, ParameterSet, Preset};
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let free = explorer.free();
-    let Explorer { worker, commands, derived, last_fit, document, .. } = explorer;
+    let Explorer { worker, commands, derived, last_fit, document, settings, comparison, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -32,6 +32,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         });
         ui.weak(free_text(free));
+        ui.checkbox(&mut settings.refit_live, "keep refitting while I drag")
+            .on_hover_text("Fixed parameters follow their sliders, the others are fitted again at once");
         match worker.fit.as_ref().map(super::super::worker::Job::progress) {
             Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
             Some(None) => ui.label("Fitting…"),
@@ -44,6 +46,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 ui.label("Move the sliders until the curves are near the points, then press Fit.");
             }
         }
+        ui.separator();
+        comparison_ui(comparison, worker.comparison.as_ref().map(|job| job.progress()), commands, ui);
     });
 }
 
@@ -108,6 +112,46 @@ fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
             ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
         }
     }
+}
+
+/// The ladder of models on the open measurement: what each added term buys.
+fn comparison_ui(
+    comparison: &[(&'static Preset, FitReport)],
+    running: Option<Option<&'static str>>,
+    commands: &mut Vec<Command>,
+    ui: &mut Ui,
+) {
+    ui.horizontal(|ui| {
+        if ui
+            .add_enabled(running.is_none(), egui::Button::new("Compare models"))
+            .on_hover_text("Fit the whole ladder of models to this measurement")
+            .clicked()
+        {
+            commands.push(Command::CompareModels);
+        }
+        if running.is_some() && ui.button("Cancel comparison").clicked() {
+            commands.push(Command::CancelComparison);
+        }
+    });
+    if let Some(at) = running {
+        ui.label(format!("Fitting: {}", at.unwrap_or("…")));
+    }
+    if comparison.is_empty() {
+        return;
+    }
+    Grid::new("comparison").num_columns(4).striped(true).show(ui, |ui| {
+        for heading in ["model", "ΔE", "AICc", "n, k"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for (preset, report) in comparison {
+            ui.label(preset.key).on_hover_text(format!("{}\n{}\n{}", preset.name, preset.citation, report.stop_reason.text()));
+            ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
+            ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
+            ui.monospace(format!("{:.3}, {:.3}", report.parameters.n, report.parameters.k));
+            ui.end_row();
+        }
+    });
 }
 
 /// Where the starts led: distinct minima, best first.

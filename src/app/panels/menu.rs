@@ -7,14 +7,14 @@ use crate::app::window::Explorer;
 use std::path::PathBuf;
 
 pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Explorer { settings, commands, typed_path, .. } = explorer;
+    let Explorer { settings, commands, typed_path, history, .. } = explorer;
     let mut push = |ui: &mut egui::Ui, command| {
         commands.push(command);
         ui.close();
     };
     egui::MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| {
-            if ui.button("Open measurement…").clicked() {
+            if ui.add(egui::Button::new("Open measurement…").shortcut_text("Ctrl+O")).clicked() {
                 push(ui, Command::ChooseMeasurement);
             }
             ui.menu_button("Examples", |ui| {
@@ -33,6 +33,14 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             ui.separator();
             if ui.button("Quit").clicked() {
                 push(ui, Command::Quit);
+            }
+        });
+        ui.menu_button("Edit", |ui| {
+            for (name, possible, command) in [("Undo", history.can_undo(), Command::Undo), ("Redo", history.can_redo(), Command::Redo)] {
+                let keys = if command == Command::Undo { "Ctrl+Z" } else { "Ctrl+Shift+Z" };
+                if ui.add_enabled(possible, egui::Button::new(name).shortcut_text(keys)).clicked() {
+                    push(ui, command);
+                }
             }
         });
         ui.menu_button("View", |ui| {

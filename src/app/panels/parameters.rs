@@ -4,13 +4,14 @@ use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, Parameter, Parameters};
+use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
 
 pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { settings, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
+        preset_ui(settings, ui);
         specular_ui(settings, ui);
         diffuse_ui(settings, ui);
         volume_ui(settings, ui);
@@ -20,6 +21,26 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
             settings.parameters = Parameters::default();
         }
     });
+}
+
+/// The named models; whatever the switches below say, if they match none.
+fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
+    let current = Preset::of(settings.model);
+    ui.horizontal(|ui| {
+        let label = ui.label("Model");
+        let combo =
+            egui::ComboBox::from_id_salt("preset").width(288.0).selected_text(current.map_or("as switched below", |preset| preset.name));
+        let response = combo.show_ui(ui, |ui| {
+            for preset in &PRESETS {
+                let chosen = current.is_some_and(|current| current.key == preset.key);
+                if ui.selectable_label(chosen, preset.name).on_hover_text(preset.citation).clicked() {
+                    settings.model = preset.model;
+                }
+            }
+        });
+        response.response.labelled_by(label.id).on_hover_text(current.map_or("a set of terms without a name", |preset| preset.citation));
+    });
+    ui.separator();
 }
 
 fn specular_ui(settings: &mut Settings, ui: &mut Ui) {

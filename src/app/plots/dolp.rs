@@ -37,6 +37,9 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                     curve(plot, &derived.own.limit, "Fresnel limit", theme::foreground(dark), dashed, 1.0);
                 }
             }
+            for (i, pieces) in derived.ghost.iter().enumerate() {
+                curve(plot, pieces, "last fit", theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
+            }
             for (i, (curves, marks)) in derived.series.iter().zip(&derived.marks).enumerate() {
                 let color = theme::series(i, dark);
                 curve(plot, &curves.dolp, &marks.name, color, None, 2.0);

@@ -29,7 +29,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         .show(ui, |plot| {
             axes.apply(plot, derived.x, derived.brdf_range);
             for (i, (curves, marks)) in derived.series.iter().zip(&derived.marks).enumerate() {
-                if !(marks.brdf.used.is_empty() && marks.brdf.masked.is_empty()) {
+                if marks.brdf.is_there() {
                     let color = theme::series(i, dark);
                     curve(plot, &curves.total, &marks.name, color, None, 1.5);
                     marks_in(plot, &marks.brdf, &marks.name, color, dark);

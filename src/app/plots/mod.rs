@@ -62,7 +62,7 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
     }
     let strip = explorer.derived.residual_range.is_some();
-    let room = ui.available_height() - 34.0;
+    let room = ui.available_height() - 48.0;
     let (dolp_share, strip_share) = if strip { (0.42, 0.16) } else { (0.5, 0.0) };
     let height = |share: f32| (share * room).max(70.0);
     ui.strong("Degree of linear polarisation");
