@@ -20,6 +20,7 @@ fn the_truth_lies_within_the_standard_errors_as_often_as_it_should() {
         let mut determined = [0_u32; 9];
         for seed in 0..DATA_SETS {
             let measurement = Simulation {
+                model_name: "test".to_owned(),
                 surface: Pbrdf::new(model, TRUTH).expect("a valid surface"),
                 theta_i: (1..9).map(|i| f64::from(10 * i)).collect(),
                 theta_r: (0..18).map(|i| f64::from(5 * i)).collect(),

@@ -29,7 +29,9 @@ fn simulate(
     noise: f64,
 ) -> Measurement {
     let surface = Pbrdf::new(Model::full(distribution), truth).expect("a valid surface");
-    Simulation { surface, theta_i, theta_r, dphi: 180.0, columns, noise, brdf_noise: noise, seed: 7 }.run().expect("valid angles")
+    Simulation { model_name: "test".to_owned(), surface, theta_i, theta_r, dphi: 180.0, columns, noise, brdf_noise: noise, seed: 7 }
+        .run()
+        .expect("valid angles")
 }
 
 fn problem(measurement: &Measurement, distribution: SlopeDistribution, start: Parameters) -> Problem {

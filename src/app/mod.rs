@@ -30,7 +30,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
     let (settings, notice) = store::load();
-    let mut viewport = egui::ViewportBuilder::default().with_title(TITLE).with_app_id(store::APP).with_min_inner_size([900.0, 560.0]);
+    let mut viewport = egui::ViewportBuilder::default().with_title(TITLE).with_app_id(store::APP).with_min_inner_size([1024.0, 640.0]);
     viewport = viewport.with_inner_size(settings.window_size).with_maximized(settings.maximized);
     let options = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..eframe::NativeOptions::default() };
     let create: eframe::AppCreator<'_> = Box::new(|context| {

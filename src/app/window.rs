@@ -99,7 +99,7 @@ impl Explorer {
         let locked = self.settings.locked;
         self.settings.locked = if measurement.has_brdf() { locked.without(Parameter::Ks) } else { locked.with(Parameter::Ks) };
         if !measurement.ignored_columns.is_empty() {
-            self.say(format!("{name}: ignored the columns {}.", measurement.ignored_columns.join(", ")));
+            self.say(format!("{name}: {}.", measurement.ignored_notice()));
         }
         self.document = Document::new(name, measurement, self.generation);
         if let Some(first) = self.document.series.first() {
@@ -304,7 +304,10 @@ impl Explorer {
         egui::Panel::top("menu").show(ui, |ui| panels::menu_ui(self, ui));
         egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
         egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| panels::parameters_ui(self, ui));
-        egui::Panel::right("fit").default_size(320.0).min_size(300.0).show(ui, |ui| panels::fit_ui(self, ui));
+        egui::Panel::right("fit")
+            .default_size(if ui.available_width() < 1200.0 { 270.0 } else { 320.0 })
+            .min_size(250.0)
+            .show(ui, |ui| panels::fit_ui(self, ui));
         egui::CentralPanel::default().show(ui, |ui| {
             panels::notice_ui(self, ui);
             plots::plots_ui(self, ui);

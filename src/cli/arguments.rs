@@ -58,6 +58,7 @@ pub struct Later {
 
 /// `evaluate`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Evaluate {
     /// Table with the columns distribution, the nine parameters, theta_i, theta_r and dphi (180 if absent).
     pub input: PathBuf,
@@ -74,6 +75,7 @@ pub struct Evaluate {
 
 /// `fit`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Fit {
     /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
     pub input: PathBuf,
@@ -98,6 +100,7 @@ pub struct Fit {
 
 /// `compare`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Compare {
     /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
     pub input: PathBuf,
@@ -151,6 +154,7 @@ pub struct FitOptions {
 
 /// `plan`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Plan {
     #[command(flatten)]
     pub surface: Surface,
@@ -203,6 +207,7 @@ pub struct Angles {
 
 /// `simulate`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Simulate {
     #[command(flatten)]
     pub surface: Surface,

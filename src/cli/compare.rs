@@ -33,7 +33,7 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
                 Ok(fit(&problem, starts(&task.options), task.options.seed, closures.as_watch()))
             }
             Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
-            Err(other) => return Err(other.about(&task.input)),
+            Err(other) => return Err(other.about(&task.input, &measurement)),
         };
         rungs.push((preset, result));
     }

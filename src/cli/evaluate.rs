@@ -119,7 +119,8 @@ impl Layout {
         let model = Model::full(distribution);
         let mut parameters = Parameters::default();
         for parameter in model.parameters() {
-            let column = self.parameters[parameter as usize].ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn("q")))?;
+            let column = self.parameters[parameter as usize]
+                .ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn { name: "q", similar: None }))?;
             parameters[parameter] = record.number(column, NUMBER)?;
         }
         Pbrdf::new(model, parameters).map_err(|error| {

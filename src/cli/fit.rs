@@ -18,10 +18,11 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
     let measurement = input::measurement(&task.input, &bytes)?;
-    let problem = problem(task.model, &task.options, &measurement, Strictness::Strict).map_err(|reason| reason.about(&task.input))?;
+    let problem =
+        problem(task.model, &task.options, &measurement, Strictness::Strict).map_err(|reason| reason.about(&task.input, &measurement))?;
     if problem.left_out() > 0 {
         output::notice(format_args!(
-            "{} measured BRDF values of 0 are left out: they have no relative or logarithmic residual.",
+            "Measured BRDF values of 0, which have no relative or logarithmic residual and are left out: {}.",
             problem.left_out()
         ));
     }
@@ -36,6 +37,13 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
     drop(watch);
     drop(watched);
 
+    if let Some(path) = &task.output {
+        let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
+        let cells = fitted_cells(&measurement, &surface, task);
+        output::write(Some(path), |out| {
+            append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out)
+        })?;
+    }
     if task.json {
         let mut json = fit_json(task.model, &report);
         add_scans(&mut json, &profiles, &scatters);
@@ -44,13 +52,6 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
         output::write(None, |out| {
             print(out, task, &measurement, &report)?;
             print_scans(out, &profiles, &scatters)
-        })?;
-    }
-    if let Some(path) = &task.output {
-        let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&measurement, &surface, task);
-        output::write(Some(path), |out| {
-            append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out)
         })?;
     }
     Ok(output::exit_code())
@@ -81,15 +82,12 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     let used = measurement.rows.iter().filter(|row| !row.masked).count();
     writeln!(out, "{}: {used} of {} rows, model {} ({})", task.input.display(), measurement.rows.len(), task.model.key, task.model.name)?;
     let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
-    writeln!(
-        out,
-        "ΔE {} -> {}   ({}, {} evaluations, {:.1} ms)",
-        number(report.start_objective),
-        number(report.objective),
-        report.stop_reason.text(),
-        report.evaluations,
-        report.elapsed_ms
-    )?;
+    writeln!(out, "{} ({} evaluations, {:.1} ms)", capitalised(report.stop_reason.text()), report.evaluations, report.elapsed_ms)?;
+    writeln!(out, "ΔE {} -> {}", number(report.start_objective), number(report.objective))?;
+    if !report.minimises_delta_e {
+        let (before, after) = (number(report.start_sum_of_squares), number(Some(report.sum_of_squares)));
+        writeln!(out, "minimised, instead of ΔE: sum of squares of the {} {before} -> {after}", residuals_in_words(task))?;
+    }
     if let Some(chi2) = report.chi2 {
         writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.dof)?;
     }
@@ -100,10 +98,14 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
             (true, _, Some(Edge::Lower)) => "at lower".to_owned(),
             (true, _, Some(Edge::Upper)) => "at upper".to_owned(),
             (true, Some(error), None) => format!("{error:.3e}"),
+            (true, None, None) if report.determined.contains(&estimate.parameter) => "no d.o.f.".to_owned(),
             (true, None, None) => "open".to_owned(),
         };
         let unit = estimate.parameter.unit();
         writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;
+    }
+    if report.dof == 0 && !report.determined.is_empty() {
+        writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
     }
     if !report.undetermined.is_empty() {
         writeln!(out, "\nThe data leave open:")?;
@@ -152,4 +154,21 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[Scatter]) 
         writeln!(out, "  {:<8} {:>12.3e} {:>14.8} {:>14.8}", scatter.parameter.key(), scatter.std_error, scatter.low, scatter.high)?;
     }
     Ok(())
+}
+
+fn residuals_in_words(task: &Fit) -> String {
+    use super::arguments::{BrdfResiduals, Loss, Weights};
+    let weights = if matches!(task.options.weights, Weights::Sigma) { "weighted " } else { "" };
+    let form = match task.options.brdf_residuals {
+        BrdfResiduals::Absolute => "residuals",
+        BrdfResiduals::Relative => "residuals, relative for BRDF",
+        BrdfResiduals::Log => "residuals, logarithmic for BRDF",
+    };
+    let loss = if matches!(task.options.loss, Loss::Linear) { "" } else { ", under a robust loss" };
+    format!("{weights}{form}{loss}")
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default() + letters.as_str()
 }

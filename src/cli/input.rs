@@ -38,7 +38,7 @@ pub fn while_reading() -> impl FnMut(f64) -> ControlFlow<()> {
 pub fn measurement(path: &Path, bytes: &[u8]) -> Result<Measurement, Failure> {
     let measurement = measurement::read(bytes, &mut while_reading()).map_err(|error| read_failure(path, &error))?;
     if !measurement.ignored_columns.is_empty() {
-        notice(format_args!("{}: ignored the columns {}.", path.display(), measurement.ignored_columns.join(", ")));
+        notice(format_args!("{}: {}.", path.display(), measurement.ignored_notice()));
     }
     Ok(measurement)
 }

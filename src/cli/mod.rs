@@ -24,7 +24,12 @@ use std::process::ExitCode;
 
 /// Runs what the arguments say.
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) if error.use_stderr() => return Failure::usage(sentence(&error)).report(),
+        // Help and version are answers.
+        Err(answer) => answer.exit(),
+    };
     let result = match arguments.task {
         Some(Task::Evaluate(task)) => evaluate::run(&task),
         Some(Task::Fit(task)) => fit::run(&task),
@@ -41,6 +46,16 @@ pub fn run() -> ExitCode {
         Ok(code) => code,
         Err(failure) => failure.report(),
     }
+}
+
+/// What the argument parser has to say, in one sentence without its usage lines.
+fn sentence(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let said = text.split("\n\nUsage:").next().unwrap_or(&text).split("\n\nFor more information").next().unwrap_or(&text);
+    let words = said.trim_start_matches("error: ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
 }
 
 /// Opens the window.

@@ -19,8 +19,11 @@ pub fn write(path: Option<&Path>, body: impl FnOnce(&mut dyn Write) -> io::Resul
 }
 
 fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // A device or a pipe cannot be replaced by a file, only written to.
-    if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+    // What a link points to is replaced, not the link; a device, a pipe or a stream of this process can only be written to.
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let is_stream = [path, &target].into_iter().any(|path| path.starts_with("/dev") || path.starts_with("/proc"));
+    let path = target.as_path();
+    if is_stream || std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
         let mut out = io::BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
         return body(&mut out).and_then(|()| out.flush());
     }
@@ -32,7 +35,8 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         // As a newly created file has, less the umask; a temporary file alone would be private.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let file = builder.tempfile_in(folder)?;
+    // The name of a temporary file would only confuse.
+    let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     let mut out = io::BufWriter::new(file);
     body(&mut out)?;
     let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;

@@ -27,8 +27,12 @@ pub enum NoProblem {
 
 impl NoProblem {
     /// As the failure of a command on that file.
-    pub fn about(self, path: &Path) -> Failure {
+    pub fn about(self, path: &Path, measurement: &Measurement) -> Failure {
         match self {
+            Self::Data(error @ ProblemError::MissingSigma { row, .. }) => {
+                let line = measurement.lines.get(row).map_or_else(String::new, |line| format!("line {line}: "));
+                Failure::input(path, format!("{line}{error}"))
+            }
             Self::Usage(reason) => Failure::usage(format!("{reason}.")),
             Self::Data(error @ ProblemError::StartOutsideBounds { .. }) => Failure::usage(format!("{error}.")),
             Self::Data(error) => Failure::input(path, error),

@@ -24,11 +24,19 @@ pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
 /// A simulation without noise.
 pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Result<Simulation, Failure> {
     let mut parameters = Parameters::default();
+    let preset = surface.model;
+    if preset.dolp_only && !matches!(columns, Columns::Dolp) {
+        return Err(Failure::usage(format!("The model {} predicts DoLP only, not a BRDF.", preset.key)));
+    }
     for &(parameter, value) in &surface.set {
+        if !preset.model.parameters().contains(parameter) {
+            return Err(Failure::usage(format!("The model {} has no parameter {}.", preset.key, parameter.key())));
+        }
         parameters[parameter] = value;
     }
     Ok(Simulation {
-        surface: Pbrdf::new(surface.model.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
+        model_name: preset.key.to_owned(),
+        surface: Pbrdf::new(preset.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
         theta_i: angles.theta_i.0.clone(),
         theta_r: angles.theta_r.0.clone(),
         dphi: angles.dphi,

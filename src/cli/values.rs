@@ -99,7 +99,11 @@ pub fn grid(text: &str) -> Result<Grid, String> {
 fn range(from: f64, to: f64, step: f64, angles: &mut Vec<f64>) -> Result<(), String> {
     let steps = (to - from) / step;
     if !(0.0..LARGEST_GRID).contains(&steps) {
-        return Err(format!("the range {from}:{to}:{step} does not lead from its beginning to its end"));
+        return Err(if steps >= LARGEST_GRID {
+            format!("the range {from}:{to}:{step:e} has more than a million points")
+        } else {
+            format!("the range {from}:{to}:{step:e} does not lead from its beginning to its end")
+        });
     }
     // Inclusive: an end that rounding misses by less than a millionth of a step counts.
     let last = (steps + 1e-6).floor();

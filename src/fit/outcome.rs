@@ -5,7 +5,7 @@ use super::solver::{Descent, StopReason, TracePoint, Watch};
 use super::starts::{Search, Starts, search};
 use super::uncertainty::{OpenDirection, Uncertainty};
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Which bound a parameter rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +59,10 @@ pub struct FitReport {
     pub start_objective: Option<f64>,
     /// Sum of squares of what was minimised, in the data's own unit where it has one.
     pub sum_of_squares: f64,
+    /// The same at the start; none where it is not finite.
+    pub start_sum_of_squares: Option<f64>,
+    /// Whether what was minimised is ΔE itself.
+    pub minimises_delta_e: bool,
     /// χ², where standard deviations were stated and used.
     pub chi2: Option<f64>,
     /// Number of residuals less the rank.
@@ -83,6 +87,10 @@ pub struct FitReport {
     pub trace: Vec<TracePoint>,
 }
 
+/// Cosine between the residuals and a parameter's column of the Jacobian from which the data press on its bound.
+const PRESSED: f64 = 1e-6;
+/// Relative rise of the sum of squares that is rounding.
+const IDLE: f64 = 1e-12;
 /// A parameter this near a bound, as a fraction of the box, rests on it.
 const AT_BOUND: f64 = 1e-9;
 
@@ -115,7 +123,8 @@ impl FitReport {
         let edges: Vec<(Parameter, Edge)> =
             problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
         let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
-        let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, at_bound);
+        let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
+        let parameters = with_idle_ones_back(problem, parameters, sum_of_squares, &uncertainty);
         let open = !uncertainty.open.is_empty() || problem.len() < problem.free().len();
         if open && !matches!(stop_reason, StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit)
         {
@@ -140,6 +149,8 @@ impl FitReport {
             objective,
             start_objective: problem.delta_e(problem.start()),
             sum_of_squares: if problem.is_empty() { 0.0 } else { in_data_units },
+            start_sum_of_squares: problem.sum_of_squares(problem.start()).map(|sum| sum * problem.sum_of_squares_scale()),
+            minimises_delta_e: problem.minimises_delta_e(),
             chi2: (problem.choices().weights == Weights::Sigma).then_some(sum_of_squares),
             dof: problem.len().saturating_sub(uncertainty.rank),
             aicc: aicc(problem, in_data_units),
@@ -154,6 +165,34 @@ impl FitReport {
             parameters,
         }
     }
+}
+
+/// Parameters that have no effect at the solution, each by itself, go back to where they began, if that changes nothing: the fit
+/// took them nowhere on purpose.
+fn with_idle_ones_back(problem: &Problem, parameters: Parameters, sum_of_squares: f64, uncertainty: &Uncertainty) -> Parameters {
+    uncertainty.open.iter().filter(|open| open.direction.len() == 1).fold(parameters, |so_far, open| {
+        let parameter = open.direction[0].0;
+        let mut back = so_far;
+        back[parameter] = problem.start()[parameter];
+        let is_idle = problem.sum_of_squares(&back).is_some_and(|sum| sum <= sum_of_squares * (1.0 + IDLE));
+        if is_idle { back } else { so_far }
+    })
+}
+
+/// Those parameters at a bound that the data press against it. One that merely came to lie there, along a direction that the data
+/// leave open, takes part in the analysis of what they determine.
+fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -> ParameterSet {
+    let part = problem.with_free(at_bound);
+    let mut residuals = DVector::zeros(part.len());
+    let mut jacobian = DMatrix::zeros(part.len(), part.free().len());
+    if at_bound.is_empty() || !(part.residuals(parameters, &mut residuals) && part.jacobian(parameters, &mut jacobian)) {
+        return at_bound;
+    }
+    let is_pressed = |j: usize| {
+        let column = jacobian.column(j);
+        column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
+    };
+    part.free().iter().enumerate().filter(|(j, _)| is_pressed(*j)).map(|(_, &parameter)| parameter).collect()
 }
 
 fn edge(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> Option<Edge> {

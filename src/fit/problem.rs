@@ -101,9 +101,9 @@ pub struct Choices {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// A stated standard deviation is needed and missing.
-    #[error("row {row} has no {quantity}_sigma, which weights by standard deviation need")]
+    #[error("the value of {quantity} has no {quantity}_sigma, which weights by standard deviation need")]
     MissingSigma {
-        /// Row of the measurement, from 1.
+        /// Index of the row in the measurement.
         row: usize,
         /// `dolp` or `brdf`.
         quantity: &'static str,
@@ -230,7 +230,7 @@ impl Problem {
         let sigma = match (by_sigma, quantity.sigma) {
             (false, _) => None,
             (true, Some(sigma)) => Some(sigma),
-            (true, None) => return Err(ProblemError::MissingSigma { row: row + 1, quantity: name }),
+            (true, None) => return Err(ProblemError::MissingSigma { row, quantity: name }),
         };
         let (measured, weight) = match (kind, sigma) {
             // The standard deviation of ln X is σ/X.
@@ -455,16 +455,24 @@ impl Problem {
         if root > 0.0 { (scale * root.copysign(r), slope * r.abs() / root) } else { (residual, 1.0) }
     }
 
+    /// Sum of the squared (scaled) residuals; none where it is not finite.
+    #[must_use]
+    pub fn sum_of_squares(&self, parameters: &Parameters) -> Option<f64> {
+        let mut residuals = DVector::zeros(self.len());
+        (!self.is_empty() && self.residuals(parameters, &mut residuals)).then(|| residuals.norm_squared())
+    }
+
+    /// Whether the sum of squared residuals is ΔE of Eq. (18).
+    #[must_use]
+    pub fn minimises_delta_e(&self) -> bool {
+        let absolute = !self.wanted.brdf || self.choices.brdf_residuals == BrdfResiduals::Absolute;
+        absolute && self.choices.weights == Weights::None && self.choices.loss == Loss::Linear
+    }
+
     /// ΔE of Eq. (18), given the sum of squared residuals: the same number wherever that is what is minimised.
     #[must_use]
     pub fn objective(&self, sum_of_squares: f64, parameters: &Parameters) -> f64 {
-        let choices = &self.choices;
-        let absolute = !self.wanted.brdf || choices.brdf_residuals == BrdfResiduals::Absolute;
-        if absolute && choices.weights == Weights::None && choices.loss == Loss::Linear {
-            sum_of_squares
-        } else {
-            self.delta_e(parameters).unwrap_or(sum_of_squares)
-        }
+        if self.minimises_delta_e() { sum_of_squares } else { self.delta_e(parameters).unwrap_or(sum_of_squares) }
     }
 
     /// ΔE of Eq. (18) at those parameters: of DoLP if measured, else of BRDF; with both, the sum.

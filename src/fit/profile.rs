@@ -50,7 +50,7 @@ pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watc
     let held = problem.with_free(rest);
 
     let mut scan = Vec::new();
-    let smallest = scaled_sum(problem, &report.parameters);
+    let smallest = problem.sum_of_squares(&report.parameters).unwrap_or(f64::NAN);
     for side in [end(low), end(high)] {
         let mut from = report.parameters;
         for step in 1..=STEPS {
@@ -87,12 +87,6 @@ pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watc
         })
         .collect();
     Profile { parameter, points, low, high }
-}
-
-fn scaled_sum(problem: &Problem, parameters: &Parameters) -> f64 {
-    let mut residuals = nalgebra::DVector::zeros(problem.len());
-    problem.residuals(parameters, &mut residuals);
-    residuals.norm_squared()
 }
 
 fn limit(problem: &Problem, report: &FitReport, smallest: f64) -> f64 {

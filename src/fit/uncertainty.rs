@@ -1,6 +1,6 @@
 //! What the data determine, and how well: standard errors and correlations from the Jacobian at the solution.
 //!
-//! J scaled by diag(max(|p|, 1e-3)) = U S Vᵀ. Singular values above 1e-8 of the largest count: their number is the rank. The
+//! J scaled by diag(max(|p|, 1e-3)), q by its distance from 1, = U S Vᵀ. Singular values above 1e-8 of the largest count: their number is the rank. The
 //! covariance `V S⁻² Vᵀ` is summed over those alone and multiplied by SS/(N − rank), or, where standard deviations were stated, by 1. A
 //! parameter with a share in the directions left over has no standard error: those directions are described instead.
 
@@ -60,7 +60,7 @@ impl Uncertainty {
         if columns == 0 || rows == 0 || !problem.jacobian(parameters, &mut filled) {
             return Self::nothing(free);
         }
-        let scales: Vec<f64> = free.iter().map(|&parameter| parameters[parameter].abs().max(SMALLEST_SCALE)).collect();
+        let scales: Vec<f64> = free.iter().map(|&parameter| scale(parameter, parameters[parameter])).collect();
         for (j, scale) in scales.iter().enumerate() {
             filled.column_mut(j).scale_mut(*scale);
         }
@@ -110,6 +110,12 @@ impl Uncertainty {
         let c = &self.covariance;
         DMatrix::from_fn(c.nrows(), c.ncols(), |a, b| if a == b { 1.0 } else { c[(a, b)] / (c[(a, a)] * c[(b, b)]).sqrt() })
     }
+}
+
+/// The size that a change of a parameter is measured by: its own, or for q, which counts from 1, its distance from there.
+fn scale(parameter: Parameter, value: f64) -> f64 {
+    let origin = if parameter == Parameter::Q { 1.0 } else { 0.0 };
+    (value - origin).abs().max(SMALLEST_SCALE)
 }
 
 /// SS/(N − rank), or 1 where the residuals are in units of their own standard deviation; not a number without a degree of freedom.

@@ -44,6 +44,8 @@ pub struct Measurement {
     pub metadata: Vec<(String, String)>,
     /// The rows, in their order.
     pub rows: Vec<Row>,
+    /// The line of the file that each row stands on; empty where there is no file.
+    pub lines: Vec<u64>,
     /// Names of columns that were there but mean nothing here.
     pub ignored_columns: Vec<String>,
 }
@@ -53,6 +55,14 @@ impl Measurement {
     #[must_use]
     pub fn metadata(&self, key: &str) -> Option<&str> {
         self.metadata.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
+    }
+
+    /// The columns that mean nothing here, in words.
+    #[must_use]
+    pub fn ignored_notice(&self) -> String {
+        let names: Vec<String> =
+            self.ignored_columns.iter().map(|name| if name.is_empty() { "without a name".to_owned() } else { name.clone() }).collect();
+        format!("ignored the {} {}", if names.len() == 1 { "column" } else { "columns" }, names.join(", "))
     }
 
     /// Whether any row has a DoLP.

@@ -50,13 +50,14 @@ const KNOWN: [&str; 9] = ["theta_i", "theta_r", "dphi", "dolp", "dolp_percent", 
 pub fn read(source: impl Read, progress: Progress<'_>) -> Result<Measurement, ReadError> {
     let table = Table::new(source)?;
     let layout = Layout::new(&table)?;
-    let mut rows = Vec::new();
+    let (mut rows, mut lines) = (Vec::new(), Vec::new());
     table.for_each(progress, |record| {
         rows.push(layout.row(record)?);
+        lines.push(record.line());
         Ok(())
     })?;
     let ignored_columns = table.header().iter().filter(|name| !KNOWN.contains(&name.as_str())).cloned().collect();
-    Ok(Measurement { metadata: table.metadata().to_vec(), rows, ignored_columns })
+    Ok(Measurement { metadata: table.metadata().to_vec(), rows, lines, ignored_columns })
 }
 
 impl Layout {

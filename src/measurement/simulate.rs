@@ -4,7 +4,7 @@
 //! deviates and model use the elementary functions of `libm`.
 
 use super::{Measurement, Quantity, Row};
-use crate::model::{Parameters, Pbrdf, Preset, Scene};
+use crate::model::{Parameters, Pbrdf, Scene};
 use crate::optics::{Geometry, GeometryError};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -24,6 +24,8 @@ pub enum Columns {
 /// What to simulate.
 #[derive(Debug, Clone)]
 pub struct Simulation {
+    /// Name of the model, for the metadata.
+    pub model_name: String,
     /// The surface.
     pub surface: Pbrdf,
     /// Angles of incidence in degrees.
@@ -67,15 +69,14 @@ impl Simulation {
                 masked: false,
             }
         });
-        Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), ignored_columns: Vec::new() })
+        Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), lines: Vec::new(), ignored_columns: Vec::new() })
     }
 
     /// What is said of the rows: that they are simulated, from what, and how.
     fn metadata(&self) -> Vec<(String, String)> {
         let model = self.surface.model();
-        let name = Preset::of(model).map_or(model.distribution.key(), |preset| preset.key);
         let parameters: &Parameters = self.surface.parameters();
-        let mut lines = vec![("simulated".to_owned(), "true".to_owned()), ("model".to_owned(), name.to_owned())];
+        let mut lines = vec![("simulated".to_owned(), "true".to_owned()), ("model".to_owned(), self.model_name.clone())];
         lines.extend(model.parameters().iter().map(|parameter| (parameter.key().to_owned(), parameters[parameter].to_string())));
         lines.push(("noise".to_owned(), self.noise.to_string()));
         lines.push(("brdf_noise".to_owned(), self.brdf_noise.to_string()));

@@ -60,8 +60,13 @@ pub enum ReadErrorKind {
         found: String,
     },
     /// A column that has to be there.
-    #[error("the column {0} is missing from the header")]
-    MissingColumn(&'static str),
+    #[error("the column {name} is missing from the header{}", .similar.as_ref().map_or_else(String::new, |found| format!("; found {found:?}, but names are lower case")))]
+    MissingColumn {
+        /// Its name.
+        name: &'static str,
+        /// A column that differs in capitals alone.
+        similar: Option<String>,
+    },
     /// Neither quantity.
     #[error("neither dolp nor brdf is in the header; at least one is needed")]
     NoQuantity,
@@ -261,7 +266,10 @@ impl Table {
 
     /// Index of a column that has to be there.
     pub fn require(&self, name: &'static str) -> Result<usize, ReadError> {
-        self.find(name)?.ok_or_else(|| self.header_error(ReadErrorKind::MissingColumn(name)))
+        self.find(name)?.ok_or_else(|| {
+            let similar = self.header.iter().find(|column| column.eq_ignore_ascii_case(name)).cloned();
+            self.header_error(ReadErrorKind::MissingColumn { name, similar })
+        })
     }
 
     pub(crate) fn header_error(&self, kind: ReadErrorKind) -> ReadError {

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 /// A number with the 17 significant digits that give back the same f64.
 #[must_use]
 pub fn exact(number: f64) -> String {
-    format!("{number:.16e}")
+    // Adding 0 turns -0 into 0.
+    format!("{:.16e}", number + 0.0)
 }
 
 /// Name, whether it is there, whether with standard deviations, and where it stands in a row.

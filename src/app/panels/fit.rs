@@ -41,13 +41,18 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         };
         ui.separator();
         match last_fit.as_ref().filter(|fit| fit.generation == document.generation) {
-            Some(fit) => result_ui(fit, commands, ui),
+            Some(fit) => {
+                if fit.report.model != settings.model {
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), "This fit is of another model than the sliders show.");
+                }
+                result_ui(fit, commands, ui);
+            }
             None => {
                 ui.label("Move the sliders until the curves are near the points, then press Fit.");
             }
         }
         ui.separator();
-        comparison_ui(comparison, worker.comparison.as_ref().map(|job| job.progress()), commands, ui);
+        comparison_ui(comparison, worker.comparison.as_ref().map(super::super::worker::Job::progress), commands, ui);
     });
 }
 
@@ -81,11 +86,14 @@ fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
         for (name, value) in [
             ("Before", delta_e_text(report.start_objective)),
             ("After", delta_e_text(report.objective)),
+            ("Minimised", minimised_text(report)),
             ("Time", format!("{:.2} ms, {} evaluations", report.elapsed_ms, report.evaluations)),
         ] {
-            ui.label(name);
-            ui.label(value);
-            ui.end_row();
+            if !value.is_empty() {
+                ui.label(name);
+                ui.label(value);
+                ui.end_row();
+            }
         }
     });
     ui.add_space(6.0);
@@ -98,7 +106,7 @@ fn result_ui(fit: &LastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
             ui.label(estimate.parameter.symbol()).on_hover_text(estimate.parameter.name());
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate));
+            ui.label(error_text(estimate, report));
             ui.end_row();
         }
     });
@@ -152,6 +160,14 @@ fn comparison_ui(
             ui.end_row();
         }
     });
+}
+
+/// What fell, where that was not ΔE: measured lobes are fitted by relative residuals.
+fn minimised_text(report: &FitReport) -> String {
+    match report.start_sum_of_squares {
+        Some(start) if !report.minimises_delta_e => format!("relative residuals, Σ² {start:.3e} to {:.3e}", report.sum_of_squares),
+        _ => String::new(),
+    }
 }
 
 /// Where the starts led: distinct minima, best first.
@@ -212,13 +228,14 @@ fn short_correlation(r: f64) -> String {
     if r.is_nan() { "-".to_owned() } else { format!("{r:.2}").replace("0.", ".") }
 }
 
-fn error_text(estimate: &Estimate) -> String {
+fn error_text(estimate: &Estimate, report: &FitReport) -> String {
     let unit = estimate.parameter.unit();
     match (estimate.free, estimate.at_bound, estimate.std_error) {
         (false, ..) => "fixed".to_owned(),
         (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
         (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
         (true, None, Some(error)) => format!("{error:.1e} {unit}").trim_end().to_owned(),
+        (true, None, None) if report.determined.contains(&estimate.parameter) => "no d.o.f.".to_owned(),
         (true, None, None) => "open".to_owned(),
     }
 }

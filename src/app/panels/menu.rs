@@ -12,7 +12,9 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
         commands.push(command);
         ui.close();
     };
-    egui::MenuBar::new().ui(ui, |ui| {
+    // A click into the path field must not close the menu that it is in.
+    let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    egui::MenuBar::new().config(config).ui(ui, |ui| {
         ui.menu_button("File", |ui| {
             if ui.add(egui::Button::new("Open measurement…").shortcut_text("Ctrl+O")).clicked() {
                 push(ui, Command::ChooseMeasurement);

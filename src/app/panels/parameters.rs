@@ -6,15 +6,16 @@ use crate::app::window::Explorer;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
+use std::cell::RefCell;
 
 pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, .. } = explorer;
+    let Explorer { settings, notice, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);
-        specular_ui(settings, ui);
-        diffuse_ui(settings, ui);
-        volume_ui(settings, ui);
+        specular_ui(settings, notice, ui);
+        diffuse_ui(settings, notice, ui);
+        volume_ui(settings, notice, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
         if ui.button("Reset all parameters").on_hover_text("All nine parameters to their defaults").clicked() {
@@ -43,7 +44,7 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.separator();
 }
 
-fn specular_ui(settings: &mut Settings, ui: &mut Ui) {
+fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.model.specular, "Specular lobe")
             .on_hover_text("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises");
@@ -62,12 +63,12 @@ fn specular_ui(settings: &mut Settings, ui: &mut Ui) {
         if settings.model.distribution == SlopeDistribution::Cauchy {
             shown.push(Parameter::Q);
         }
-        sliders_ui(settings, ui, "specular", &shown);
+        sliders_ui(settings, notice, ui, "specular", &shown);
     }
     ui.separator();
 }
 
-fn diffuse_ui(settings: &mut Settings, ui: &mut Ui) {
+fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
     let switch = ui.checkbox(&mut present, "Diffuse lobe").on_hover_text("Minnaert, Eq. (12): depolarises");
     if switch.changed() {
@@ -80,16 +81,16 @@ fn diffuse_ui(settings: &mut Settings, ui: &mut Ui) {
         });
         let shown: &[Parameter] =
             if settings.model.diffuse == Diffuse::Minnaert { &[Parameter::Kd, Parameter::C] } else { &[Parameter::Kd] };
-        sliders_ui(settings, ui, "diffuse", shown);
+        sliders_ui(settings, notice, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
-fn volume_ui(settings: &mut Settings, ui: &mut Ui) {
+fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     ui.checkbox(&mut settings.model.volume, "Volume lobe")
         .on_hover_text("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal");
     if settings.model.volume {
-        sliders_ui(settings, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+        sliders_ui(settings, notice, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
     ui.separator();
 }
@@ -111,17 +112,17 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
     });
 }
 
-fn sliders_ui(settings: &mut Settings, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(settings, ui, parameter);
+            slider_ui(settings, notice, ui, parameter);
             ui.end_row();
         }
     });
 }
 
 /// Name, slider, typed value with unit, lock, reset.
-fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
+fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
     let range = parameter.range();
     let outside = !range.contains(&settings.parameters[parameter]);
     let help =
@@ -138,22 +139,41 @@ fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
     // What the formulas do not allow is not taken; what only the slider cannot show is.
     let domain = parameter.domain();
     let speed = (0.005 * value.abs()).max(1e-4);
+    let refused = RefCell::new(None);
+    let refuse = |found: &str| *refused.borrow_mut() = Some(format!("{}: found {found:?}, expected {domain}.", parameter.symbol()));
     let typed = DragValue::from_get_set(|new| {
-        if let Some(new) = new.filter(|&new| domain.contains(new)) {
-            *value = new;
+        match new {
+            // Text as it was shown means the value as it was, with all its digits.
+            Some(new) if significant(new) == significant(*value) => {}
+            Some(new) if domain.contains(new) => *value = new,
+            Some(new) => refuse(&new.to_string()),
+            None => {}
         }
         *value
     });
+    let parse = |text: &str| {
+        let parsed = number_from_text(text, parameter.unit());
+        if parsed.is_none() {
+            refuse(text);
+        }
+        parsed
+    };
     let unit = parameter.unit();
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    ui.add_sized([92.0, 20.0], typed.speed(speed).custom_formatter(|value, _| significant(value)).suffix(suffix))
-        .labelled_by(label.id)
-        .on_hover_text(if outside {
-            format!("outside the slider's range {} to {}", range.start(), range.end())
-        } else {
-            format!("type a value: {domain}")
-        });
+    ui.add_sized(
+        [92.0, 20.0],
+        typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false).suffix(suffix),
+    )
+    .labelled_by(label.id)
+    .on_hover_text(if outside {
+        format!("outside the slider's range {} to {}", range.start(), range.end())
+    } else {
+        format!("type a value: {domain}")
+    });
 
+    if let Some(sentence) = refused.into_inner() {
+        *notice = Some(sentence);
+    }
     let mut locked = settings.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, "fixed").on_hover_text(format!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, format!("Fix {}", parameter.key())));
@@ -163,12 +183,24 @@ fn slider_ui(settings: &mut Settings, ui: &mut Ui, parameter: Parameter) {
 
     let is_default = settings.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
-    let text = egui::RichText::new(if outside { "reset !" } else { "reset" }).small().color(color);
-    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(format!("back to {}", parameter.default_value()));
+    let text = egui::RichText::new(if outside { "outside" } else { "reset" }).color(color);
+    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(format!(
+        "back to {}{}",
+        parameter.default_value(),
+        if outside { ": the value is outside the slider's range" } else { "" }
+    ));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, format!("Reset {}", parameter.key())));
     if reset.clicked() {
         settings.parameters[parameter] = parameter.default_value();
     }
+}
+
+/// A number as a person types it: with a decimal comma or point, with or without its unit.
+fn number_from_text(text: &str, unit: &str) -> Option<f64> {
+    // The window shows a typographic minus.
+    let text = text.trim().trim_end_matches(unit).trim().replace('−', "-");
+    let number = if text.contains('.') { text.parse() } else { text.replacen(',', ".", 1).parse() };
+    number.ok().filter(|number: &f64| number.is_finite())
 }
 
 /// Five significant digits, without trailing zeros.
@@ -183,5 +215,36 @@ pub fn significant(value: f64) -> String {
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     } else {
         format!("{value:.4e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{number_from_text, significant};
+
+    #[test]
+    fn numbers_are_read_as_people_type_them() {
+        for (text, expected) in [
+            ("0,25", Some(0.25)),
+            (" 0.25 rad", Some(0.25)),
+            ("−3", Some(-3.0)),
+            ("1e5", Some(1e5)),
+            ("0.25abc", None),
+            ("abc", None),
+            ("1.2,3", None),
+            ("inf", None),
+            ("", None),
+        ] {
+            assert_eq!(number_from_text(text, "rad"), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_shown_with_five_digits() {
+        for (value, expected) in
+            [(0.0, "0"), (1.0, "1"), (0.1, "0.1"), (1.234_567, "1.2346"), (-0.5, "-0.5"), (1e-6, "1.0000e-6"), (12345.6, "12346")]
+        {
+            assert_eq!(significant(value), expected);
+        }
     }
 }

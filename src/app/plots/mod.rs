@@ -71,10 +71,11 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if strip {
         residuals::residuals_ui(explorer, ui, height(strip_share) - 4.0);
     }
-    ui.horizontal(|ui| {
-        ui.strong(format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.checkbox(&mut explorer.settings.log_brdf, "log");
+    let title = format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi);
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.checkbox(&mut explorer.settings.log_brdf, "log").on_hover_text("Logarithmic axis");
+        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.add(egui::Label::new(egui::RichText::new(title).strong()).truncate());
         });
     });
     lobes::lobes_ui(explorer, ui, height(1.0 - dolp_share - strip_share));

@@ -68,6 +68,29 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
 }
 
 #[test]
+fn a_path_can_be_typed_into_the_menu_after_a_click() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = file(&folder, "typed.csv", "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n");
+    let mut harness = harness();
+    harness.get_by_label("File").click();
+    harness.run();
+    let label = "Or type a path and press Enter:";
+    let field = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).rect().center();
+    harness.hover_at(field);
+    harness.run();
+    harness.drag_at(field);
+    harness.run();
+    harness.drop_at(field);
+    harness.run();
+    harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).type_text(&path.display().to_string());
+    harness.run();
+    harness.key_press(egui::Key::Enter);
+    harness.run();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).document.name, "typed.csv");
+}
+
+#[test]
 fn every_example_opens_and_says_that_it_is_simulated() {
     let mut harness = harness();
     for (index, example) in EXAMPLES.iter().enumerate() {

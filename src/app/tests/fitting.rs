@@ -46,6 +46,55 @@ fn a_start_outside_the_sliders_is_no_obstacle() {
 }
 
 #[test]
+fn undo_and_redo_step_through_fits_and_drags() {
+    let mut harness = harness();
+    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "k").set_value_accesskit(4.5);
+    harness.run();
+    let moved = explorer(&mut harness).settings.parameters;
+    harness.get_by_label("Fit").click();
+    harness.step();
+    wait(&mut harness);
+    let fitted = explorer(&mut harness).settings.parameters;
+    for (modifiers, expected) in [
+        (egui::Modifiers::COMMAND, moved),
+        (egui::Modifiers::COMMAND, Parameters::default()),
+        (egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, moved),
+        (egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, fitted),
+    ] {
+        harness.key_press_modifiers(modifiers, egui::Key::Z);
+        harness.run();
+        assert_eq!(explorer(&mut harness).settings.parameters, expected);
+    }
+}
+
+#[test]
+fn refitting_while_dragging_keeps_what_is_fixed_and_fits_the_rest() {
+    let mut harness = harness();
+    harness.get_by_label("Fix n").click();
+    harness.run();
+    harness.get_by_label("keep refitting while I drag").click();
+    harness.step();
+    wait(&mut harness);
+    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "n").set_value_accesskit(3.0);
+    harness.step();
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.parameters.n, 3.0);
+    assert!(explorer.derived.delta_e.expect("the example has DoLP") < 2e-3);
+}
+
+#[test]
+fn comparing_models_lists_the_ladder() {
+    let mut harness = harness();
+    harness.get_by_label("Compare models").click();
+    harness.step();
+    wait(&mut harness);
+    let models: Vec<&str> = explorer(&mut harness).comparison.iter().map(|(preset, _)| preset.key).collect();
+    assert_eq!(models.len(), pbrdf::model::PRESETS.len());
+    harness.get_by_label("three-component");
+}
+
+#[test]
 fn a_fixed_parameter_stays() {
     let mut harness = harness();
     harness.get_by_label("Fix sigma").click();
