@@ -86,7 +86,7 @@ pub fn warning(dark: bool) -> Color32 {
 pub fn install(ctx: &egui::Context) {
     for theme in [egui::Theme::Light, egui::Theme::Dark] {
         ctx.style_mut_of(theme, |style| {
-            style.spacing.slider_width = 110.0;
+            style.spacing.slider_width = 100.0;
             style.spacing.item_spacing = egui::vec2(6.0, 4.0);
             // The default text of both themes is fainter than small print should be.
             style.visuals.override_text_color = Some(pick(theme == egui::Theme::Dark, (30, 30, 30), (220, 220, 220)));

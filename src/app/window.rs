@@ -305,7 +305,7 @@ impl Explorer {
         egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
         egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| panels::parameters_ui(self, ui));
         egui::Panel::right("fit")
-            .default_size(if ui.available_width() < 1200.0 { 270.0 } else { 320.0 })
+            .default_size(if ui.ctx().content_rect().width() < 1200.0 { 270.0 } else { 320.0 })
             .min_size(250.0)
             .show(ui, |ui| panels::fit_ui(self, ui));
         egui::CentralPanel::default().show(ui, |ui| {

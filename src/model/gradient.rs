@@ -41,9 +41,9 @@ impl Wanted {
     pub const ALL: Self = Self { by: ParameterSet::ALL, brdf: true, dolp: true };
 }
 
-/// A product that is 0 wherever its first factor is, however steep the second.
+/// A product that is 0 wherever a factor is, however large the other.
 fn fading(value: f64, slope: f64) -> f64 {
-    if value == 0.0 { 0.0 } else { value * slope }
+    if value == 0.0 || slope == 0.0 { 0.0 } else { value * slope }
 }
 
 /// What the derivatives of DoLP share.

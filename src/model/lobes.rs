@@ -8,9 +8,15 @@
 
 use crate::optics::{Facet, SlopeDistribution};
 use std::f64::consts::{FRAC_1_PI, PI};
+use std::ops::RangeInclusive;
 
 /// √(2π).
 const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
+
+/// Exponents end here: darker than this is equally dark, and the difference of two stays a number.
+const DARKEST: f64 = 1e300;
+/// Values of σ (and of q, upwards) whose squares and quotients are far from the ends of f64.
+const PLAIN: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// A radiance factor `factor · e^(−exponent)` in sr⁻¹.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +46,18 @@ impl Lobe {
     /// This lobe divided by another one, times a gain: right also where the ratio alone leaves the range of f64.
     #[must_use]
     pub fn over_times(self, other: Self, gain: f64) -> f64 {
-        if gain == 0.0 { 0.0 } else { times_exp(gain * (self.factor / other.factor), other.exponent - self.exponent) }
+        if gain == 0.0 || self.factor == 0.0 {
+            return 0.0;
+        }
+        let (ratio, x) = (self.factor / other.factor, other.exponent - self.exponent);
+        let factor = gain * ratio;
+        if factor != 0.0 && factor.is_finite() {
+            times_exp(factor, x)
+        } else {
+            let exponent = libm::log(gain.abs()) + libm::log(self.factor) - libm::log(other.factor) + x;
+            // An infinite gain over an infinite lobe: what is left of a product that f64 holds no factor of.
+            if exponent.is_nan() { 0.0 } else { libm::exp(exponent).copysign(gain) }
+        }
     }
 
     /// With another weight; a weight of 0 puts out even an infinite lobe.
@@ -75,8 +92,15 @@ fn times_exp(factor: f64, x: f64) -> f64 {
 /// `w = tan²α/2σ²`; P/cos α = D brings 1/cos⁴α = (1 + tan²α)², since P has 1/cos³α.
 pub(crate) fn specular(distribution: SlopeDistribution, w: f64, facet: &Facet, g_over_cosines: f64, sigma: f64, q: f64) -> Lobe {
     let one_over_cos_sq = 1.0 + facet.tan_alpha_sq;
-    let d = distribution.height(q) * one_over_cos_sq * one_over_cos_sq / (2.0 * PI) / sigma / sigma;
-    Lobe { factor: 0.25 * d * g_over_cosines, exponent: distribution.exponent(w, q) }
+    let geometric = one_over_cos_sq * one_over_cos_sq * g_over_cosines / (8.0 * PI);
+    let height = distribution.height(q);
+    let exponent = distribution.exponent(w, q).min(DARKEST);
+    if PLAIN.contains(&sigma) && height < *PLAIN.end() {
+        Lobe { factor: height * geometric / sigma / sigma, exponent }
+    } else {
+        // h/σ² alone would leave the range of f64.
+        Lobe { factor: geometric, exponent: exponent + 2.0 * libm::log(sigma) - libm::log(height) }
+    }
 }
 
 /// The Minnaert lobe; c = 0 is Lambert.
@@ -87,7 +111,7 @@ pub(crate) fn diffuse(facet: &Facet, c: f64) -> Lobe {
 /// The volume lobe.
 pub(crate) fn volume(facet: &Facet, sigma_v: f64) -> Lobe {
     let reduced = facet.theta_r / sigma_v;
-    Lobe { factor: 1.0 / (SQRT_TWO_PI * sigma_v), exponent: 0.5 * reduced * reduced }
+    Lobe { factor: 1.0 / (SQRT_TWO_PI * sigma_v), exponent: (0.5 * reduced * reduced).min(DARKEST) }
 }
 
 #[cfg(test)]

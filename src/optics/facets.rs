@@ -99,7 +99,7 @@ impl SlopeDistribution {
 
 /// `w = tan²α / 2σ²`, divided twice so that neither a tiny nor a huge σ is squared.
 pub(crate) fn reduced_slope_sq(tan_alpha_sq: f64, sigma: f64) -> f64 {
-    0.5 * (tan_alpha_sq / sigma / sigma)
+    (0.5 * (tan_alpha_sq / sigma / sigma)).min(f64::MAX)
 }
 
 #[cfg(test)]

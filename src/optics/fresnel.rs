@@ -134,7 +134,8 @@ impl Fresnel {
         // ∂a/∂n = N/a and ∂a/∂k = iN/a; the second real part is S v n/((n² + v²)|a|²), S = sin²β, once
         // v² − k² = S v²/(n² + v²) has taken the place of its difference.
         let along = (n * u + k * v) / a_sq;
-        let across = self.sin_sq * n * v / ((n * n + v * v) * a_sq);
+        let size = libm::hypot(n, v);
+        let across = if size > 0.0 { self.sin_sq * (n / size) * (v / size) / a_sq } else { 0.0 };
         let modulus_sq = n * n + k * k;
         let u_slopes = [along, across];
         let a_sq_slopes = [2.0 * n * (modulus_sq - self.sin_sq) / a_sq, 2.0 * k * (modulus_sq + self.sin_sq) / a_sq];

@@ -72,7 +72,8 @@ pub fn plots_ui(explorer: &mut Explorer, ui: &mut Ui) {
         residuals::residuals_ui(explorer, ui, height(strip_share) - 4.0);
     }
     let title = format!("BRDF lobes at θi = {}°, Δφ = {}°", explorer.settings.theta_i, explorer.settings.dphi);
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+    let line = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(line, egui::Layout::right_to_left(egui::Align::Center), |ui| {
         ui.checkbox(&mut explorer.settings.log_brdf, "log").on_hover_text("Logarithmic axis");
         ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
             ui.add(egui::Label::new(egui::RichText::new(title).strong()).truncate());
