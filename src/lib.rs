@@ -34,7 +34,7 @@
 //! 1. [`optics`]: angles, geometry, Fresnel, facets, Stokes and Mueller
 //! 2. [`model`]: the parameters, the lobes, the pBRDF, its gradient, prepared scenes, the ladder of models
 //! 3. [`measurement`]: tables read, written, simulated
-//! 4. [`fit`]: residuals, bounds, solver, uncertainty
+//! 4. [`fit`]: choices, bounds, residuals, solver and its coordinates, starts, uncertainty, profiles, bootstrap
 //! 5. [`report`]: results as JSON
 
 pub mod fit;

@@ -233,7 +233,6 @@ fn bad_usage_and_input_end_with_two_and_a_sentence() {
         (vec!["fit", &steel, "--bounds", "n=5..2"], "must be below"),
         (vec!["fit", &steel, "--start", "n=12"], "outside its bounds"),
         (vec!["fit", &steel, "--model", "phong"], "expected one of"),
-        (vec!["fit", &steel, "--model", "gauss", "--fix", "q"], "has no parameter q"),
         (vec!["fit", &steel, "--weights", "tons"], "tons"),
         (vec!["simulate", "--theta-i", "95", "--theta-r", "0", "-o", &missing], "theta_i = 95"),
         (vec!["no.csv"], "No display is available"),
@@ -243,6 +242,22 @@ fn bad_usage_and_input_end_with_two_and_a_sentence() {
             let message = refusal(&arguments);
             assert!(message.contains(expected), "{arguments:?}: {message}");
         }
+    }
+}
+
+#[test]
+fn what_is_said_of_a_parameter_that_the_model_lacks_is_ignored_with_a_notice() {
+    let folder = Folder::new();
+    let path = folder.path("out.csv").display().to_string();
+    let steel = example("steel45_simulated.csv");
+    for arguments in [
+        vec!["simulate", "--model", "gauss", "--set", "q=3", "--theta-i", "30", "--theta-r", "30", "-o", &path],
+        vec!["fit", &steel, "--model", "gauss", "--fix", "q=2", "--starts", "1"],
+        vec!["plan", "--model", "gauss", "--fix", "q", "--theta-i", "30", "--theta-r", "0:80:5"],
+    ] {
+        let output = run(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        assert!(text(&output.stderr).contains("has no parameter q"), "{arguments:?}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::arguments::Compare;
 use super::failure::Failure;
-use super::problem::{NoProblem, Strictness, problem, starts};
+use super::problem::{NoProblem, problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
 use pbrdf::fit::{FitReport, ProblemError, fit};
@@ -26,7 +26,7 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
         if interrupt::asked() {
             break;
         }
-        let result = match problem(preset, &task.options, &measurement, Strictness::Lenient) {
+        let result = match problem(preset, &task.options, &measurement) {
             Ok(problem) => {
                 let watched = Watched::new(preset.key);
                 let closures = watched.watch();

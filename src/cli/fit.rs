@@ -2,7 +2,7 @@
 
 use super::arguments::Fit;
 use super::failure::Failure;
-use super::problem::{Strictness, problem, starts};
+use super::problem::{problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
 use pbrdf::fit::{Edge, FitReport, Profile, Scatter, bootstrap, fit, profile};
@@ -18,8 +18,7 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
     let measurement = input::measurement(&task.input, &bytes)?;
-    let problem =
-        problem(task.model, &task.options, &measurement, Strictness::Strict).map_err(|reason| reason.about(&task.input, &measurement))?;
+    let problem = problem(task.model, &task.options, &measurement).map_err(|reason| reason.about(&task.input, &measurement))?;
     if problem.left_out() > 0 {
         output::notice(format_args!(
             "Measured BRDF values of 0, which have no relative or logarithmic residual and are left out: {}.",

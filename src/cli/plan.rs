@@ -22,10 +22,15 @@ pub fn run(task: &Plan) -> Result<ExitCode, Failure> {
     let mut free = free_by_default(model, &measurement, &choices);
     for &parameter in task.fix.iter().chain(&task.free) {
         if !model.parameters().contains(parameter) {
-            return Err(Failure::usage(format!("The model {} has no parameter {}.", task.surface.model.key, parameter.key())));
+            output::notice(format_args!(
+                "The model {} has no parameter {}: what is said of it is ignored.",
+                task.surface.model.key,
+                parameter.key()
+            ));
         }
     }
-    free = free.without_all(task.fix.iter().copied().collect()).union(task.free.iter().copied().collect());
+    let freed: ParameterSet = task.free.iter().copied().collect();
+    free = free.without_all(task.fix.iter().copied().collect()).union(freed.intersection(model.parameters()));
     let truth = *simulation.surface.parameters();
     let mut bounds = Bounds::default();
     for parameter in free {

@@ -5,17 +5,8 @@ use super::failure::Failure;
 use super::output;
 use pbrdf::fit::{Bounds, Choices, Problem, ProblemError, Starts, free_by_default};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Parameter, ParameterSet, Parameters, Preset};
+use pbrdf::model::{ParameterSet, Parameters, Preset};
 use std::path::Path;
-
-/// What to do with options about parameters that a model does not have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Strictness {
-    /// Refuse them.
-    Strict,
-    /// Pass over them: another model may have them.
-    Lenient,
-}
 
 /// Why there is no problem.
 pub enum NoProblem {
@@ -50,7 +41,7 @@ pub fn starts(options: &FitOptions) -> Starts {
 }
 
 /// The problem of fitting that preset.
-pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement, strictness: Strictness) -> Result<Problem, NoProblem> {
+pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement) -> Result<Problem, NoProblem> {
     let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
     let model = preset.model;
     let choices = Choices {
@@ -61,13 +52,12 @@ pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement,
         eq17: options.eq17.into(),
         dolp_only: preset.dolp_only,
     };
-    let used = |parameter: Parameter| -> Result<bool, NoProblem> {
-        match (model.parameters().contains(parameter), strictness) {
-            (true, _) => Ok(true),
-            (false, Strictness::Lenient) => Ok(false),
-            (false, Strictness::Strict) => Err(NoProblem::Usage(format!("the model {} has no parameter {}", preset.key, parameter.key()))),
-        }
-    };
+    let named = options.start.iter().map(|(parameter, _)| parameter).chain(options.fix.iter().map(|(parameter, _)| parameter));
+    let named = named.chain(&options.free).chain(options.bounds.iter().map(|(parameter, ..)| parameter));
+    let strangers: ParameterSet = named.copied().filter(|&parameter| !model.parameters().contains(parameter)).collect();
+    for parameter in strangers {
+        output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));
+    }
     let mut bounds = Bounds::default();
     for &(parameter, low, high) in &options.bounds {
         bounds.set(parameter, low, high).map_err(|error| usage(&error))?;
@@ -81,14 +71,10 @@ pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement,
     }
     let mut free = free_by_default(model, measurement, &choices);
     for &(parameter, _) in &options.fix {
-        if used(parameter)? {
-            free = free.without(parameter);
-        }
+        free = free.without(parameter);
     }
     for &parameter in &options.free {
-        if used(parameter)? {
-            free = free.with(parameter);
-        }
+        free = free.union(ParameterSet::EMPTY.with(parameter).intersection(model.parameters()));
     }
     for parameter in free {
         if !given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {

@@ -30,7 +30,7 @@ pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Resul
     }
     for &(parameter, value) in &surface.set {
         if !preset.model.parameters().contains(parameter) {
-            return Err(Failure::usage(format!("The model {} has no parameter {}.", preset.key, parameter.key())));
+            output::notice(format_args!("The model {} has no parameter {}: its value is ignored.", preset.key, parameter.key()));
         }
         parameters[parameter] = value;
     }

@@ -5,6 +5,7 @@
 
 mod bootstrap;
 mod bounds;
+mod choices;
 mod coordinates;
 mod outcome;
 mod problem;
@@ -15,8 +16,9 @@ mod uncertainty;
 
 pub use bootstrap::{Scatter, bootstrap};
 pub use bounds::{Bounds, BoundsError};
+pub use choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 pub use outcome::{Edge, Estimate, FitReport, Minimum, fit};
-pub use problem::{BrdfResiduals, Choices, Eq17, Loss, Problem, ProblemError, Weights, free_by_default};
+pub use problem::{Problem, ProblemError, free_by_default};
 pub use profile::{Profile, ProfilePoint, profile};
 pub use solver::{Descent, Effort, StopReason, TracePoint, Watch, descend};
 pub use starts::{Found, Search, Starts, search};

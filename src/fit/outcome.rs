@@ -1,6 +1,7 @@
 //! The result of a fit: values, uncertainties, what is open, and how it came about.
 
-use super::problem::{Loss, Problem, Weights};
+use super::choices::{Loss, Weights};
+use super::problem::Problem;
 use super::solver::{Descent, StopReason, TracePoint, Watch};
 use super::starts::{Search, Starts, search};
 use super::uncertainty::{OpenDirection, Uncertainty};

@@ -9,44 +9,11 @@
 //! `ρ(z) = 2(√(1 + z) − 1)`.
 
 use super::bounds::Bounds;
+use super::choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
 use crate::model::{Diffuse, Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
 use crate::optics::Facet;
 use nalgebra::{DMatrix, DVector};
-
-/// What divides a residual.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Weights {
-    /// Nothing but the scale of Eq. (18).
-    #[default]
-    None,
-    /// The stated standard deviation of each value.
-    Sigma,
-}
-
-/// How a BRDF residual is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BrdfResiduals {
-    /// X − Xm.
-    Absolute,
-    /// (X − Xm)/Xm.
-    #[default]
-    Relative,
-    /// ln X − ln Xm.
-    Log,
-}
-
-/// How a residual counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Loss {
-    /// By its square.
-    #[default]
-    Linear,
-    /// By its square up to the scale, by its size beyond.
-    Huber,
-    /// The same with a smooth passage.
-    SoftL1,
-}
 
 /// Huber's constant: 95 % efficient where the noise is Gaussian.
 const HUBER_EFFICIENCY: f64 = 1.345;
@@ -67,34 +34,6 @@ fn median_absolute_deviation(mut values: Vec<f64>) -> f64 {
     let center = middle(&mut values);
     let mut distances: Vec<f64> = values.into_iter().map(|value| (value - center).abs()).collect();
     middle(&mut distances)
-}
-
-/// Which reading of Eq. (17) predicts DoLP.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Eq17 {
-    /// k_s inside the numerator, as Eqs. (14, 15) have it.
-    #[default]
-    Consistent,
-    /// k_s missing from the numerator, as printed: the consistent value divided by k_s.
-    Printed,
-}
-
-/// The choices of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Choices {
-    /// What divides a residual.
-    pub weights: Weights,
-    /// How a BRDF residual is formed.
-    pub brdf_residuals: BrdfResiduals,
-    /// How a residual counts.
-    pub loss: Loss,
-    /// Scale of the loss, in units of X − Xm (or of what else the residual is before Eq. (18) scales it; in standard deviations
-    /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with linear loss.
-    pub loss_scale: Option<f64>,
-    /// Which reading of Eq. (17).
-    pub eq17: Eq17,
-    /// Leave measured BRDFs aside: the model does not predict them.
-    pub dolp_only: bool,
 }
 
 /// Why data and choices make no problem.

@@ -3,8 +3,9 @@
 //! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
 //! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
 
+use super::choices::Weights;
 use super::outcome::FitReport;
-use super::problem::{Problem, Weights};
+use super::problem::Problem;
 use super::solver::{Effort, Watch, descend};
 use crate::model::{Parameter, ParameterSet, Parameters};
 use serde::Serialize;

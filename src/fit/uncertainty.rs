@@ -4,7 +4,8 @@
 //! covariance `V S⁻² Vᵀ` is summed over those alone and multiplied by SS/(N − rank), or, where standard deviations were stated, by 1. A
 //! parameter with a share in the directions left over has no standard error: those directions are described instead.
 
-use super::problem::{Problem, Weights};
+use super::choices::Weights;
+use super::problem::Problem;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use nalgebra::{DMatrix, SVD};
 use serde::Serialize;

@@ -156,7 +156,7 @@ fn comparison_ui(
             ui.label(preset.key).on_hover_text(format!("{}\n{}\n{}", preset.name, preset.citation, report.stop_reason.text()));
             ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
             ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
-            ui.monospace(format!("{:.3}, {:.3}", report.parameters.n, report.parameters.k));
+            ui.monospace(format!("{:.2}, {:.2}", report.parameters.n, report.parameters.k));
             ui.end_row();
         }
     });

@@ -1,0 +1,63 @@
+//! The choices of a fit: what a residual is, what divides it, how it counts, which reading of Eq. (17) predicts.
+
+/// What divides a residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Weights {
+    /// Nothing but the scale of Eq. (18).
+    #[default]
+    None,
+    /// The stated standard deviation of each value.
+    Sigma,
+}
+
+/// How a BRDF residual is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BrdfResiduals {
+    /// X − Xm.
+    Absolute,
+    /// (X − Xm)/Xm.
+    #[default]
+    Relative,
+    /// ln X − ln Xm.
+    Log,
+}
+
+/// How a residual counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Loss {
+    /// By its square.
+    #[default]
+    Linear,
+    /// By its square up to the scale, by its size beyond.
+    Huber,
+    /// The same with a smooth passage.
+    SoftL1,
+}
+
+/// Which reading of Eq. (17) predicts DoLP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Eq17 {
+    /// k_s inside the numerator, as Eqs. (14, 15) have it.
+    #[default]
+    Consistent,
+    /// k_s missing from the numerator, as printed: the consistent value divided by k_s.
+    Printed,
+}
+
+/// The choices of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Choices {
+    /// What divides a residual.
+    pub weights: Weights,
+    /// How a BRDF residual is formed.
+    pub brdf_residuals: BrdfResiduals,
+    /// How a residual counts.
+    pub loss: Loss,
+    /// Scale of the loss, in units of X − Xm (or of what else the residual is before Eq. (18) scales it; in standard deviations
+    /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with linear loss.
+    pub loss_scale: Option<f64>,
+    /// Which reading of Eq. (17).
+    pub eq17: Eq17,
+    /// Leave measured BRDFs aside: the model does not predict them.
+    pub dolp_only: bool,
+}
