@@ -5,9 +5,9 @@
 use super::document::{Document, Mark, Series};
 use super::state::Settings;
 use egui_plot::PlotPoint;
-use pbrdf::fit::{Bounds, Choices, Problem, ProblemError};
+use pbrdf::fit::{Bounds, Choices, OpenDirection, Problem, ProblemError, Uncertainty, Weights};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, ParameterSet, Parameters, Pbrdf, Reflection};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::Facet;
 
 /// Curves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
@@ -104,6 +104,9 @@ pub struct Derived {
     pub residual_range: Option<Range>,
     /// ΔE of the sliders.
     pub delta_e: Option<f64>,
+    /// What the open data determine at the sliders, while that is on screen.
+    pub outlook: Option<Outlook>,
+    outlook_key: Option<(Parameters, Model, ParameterSet, u64)>,
     /// Series and points that are not drawn.
     pub left_out: Option<String>,
     /// Why there is no curve.
@@ -156,6 +159,15 @@ impl Derived {
             let curves = |surface: Pbrdf| drawn(document).map(|series| Curves::new(&surface, series, backscatter, false).dolp).collect();
             self.ghost = surface.map_or_else(Vec::new, curves);
             self.ghost_key = key;
+        }
+    }
+
+    /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
+    pub fn refresh_outlook(&mut self, settings: &Settings, document: &Document, free: ParameterSet, is_shown: bool) {
+        let key = is_shown.then_some((settings.parameters, settings.model, free, document.generation));
+        if self.outlook_key != key {
+            self.outlook_key = key;
+            self.outlook = key.and_then(|_| Outlook::new(settings, document, free));
         }
     }
 
@@ -255,6 +267,29 @@ impl Derived {
         };
         self.dolp_range = Some(grown(self.dolp_range, Range { low: 0.0, high: round_up(dolp_top).min(1.05) }));
         self.brdf_range = Some(grown(self.brdf_range, brdf_range));
+    }
+}
+
+/// What data would determine, seen from the sliders before any fit.
+pub struct Outlook {
+    /// Standard error of each free parameter; none where it would stay open.
+    pub errors: Vec<(Parameter, Option<f64>)>,
+    pub open: Vec<OpenDirection>,
+    /// Whether the errors come from stated standard deviations rather than from the present misfit.
+    pub from_stated: bool,
+}
+
+impl Outlook {
+    fn new(settings: &Settings, document: &Document, free: ParameterSet) -> Option<Self> {
+        let (model, parameters) = (settings.model, settings.parameters);
+        let with = |weights| problem_with(&document.measurement, model, parameters, free, Choices { weights, ..Choices::default() }).ok();
+        let stated = with(Weights::Sigma);
+        let from_stated = stated.is_some();
+        let problem = stated.or_else(|| with(Weights::None))?;
+        let misfit = problem.sum_of_squares(&parameters)?;
+        let uncertainty = Uncertainty::at(&problem, &parameters, misfit, ParameterSet::EMPTY);
+        let errors = free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect();
+        Some(Self { errors, open: uncertainty.open, from_stated })
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Explorer {
     /// The ladder of models on the open measurement.
     pub comparison: Vec<(&'static Preset, FitReport)>,
     pub history: History,
+    /// Whether the panel shows what the data would determine.
+    pub outlook_is_shown: bool,
     /// Where the last refit left the sliders: what differs from it was moved since.
     refitted: Option<Parameters>,
     pub notice: Option<String>,
@@ -67,6 +69,7 @@ impl Explorer {
             last_fit: None,
             comparison: Vec::new(),
             history: History::default(),
+            outlook_is_shown: false,
             refitted: None,
             notice: None,
             view: plots::View::default(),
@@ -138,6 +141,8 @@ impl Explorer {
         }
         self.derived.refresh(&self.settings, &self.document, dragging);
         let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model));
+        let free = self.free();
+        self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
         self.derived.refresh_ghost(&self.settings, &self.document, fitted);
         self.remember_window(ctx);
         self.save_when_rested(ctx);

@@ -3,6 +3,7 @@
 use super::parameters::significant;
 use super::status::delta_e_text;
 use crate::app::command::Command;
+use crate::app::derived::Outlook;
 use crate::app::theme;
 use crate::app::window::{Explorer, LastFit};
 use egui::{Grid, Ui};
@@ -11,7 +12,7 @@ use pbrdf::model::{Parameter, ParameterSet, Preset};
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let free = explorer.free();
-    let Explorer { worker, commands, derived, last_fit, document, settings, comparison, .. } = explorer;
+    let Explorer { worker, commands, derived, last_fit, document, settings, comparison, outlook_is_shown, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -39,6 +40,12 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             Some(None) => ui.label("Fitting…"),
             None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e))),
         };
+        let outlook = ui.collapsing("What these data determine", |ui| outlook_ui(derived.outlook.as_ref(), ui));
+        let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
+        if *outlook_is_shown != was_shown {
+            // It is made before the next frame.
+            ui.ctx().request_repaint();
+        }
         ui.separator();
         match last_fit.as_ref().filter(|fit| fit.generation == document.generation) {
             Some(fit) => {
@@ -58,6 +65,26 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
+
+/// Standard errors that a fit from the sliders would have, before it is made.
+fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
+    let Some(outlook) = outlook else {
+        ui.label("…");
+        return;
+    };
+    let basis = if outlook.from_stated { "from the stated standard deviations" } else { "if the noise is as large as the present misfit" };
+    ui.weak(format!("Standard errors at the sliders, {basis}:"));
+    Grid::new("outlook").num_columns(2).show(ui, |ui| {
+        for (parameter, error) in &outlook.errors {
+            ui.label(parameter.symbol());
+            ui.label(error.map_or_else(|| "open".to_owned(), |error| format!("± {} {}", significant(error), parameter.unit())));
+            ui.end_row();
+        }
+    });
+    for direction in &outlook.open {
+        ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+    }
+}
 
 fn free_text(free: ParameterSet) -> String {
     let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();

@@ -84,6 +84,19 @@ fn refitting_while_dragging_keeps_what_is_fixed_and_fits_the_rest() {
 }
 
 #[test]
+fn what_the_data_determine_is_told_before_a_fit_and_only_if_asked() {
+    let mut harness = harness();
+    assert!(explorer(&mut harness).derived.outlook.is_none());
+    harness.get_by_label("What these data determine").click();
+    harness.run();
+    let outlook = explorer(&mut harness).derived.outlook.as_ref().expect("an outlook");
+    assert!(outlook.from_stated);
+    let error = |parameter| outlook.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error);
+    // The paper's angles leave n more open than half its own size.
+    assert!(error(pbrdf::model::Parameter::N).expect("n is determined, badly") > 1.0);
+}
+
+#[test]
 fn comparing_models_lists_the_ladder() {
     let mut harness = harness();
     harness.get_by_label("Compare models").click();
