@@ -70,6 +70,12 @@ impl Document {
         self.series.iter().flat_map(|series| series.dolp.iter().chain(&series.brdf)).any(|mark| mark.theta_r < 0.0)
     }
 
+    /// Whether the measured BRDF spans so much that a linear axis would show its peak alone.
+    pub fn brdf_spans_decades(&self) -> bool {
+        let values = || self.series.iter().flat_map(|series| &series.brdf).map(|mark| mark.quantity.value).filter(|&value| value > 0.0);
+        values().fold(0.0, f64::max) > 1e3 * values().fold(f64::INFINITY, f64::min)
+    }
+
     /// What its metadata say about it, for a line under the plots.
     pub fn description(&self) -> String {
         let simulated = self.measurement.metadata("simulated") == Some("true");

@@ -93,7 +93,11 @@ impl Explorer {
 
     /// Shows a sentence above the plots.
     pub fn say(&mut self, sentence: String) {
-        self.notice = Some(sentence);
+        // One that nobody has dismissed yet stays.
+        self.notice = match self.notice.take() {
+            Some(before) if before != sentence => Some(format!("{before}\n{sentence}")),
+            _ => Some(sentence),
+        };
     }
 
     fn take(&mut self, name: String, measurement: Measurement) {
@@ -105,6 +109,9 @@ impl Explorer {
             self.say(format!("{name}: {}.", measurement.ignored_notice()));
         }
         self.document = Document::new(name, measurement, self.generation);
+        if self.document.brdf_spans_decades() {
+            self.settings.log_brdf = true;
+        }
         if let Some(first) = self.document.series.first() {
             self.settings.theta_i = first.theta_i;
             self.settings.dphi = first.plane;

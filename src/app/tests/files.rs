@@ -104,6 +104,24 @@ fn every_example_opens_and_says_that_it_is_simulated() {
 }
 
 #[test]
+fn a_second_notice_does_not_hide_the_first() {
+    let mut harness = harness();
+    explorer(&mut harness).say("first".to_owned());
+    explorer(&mut harness).say("second".to_owned());
+    assert_eq!(explorer(&mut harness).notice.as_deref(), Some("first\nsecond"));
+}
+
+#[test]
+fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = file(&folder, "peak.csv", "theta_i,theta_r,brdf\n35,35,5000\n35,-20,0.25\n");
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
+    wait(&mut harness);
+    assert!(explorer(&mut harness).settings.log_brdf);
+}
+
+#[test]
 fn settings_survive_a_restart() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("new").join("settings.json");
