@@ -100,7 +100,8 @@ impl Explorer {
         };
     }
 
-    fn take(&mut self, name: String, measurement: Measurement) {
+    /// Puts a measurement in the place of the one that is open.
+    pub fn take(&mut self, name: String, measurement: Measurement) {
         self.generation += 1;
         // With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
         let locked = self.settings.locked;
@@ -119,12 +120,7 @@ impl Explorer {
         self.last_fit = None;
         self.comparison.clear();
         self.view.reset();
-        if let Some(job) = &self.worker.comparison {
-            job.cancel();
-        }
-        if let Some(job) = &self.worker.fit {
-            job.cancel();
-        }
+        self.worker.abandon();
     }
 
     /// Before each frame: results of jobs, dropped files, commands, what is derived, settings.

@@ -214,6 +214,19 @@ impl Worker {
         Ok(())
     }
 
+    /// Stops all work on the measurement that is being replaced; what it still sends is dropped by its number.
+    pub fn abandon(&mut self) {
+        if let Some(job) = self.fit.take() {
+            job.cancel();
+        }
+        if let Some(job) = self.refit.take() {
+            job.cancel();
+        }
+        if let Some(job) = self.comparison.take() {
+            job.cancel();
+        }
+    }
+
     /// The next result that still matters.
     pub fn next(&mut self) -> Option<Event> {
         while let Ok((number, event)) = self.receiver.try_recv() {

@@ -1,6 +1,7 @@
 //! Pressing Fit, and what follows.
 
 use super::{explorer, harness, wait};
+use crate::app::command::Command;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Parameters;
 
@@ -94,6 +95,24 @@ fn what_the_data_determine_is_told_before_a_fit_and_only_if_asked() {
     let error = |parameter| outlook.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error);
     // The paper's angles leave n more open than half its own size.
     assert!(error(pbrdf::model::Parameter::N).expect("n is determined, badly") > 1.0);
+}
+
+#[test]
+fn a_fit_of_the_measurement_before_does_not_reach_the_one_after() {
+    let mut harness = harness();
+    for command in [Command::StartFit, Command::CompareModels] {
+        explorer(&mut harness).commands.push(command);
+    }
+    harness.step();
+    // The new measurement arrives while both jobs are on their way.
+    let rows = explorer(&mut harness).document.measurement.clone();
+    explorer(&mut harness).take("another".to_owned(), rows);
+    wait(&mut harness);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    harness.run();
+    let explorer = explorer(&mut harness);
+    assert!(explorer.last_fit.is_none() && explorer.comparison.is_empty());
+    assert_eq!(explorer.settings.parameters, Parameters::default());
 }
 
 #[test]
