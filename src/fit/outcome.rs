@@ -6,7 +6,7 @@ use super::solver::{Descent, StopReason, TracePoint, Watch};
 use super::starts::{Search, Starts, search};
 use super::uncertainty::{OpenDirection, Uncertainty};
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// Which bound a parameter rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -183,12 +183,11 @@ fn with_idle_ones_back(problem: &Problem, parameters: Parameters, sum_of_squares
 /// Those parameters at a bound that the data press against it. One that merely came to lie there, along a direction that the data
 /// leave open, takes part in the analysis of what they determine.
 fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -> ParameterSet {
-    let part = problem.with_free(at_bound);
-    let mut residuals = DVector::zeros(part.len());
-    let mut jacobian = DMatrix::zeros(part.len(), part.free().len());
-    if at_bound.is_empty() || !(part.residuals(parameters, &mut residuals) && part.jacobian(parameters, &mut jacobian)) {
+    if at_bound.is_empty() {
         return at_bound;
     }
+    let part = problem.with_free(at_bound);
+    let Some((residuals, jacobian)) = part.linearised(parameters) else { return at_bound };
     let is_pressed = |j: usize| {
         let column = jacobian.column(j);
         column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()

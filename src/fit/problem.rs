@@ -394,6 +394,14 @@ impl Problem {
         if root > 0.0 { (scale * root.copysign(r), slope * r.abs() / root) } else { (residual, 1.0) }
     }
 
+    /// Residuals and Jacobian; none where an element of either is not finite.
+    #[must_use]
+    pub fn linearised(&self, parameters: &Parameters) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let mut residuals = DVector::zeros(self.len());
+        let mut jacobian = DMatrix::zeros(self.len(), self.free.len());
+        (self.residuals(parameters, &mut residuals) && self.jacobian(parameters, &mut jacobian)).then_some((residuals, jacobian))
+    }
+
     /// Sum of the squared (scaled) residuals; none where it is not finite.
     #[must_use]
     pub fn sum_of_squares(&self, parameters: &Parameters) -> Option<f64> {

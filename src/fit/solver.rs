@@ -181,11 +181,7 @@ fn edges(problem: &Problem, parameters: &Parameters, free: ParameterSet) -> Para
         return candidates;
     }
     let part = problem.with_free(candidates);
-    let mut residuals = DVector::zeros(part.len());
-    let mut jacobian = DMatrix::zeros(part.len(), part.free().len());
-    if !(part.residuals(parameters, &mut residuals) && part.jacobian(parameters, &mut jacobian)) {
-        return ParameterSet::EMPTY;
-    }
+    let Some((residuals, jacobian)) = part.linearised(parameters) else { return ParameterSet::EMPTY };
     let gradient = jacobian.tr_mul(&residuals);
     let outwards =
         |(&parameter, slope): (&Parameter, &f64)| near(parameter).is_some_and(|inward| slope * inward >= 0.0).then_some(parameter);

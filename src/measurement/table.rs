@@ -160,6 +160,9 @@ pub struct Record<'a> {
     line: u64,
 }
 
+/// U+FEFF in UTF-8, which some programs put first.
+pub(super) const BYTE_ORDER_MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
+
 /// Rows between two reports of progress.
 const ROWS_PER_REPORT: u64 = 4096;
 
@@ -171,8 +174,8 @@ impl Table {
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
             return Err(ReadErrorKind::Utf16.anywhere());
         }
-        if bytes.starts_with(&[0xef, 0xbb, 0xbf]) {
-            bytes.drain(..3);
+        if bytes.starts_with(&BYTE_ORDER_MARK) {
+            bytes.drain(..BYTE_ORDER_MARK.len());
         }
         if !bytes.contains(&b'\n') {
             // Line ends of old: a lone carriage return.
@@ -199,7 +202,7 @@ impl Table {
                 line.fill(b'\r');
             } else if !header_seen {
                 header_seen = true;
-                *delimiter = [b';', b'\t', b','].into_iter().find(|byte| line.contains(byte)).unwrap_or(b',');
+                *delimiter = separator_of(line);
             }
             let at = |position: usize, kind| {
                 let before = line[..position].iter().filter(|byte| *byte == delimiter).count();
@@ -315,6 +318,11 @@ impl Table {
 /// Reads the next record; the source is in memory and rows may be of any length, so that this fails on nothing known.
 fn read_record(reader: &mut csv::Reader<&[u8]>, record: &mut csv::ByteRecord) -> Result<bool, ReadError> {
     reader.read_byte_record(record).map_err(|error| ReadErrorKind::Io(std::io::Error::other(error)).anywhere())
+}
+
+/// What separates the cells of a table with that header.
+pub(super) fn separator_of(header: &[u8]) -> u8 {
+    [b';', b'\t', b','].into_iter().find(|byte| header.contains(byte)).unwrap_or(b',')
 }
 
 /// Key and value of a comment line, if it has that form.

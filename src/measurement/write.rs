@@ -1,5 +1,6 @@
 //! Writes measurements, and columns beside the ones a file already has.
 
+use super::table::{BYTE_ORDER_MARK, separator_of};
 use super::{Measurement, Quantity, Row};
 use std::io::{self, Write};
 
@@ -61,8 +62,8 @@ pub fn write(measurement: &Measurement, mut out: impl Write) -> io::Result<()> {
 ///
 /// `cells` has as many rows as the table; what was there stays byte for byte, comments included.
 pub fn append_columns(input: &[u8], names: &[&str], cells: &[Vec<String>], mut out: impl Write) -> io::Result<()> {
-    let (mark, text) = match input.strip_prefix(&[0xef, 0xbb, 0xbf]) {
-        Some(rest) => (&input[..3], rest),
+    let (mark, text) = match input.strip_prefix(&BYTE_ORDER_MARK) {
+        Some(rest) => (&input[..BYTE_ORDER_MARK.len()], rest),
         None => (&input[..0], input),
     };
     out.write_all(mark)?;
@@ -79,7 +80,7 @@ pub fn append_columns(input: &[u8], names: &[&str], cells: &[Vec<String>], mut o
         out.write_all(&line[..end])?;
         let (separator, further): (u8, Vec<&str>) = match delimiter {
             None => {
-                let found = [b';', b'\t', b','].into_iter().find(|byte| line.contains(byte)).unwrap_or(b',');
+                let found = separator_of(line);
                 delimiter = Some(found);
                 (found, names.to_vec())
             }
