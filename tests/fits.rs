@@ -123,6 +123,17 @@ fn a_cancelled_fit_keeps_the_best_so_far() {
 }
 
 #[test]
+fn a_fit_cancelled_before_it_began_returns_its_start() {
+    let measurement = dense(Cauchy, TRUTH, Columns::Dolp);
+    let problem = problem(&measurement, Cauchy, Parameters::default());
+    for starts in [Starts::One, Starts::Automatic, Starts::Exactly(8), Starts::Exactly(200)] {
+        let report = fit(&problem, starts, 1, Watch { cancelled: &|| true, ..Watch::NOBODY });
+        assert_eq!(report.stop_reason, StopReason::Cancelled, "{starts:?}");
+        assert!(report.objective <= report.start_objective, "{starts:?}");
+    }
+}
+
+#[test]
 fn the_trace_falls_and_ends_at_the_objective() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, grid(30, 50, 10), grid(20, 60, 5), 0.005);
     let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);

@@ -89,7 +89,8 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
     }
     let mut quiet = 0;
     let mut done = 0;
-    while done < most && quiet < QUIET_ROUNDS && !(watch.cancelled)() {
+    // The first round runs even if nobody waits for it any more: each of its descents ends at its start, and that is an answer.
+    while done < most && quiet < QUIET_ROUNDS && (done == 0 || !(watch.cancelled)()) {
         let round = candidates.take(ROUND.min(most - done));
         done += round.len();
         let before = search.best();
