@@ -23,6 +23,8 @@ pub enum Command {
     DismissNotice,
     Undo,
     Redo,
+    /// Sliders and results as the earlier fit of that number left them, the newest first.
+    ReturnTo(usize),
     /// Fit all models of the ladder.
     CompareModels,
     CancelComparison,

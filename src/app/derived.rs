@@ -3,10 +3,10 @@
 //! Each part is kept with the inputs that it was made from, and made anew only when they differ.
 
 use super::document::{Document, Mark, Series};
+use super::problem::{dolp_gain, problem};
 use super::state::Settings;
 use egui_plot::PlotPoint;
-use pbrdf::fit::{Bounds, Choices, OpenDirection, Problem, ProblemError, Uncertainty, Weights};
-use pbrdf::measurement::Measurement;
+use pbrdf::fit::{Choices, Eq17, Loss, OpenDirection, Problem, Uncertainty, Weights};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::Facet;
 
@@ -74,6 +74,7 @@ struct CurveKey {
     dphi: f64,
     log_brdf: bool,
     backscatter: bool,
+    eq17: Eq17,
     generation: u64,
 }
 
@@ -82,7 +83,7 @@ struct CurveKey {
 pub struct Derived {
     marks_key: Option<(u64, bool)>,
     curve_key: Option<CurveKey>,
-    problem_key: Option<(u64, Model)>,
+    problem_key: Option<(u64, Model, Eq17)>,
     problem: Option<Problem>,
     /// Points of each series.
     pub marks: Vec<SeriesMarks>,
@@ -92,7 +93,7 @@ pub struct Derived {
     pub own: Curves,
     /// DoLP of the last fit along each series, where the sliders have left it.
     pub ghost: Vec<Pieces>,
-    ghost_key: Option<(Parameters, Model, u64, bool)>,
+    ghost_key: Option<(Parameters, Model, Eq17, u64, bool)>,
     /// DoLP of the model less the measured one, of each series; masked points left out.
     pub residuals: Vec<Vec<PlotPoint>>,
     /// The series that has the sliders' own θi and Δφ.
@@ -106,7 +107,7 @@ pub struct Derived {
     pub delta_e: Option<f64>,
     /// What the open data determine at the sliders, while that is on screen.
     pub outlook: Option<Outlook>,
-    outlook_key: Option<(Parameters, Model, ParameterSet, u64)>,
+    outlook_key: Option<(Parameters, Model, ParameterSet, u64, Choices)>,
     /// Series and points that are not drawn.
     pub left_out: Option<String>,
     /// Why there is no curve.
@@ -135,6 +136,7 @@ impl Derived {
             dphi: settings.dphi,
             log_brdf: settings.log_brdf,
             backscatter: settings.show_backscatter || document.has_backscatter(),
+            eq17: settings.choices.eq17,
             generation: document.generation,
         };
         if self.curve_key.as_ref() != Some(&key) {
@@ -149,14 +151,16 @@ impl Derived {
     }
 
     /// Keeps the curves of the last fit, as long as the sliders are elsewhere.
-    pub fn refresh_ghost(&mut self, settings: &Settings, document: &Document, fitted: Option<(Parameters, Model)>) {
+    pub fn refresh_ghost(&mut self, settings: &Settings, document: &Document, fitted: Option<(Parameters, Model, Eq17)>) {
         let backscatter = settings.show_backscatter || document.has_backscatter();
         let key = fitted
-            .filter(|(parameters, _)| *parameters != settings.parameters)
-            .map(|(parameters, model)| (parameters, model, document.generation, backscatter));
+            .filter(|(parameters, ..)| *parameters != settings.parameters)
+            .map(|(parameters, model, eq17)| (parameters, model, eq17, document.generation, backscatter));
         if self.ghost_key != key {
-            let surface = key.and_then(|(parameters, model, ..)| Pbrdf::new(model, parameters).ok());
-            let curves = |surface: Pbrdf| drawn(document).map(|series| Curves::new(&surface, series, backscatter, false).dolp).collect();
+            let surface = key.and_then(|(parameters, model, eq17, ..)| Some((Pbrdf::new(model, parameters).ok()?, eq17)));
+            let curves = |(surface, eq17): (Pbrdf, Eq17)| {
+                drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, false).dolp).collect()
+            };
             self.ghost = surface.map_or_else(Vec::new, curves);
             self.ghost_key = key;
         }
@@ -164,7 +168,7 @@ impl Derived {
 
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
     pub fn refresh_outlook(&mut self, settings: &Settings, document: &Document, free: ParameterSet, is_shown: bool) {
-        let key = is_shown.then_some((settings.parameters, settings.model, free, document.generation));
+        let key = is_shown.then_some((settings.parameters, settings.model, free, document.generation, settings.choices));
         if self.outlook_key != key {
             self.outlook_key = key;
             self.outlook = key.and_then(|_| Outlook::new(settings, document, free));
@@ -205,7 +209,7 @@ impl Derived {
         self.fault = None;
         let plane = settings.dphi.rem_euclid(360.0);
         let own = Series { theta_i: settings.theta_i, plane, dolp: Vec::new(), brdf: Vec::new() };
-        let curves = |series: &Series| Curves::new(&surface, series, backscatter, settings.log_brdf);
+        let curves = |series: &Series| Curves::new(&surface, settings.choices.eq17, series, backscatter, settings.log_brdf);
         self.series = drawn(document).map(curves).collect();
         self.own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         self.own = match self.own_is_series {
@@ -215,11 +219,12 @@ impl Derived {
     }
 
     fn refresh_delta_e(&mut self, settings: &Settings, document: &Document) {
-        let key = (document.generation, settings.model);
+        let key = (document.generation, settings.model, settings.choices.eq17);
         if self.problem_key != Some(key) {
             self.problem_key = Some(key);
-            // Free parameters and bounds do not matter to ΔE.
-            self.problem = problem(&document.measurement, settings.model, settings.parameters, ParameterSet::EMPTY);
+            // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
+            let choices = Choices { eq17: settings.choices.eq17, ..Choices::default() };
+            self.problem = problem(settings, &document.measurement, settings.model, ParameterSet::EMPTY, choices).ok();
         }
         self.delta_e = self.problem.as_ref().and_then(|problem| problem.delta_e(&settings.parameters));
     }
@@ -227,12 +232,13 @@ impl Derived {
     fn refresh_residuals(&mut self, settings: &Settings, document: &Document) {
         self.residuals.clear();
         let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return };
+        let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
         for series in drawn(document) {
             let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
             let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
             let residual = |mark: &Mark| {
                 let facet = Facet::new(series.geometry(mark.theta_r)?);
-                Some(PlotPoint::new(mark.theta_r, surface.dolp(&facet) - mark.quantity.value))
+                Some(PlotPoint::new(mark.theta_r, gain * surface.dolp(&facet) - mark.quantity.value))
             };
             self.residuals.push(used.filter_map(residual).collect());
         }
@@ -281,8 +287,11 @@ pub struct Outlook {
 
 impl Outlook {
     fn new(settings: &Settings, document: &Document, free: ParameterSet) -> Option<Self> {
-        let (model, parameters) = (settings.model, settings.parameters);
-        let with = |weights| problem_with(&document.measurement, model, parameters, free, Choices { weights, ..Choices::default() }).ok();
+        let parameters = settings.parameters;
+        let with = |weights| {
+            let choices = Choices { weights, loss: Loss::Linear, ..settings.choices };
+            problem(settings, &document.measurement, settings.model, free, choices).ok()
+        };
         let stated = with(Weights::Sigma);
         let from_stated = stated.is_some();
         let problem = stated.or_else(|| with(Weights::None))?;
@@ -291,26 +300,6 @@ impl Outlook {
         let errors = free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect();
         Some(Self { errors, open: uncertainty.open, from_stated })
     }
-}
-
-/// The problem of fitting a measurement from those values.
-pub fn problem(measurement: &Measurement, model: Model, start: Parameters, free: ParameterSet) -> Option<Problem> {
-    problem_with(measurement, model, start, free, Choices::default()).ok()
-}
-
-/// The same with choices; the box makes room for a start outside the sliders' ranges.
-pub fn problem_with(
-    measurement: &Measurement,
-    model: Model,
-    start: Parameters,
-    free: ParameterSet,
-    choices: Choices,
-) -> Result<Problem, ProblemError> {
-    let mut bounds = Bounds::default();
-    for parameter in free {
-        bounds.widen_to(parameter, start[parameter]);
-    }
-    Problem::new(measurement, model, start, free, bounds, choices)
 }
 
 /// The series that are drawn.
@@ -367,7 +356,8 @@ fn directions(theta_i: f64, backscatter: bool) -> Vec<f64> {
 }
 
 impl Curves {
-    fn new(surface: &Pbrdf, series: &Series, backscatter: bool, log: bool) -> Self {
+    fn new(surface: &Pbrdf, eq17: Eq17, series: &Series, backscatter: bool, log: bool) -> Self {
+        let gain = dolp_gain(eq17, surface.parameters());
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles
             .into_iter()
@@ -380,7 +370,7 @@ impl Curves {
             |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, brdf_coordinate(value(reflection), log))));
         let model = surface.model();
         Self {
-            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.dolp)))),
+            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(gain * reflection.dolp)))),
             limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Pieces::new() },
             total: brdf(|reflection| reflection.brdf),
             specular: if model.specular { brdf(|reflection| reflection.specular) } else { Pieces::new() },

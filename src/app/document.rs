@@ -55,14 +55,19 @@ pub struct Document {
     pub name: String,
     pub measurement: Measurement,
     pub series: Vec<Series>,
-    /// Grows with every document, so that what is derived knows a new one.
+    /// Which measurement of this session it is.
+    pub number: u64,
+    /// Grows with every document and every change of one, so that what is derived knows.
     pub generation: u64,
 }
 
+/// Bits of the generation that count the changes of one document.
+const CHANGES: u32 = 32;
+
 impl Document {
-    pub fn new(name: String, measurement: Measurement, generation: u64) -> Self {
+    pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
         let series = series(&measurement.rows);
-        Self { name, measurement, series, generation }
+        Self { name, measurement, series, number, generation: number << CHANGES }
     }
 
     /// Whether anything was measured on the backscatter side.

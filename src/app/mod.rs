@@ -9,7 +9,9 @@ mod document;
 mod frame_times;
 mod history;
 mod panels;
+mod past_fits;
 mod plots;
+mod problem;
 mod state;
 mod store;
 #[cfg(test)]

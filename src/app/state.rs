@@ -1,5 +1,6 @@
 //! What survives a restart.
 
+use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,16 @@ pub struct Settings {
     pub model: Model,
     /// Parameters that a fit leaves alone.
     pub locked: ParameterSet,
+    /// Bounds of fits where they are not the slider's range: parameter, lower, upper.
+    pub bounds: Vec<(Parameter, f64, f64)>,
+    /// Whether the bounds stand under the sliders.
+    pub show_bounds: bool,
+    /// What a fit minimises.
+    pub choices: Choices,
+    /// Where a fit begins.
+    pub starts: Starts,
+    /// Seed of the starts and of the bootstrap.
+    pub seed: u64,
     /// Angle of incidence of the lobes, degrees.
     pub theta_i: f64,
     /// Relative azimuth of the lobes, degrees; 180 is the plane of incidence.
@@ -59,6 +70,11 @@ impl Default for Settings {
             parameters: Parameters::default(),
             model: Model::full(SlopeDistribution::Cauchy),
             locked: ParameterSet::EMPTY.with(Parameter::Ks),
+            bounds: Vec::new(),
+            show_bounds: false,
+            choices: Choices::default(),
+            starts: Starts::Automatic,
+            seed: 1,
             theta_i: 40.0,
             dphi: 180.0,
             log_brdf: false,
@@ -77,7 +93,36 @@ impl Settings {
     /// Whether the values mean something: a file can be well-formed and still hold nonsense.
     pub fn are_sound(&self) -> bool {
         self.parameters.validate(ParameterSet::ALL).is_ok()
+            && self.bounds.iter().all(|&(parameter, low, high)| Bounds::default().set(parameter, low, high).is_ok())
+            && self.choices.loss_scale.is_none_or(|scale| scale.is_finite() && scale > 0.0)
             && Geometry::new(self.theta_i, 0.0, self.dphi).is_ok()
             && self.window_size.iter().all(|side| (100.0..=20_000.0).contains(side))
+    }
+
+    /// Lower and upper bound of a parameter in fits.
+    pub fn bounds_of(&self, parameter: Parameter) -> (f64, f64) {
+        let own = self.bounds.iter().find(|(other, ..)| *other == parameter);
+        own.map_or_else(|| Bounds::default().of(parameter), |&(_, low, high)| (low, high))
+    }
+
+    /// Whether a parameter's bounds are other ones than its slider's range.
+    pub fn has_own_bounds(&self, parameter: Parameter) -> bool {
+        self.bounds.iter().any(|(other, ..)| *other == parameter)
+    }
+
+    /// Sets the bounds of a parameter, or says why they are none.
+    pub fn set_bounds(&mut self, parameter: Parameter, low: f64, high: f64) -> Result<(), BoundsError> {
+        let default = Bounds::default().of(parameter);
+        Bounds::default().set(parameter, low, high)?;
+        self.reset_bounds(parameter);
+        if (low, high) != default {
+            self.bounds.push((parameter, low, high));
+        }
+        Ok(())
+    }
+
+    /// Back to the slider's range.
+    pub fn reset_bounds(&mut self, parameter: Parameter) {
+        self.bounds.retain(|(other, ..)| *other != parameter);
     }
 }

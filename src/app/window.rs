@@ -1,29 +1,23 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
 use super::command::Command;
-use super::derived::{Derived, problem, problem_with};
+use super::derived::Derived;
 use super::document::{Document, EXAMPLES};
 use super::frame_times::FrameTimes;
 use super::history::History;
 use super::panels;
+use super::past_fits::{PastFit, PastFits};
 use super::plots;
+use super::problem::{problem, reason};
 use super::state::{Settings, Theme};
 use super::worker::{Event, Worker};
 use super::{store, theme};
-use pbrdf::fit::FitReport;
+use pbrdf::fit::{Choices, Eq17, FitReport};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters, Preset};
 use std::path::PathBuf;
+use std::rc::Rc;
 use std::time::{Duration, Instant};
-
-/// A fit as the window remembers it.
-pub struct LastFit {
-    pub report: FitReport,
-    /// The sliders before it.
-    pub before: Parameters,
-    /// The measurement it belongs to.
-    pub generation: u64,
-}
 
 /// The window.
 pub struct Explorer {
@@ -33,7 +27,10 @@ pub struct Explorer {
     pub document: Document,
     pub derived: Derived,
     pub worker: Worker,
-    pub last_fit: Option<LastFit>,
+    /// The fit that is shown.
+    pub last_fit: Option<Rc<PastFit>>,
+    /// The fits before it.
+    pub past_fits: PastFits,
     /// The ladder of models on the open measurement.
     pub comparison: Vec<(&'static Preset, FitReport)>,
     pub history: History,
@@ -67,6 +64,7 @@ impl Explorer {
             derived: Derived::default(),
             worker: Worker::new(ctx),
             last_fit: None,
+            past_fits: PastFits::default(),
             comparison: Vec::new(),
             history: History::default(),
             outlook_is_shown: false,
@@ -143,7 +141,7 @@ impl Explorer {
             self.history.rest((self.settings.parameters, self.settings.model));
         }
         self.derived.refresh(&self.settings, &self.document, dragging);
-        let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model));
+        let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
         let free = self.free();
         self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
         self.derived.refresh_ghost(&self.settings, &self.document, fitted);
@@ -169,11 +167,12 @@ impl Explorer {
                 }
             }
             Event::Compared(fits) => self.comparison = fits,
-            Event::Fitted(report) => {
+            Event::Fitted { report, problem } => {
                 let before = self.settings.parameters;
                 self.settings.parameters = report.parameters;
                 self.refitted = Some(report.parameters);
-                self.last_fit = Some(LastFit { report: *report, before, generation: self.generation });
+                let fit = PastFit { report: *report, problem, before, document: self.document.name.clone(), number: self.document.number };
+                self.last_fit = Some(self.past_fits.push(fit));
             }
         }
     }
@@ -203,7 +202,9 @@ impl Explorer {
         if parameters.validate(self.settings.model.parameters()).is_err() || self.free().is_empty() {
             return;
         }
-        if let Some(problem) = problem(&self.document.measurement, self.settings.model, parameters, self.free())
+        let Settings { model, choices, .. } = self.settings;
+        // Why a fit is not possible is said when one is asked for.
+        if let Ok(problem) = problem(&self.settings, &self.document.measurement, model, self.free(), choices)
             && let Err(sentence) = self.worker.start_refit(problem)
         {
             self.say(sentence);
@@ -211,17 +212,15 @@ impl Explorer {
     }
 
     fn compare_models(&mut self) -> Result<(), String> {
-        let measurement = &self.document.measurement;
-        let start = self.settings.parameters;
+        let Self { settings, document, .. } = self;
         let problems = PRESETS.iter().filter_map(|preset| {
-            let choices = pbrdf::fit::Choices { dolp_only: preset.dolp_only, ..pbrdf::fit::Choices::default() };
-            let free = pbrdf::fit::free_by_default(preset.model, measurement, &choices);
-            let problem = problem_with(measurement, preset.model, start, free, choices).ok()?;
-            Some((preset, problem))
+            let choices = Choices { dolp_only: preset.dolp_only, ..settings.choices };
+            let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
+            Some((preset, problem(settings, &document.measurement, preset.model, free, choices).ok()?))
         });
         let problems = problems.collect();
         self.comparison.clear();
-        self.worker.start_comparison(problems)
+        self.worker.start_comparison(problems, self.settings.starts, self.settings.seed)
     }
 
     fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
@@ -246,6 +245,7 @@ impl Explorer {
                 (self.settings.parameters, self.settings.model) = step.unwrap_or((self.settings.parameters, self.settings.model));
                 self.refitted = Some(self.settings.parameters);
             }
+            Command::ReturnTo(index) => self.return_to(index),
             Command::CompareModels => self.compare_models()?,
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
             Command::SetTheme(theme) => {
@@ -260,16 +260,32 @@ impl Explorer {
     /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
     pub fn free(&self) -> ParameterSet {
         let model = self.settings.model;
-        let known = if self.document.measurement.has_brdf() { model.parameters() } else { model.dolp_parameters() };
+        let known = match self.settings.choices.eq17 {
+            _ if self.document.measurement.has_brdf() => model.parameters(),
+            Eq17::Consistent => model.dolp_parameters(),
+            // As printed, k_s is a gain of its own.
+            Eq17::Printed => model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks))),
+        };
         known.without_all(self.settings.locked)
     }
 
+    /// Sliders, model and results as an earlier fit left them.
+    fn return_to(&mut self, index: usize) {
+        if let Some(fit) = self.past_fits.get(index) {
+            self.settings.parameters = fit.report.parameters;
+            self.settings.model = fit.report.model;
+            self.refitted = Some(fit.report.parameters);
+            self.last_fit = Some(fit).filter(|fit| fit.number == self.document.number);
+        }
+    }
+
     fn start_fit(&mut self) -> Result<(), String> {
-        let Settings { model, parameters, .. } = self.settings;
+        let Settings { model, parameters, choices, starts, seed, .. } = self.settings;
         parameters.validate(model.parameters()).map_err(|error| format!("The fit cannot begin: {error}."))?;
-        match problem(&self.document.measurement, model, parameters, self.free()) {
-            Some(problem) => self.worker.start_fit(problem),
-            None => Err("The fit cannot begin: the model does not predict what was measured.".to_owned()),
+        let measurement = &self.document.measurement;
+        match problem(&self.settings, measurement, model, self.free(), choices) {
+            Ok(problem) => self.worker.start_fit(problem, starts, seed),
+            Err(error) => Err(format!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }
 

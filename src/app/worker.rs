@@ -24,7 +24,10 @@ pub enum Event {
         name: String,
         result: Result<Measurement, String>,
     },
-    Fitted(Box<FitReport>),
+    Fitted {
+        report: Box<FitReport>,
+        problem: Arc<Problem>,
+    },
     /// A fit from the sliders while they move.
     Refitted(Box<FitReport>),
     /// The ladder of models.
@@ -167,7 +170,7 @@ impl Worker {
     }
 
     /// Fits.
-    pub fn start_fit(&mut self, problem: Problem) -> Result<(), String> {
+    pub fn start_fit(&mut self, problem: Problem, starts: Starts, seed: u64) -> Result<(), String> {
         if let Some(job) = self.fit.take() {
             job.cancel();
         }
@@ -178,7 +181,8 @@ impl Worker {
                 cancelled: &|| stop.load(Ordering::Relaxed),
                 progress: &|point| teller.tell(point),
             };
-            Event::Fitted(Box::new(fit(&problem, Starts::Automatic, 1, watch)))
+            let report = Box::new(fit(&problem, starts, seed, watch));
+            Event::Fitted { report, problem: Arc::new(problem) }
         })?;
         self.fit = Some(job);
         Ok(())
@@ -195,7 +199,7 @@ impl Worker {
     }
 
     /// Fits several models, one after the other.
-    pub fn start_comparison(&mut self, problems: Vec<(&'static Preset, Problem)>) -> Result<(), String> {
+    pub fn start_comparison(&mut self, problems: Vec<(&'static Preset, Problem)>, starts: Starts, seed: u64) -> Result<(), String> {
         let job = self.spawn("compare models", move |teller: &Teller<&'static str>, stop| {
             let mut fits = Vec::new();
             for (preset, problem) in problems {
@@ -206,7 +210,7 @@ impl Worker {
                 let begun = Instant::now();
                 let watch =
                     Watch { clock: &|| begun.elapsed().as_secs_f64() * 1e3, cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
-                fits.push((preset, fit(&problem, Starts::Automatic, 1, watch)));
+                fits.push((preset, fit(&problem, starts, seed, watch)));
             }
             Event::Compared(fits)
         })?;
@@ -235,7 +239,7 @@ impl Worker {
                 Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
                 Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
-                Event::Fitted(_) => self.fit.take_if(|job| job.number == number).is_some(),
+                Event::Fitted { .. } => self.fit.take_if(|job| job.number == number).is_some(),
             };
             if matters {
                 return Some(event);

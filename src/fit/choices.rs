@@ -1,7 +1,10 @@
 //! The choices of a fit: what a residual is, what divides it, how it counts, which reading of Eq. (17) predicts.
 
+use serde::{Deserialize, Serialize};
+
 /// What divides a residual.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Weights {
     /// Nothing but the scale of Eq. (18).
     #[default]
@@ -11,7 +14,8 @@ pub enum Weights {
 }
 
 /// How a BRDF residual is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum BrdfResiduals {
     /// X − Xm.
     Absolute,
@@ -23,7 +27,8 @@ pub enum BrdfResiduals {
 }
 
 /// How a residual counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Loss {
     /// By its square.
     #[default]
@@ -35,7 +40,8 @@ pub enum Loss {
 }
 
 /// Which reading of Eq. (17) predicts DoLP.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Eq17 {
     /// k_s inside the numerator, as Eqs. (14, 15) have it.
     #[default]
@@ -45,7 +51,8 @@ pub enum Eq17 {
 }
 
 /// The choices of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Choices {
     /// What divides a residual.
     pub weights: Weights,

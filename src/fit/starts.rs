@@ -13,9 +13,11 @@ use super::solver::{Descent, Effort, StopReason, Watch, descend};
 use crate::model::{Diffuse, Parameter, ParameterSet, Parameters, Pbrdf};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 
 /// How many starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Starts {
     /// The problem's own start alone.
     One,

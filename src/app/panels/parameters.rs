@@ -13,6 +13,8 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);
+        bounds_switch_ui(settings, ui);
+        ui.separator();
         specular_ui(settings, notice, ui);
         diffuse_ui(settings, notice, ui);
         volume_ui(settings, notice, ui);
@@ -41,7 +43,16 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
         });
         response.response.labelled_by(label.id).on_hover_text(current.map_or("a set of terms without a name", |preset| preset.citation));
     });
-    ui.separator();
+}
+
+fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut settings.show_bounds, "Bounds of fits")
+            .on_hover_text("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range");
+        if !settings.bounds.is_empty() && ui.button("Reset bounds").on_hover_text("All bounds back to the sliders' ranges").clicked() {
+            settings.bounds.clear();
+        }
+    });
 }
 
 fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
@@ -117,6 +128,10 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui,
         for &parameter in parameters {
             slider_ui(settings, notice, ui, parameter);
             ui.end_row();
+            if settings.show_bounds {
+                bounds_ui(settings, notice, ui, parameter);
+                ui.end_row();
+            }
         }
     });
 }
@@ -192,6 +207,57 @@ fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, format!("Reset {}", parameter.key())));
     if reset.clicked() {
         settings.parameters[parameter] = parameter.default_value();
+    }
+}
+
+/// The lower bound under the slider, the upper one under the value.
+fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
+    let (low, high) = settings.bounds_of(parameter);
+    let own = settings.has_own_bounds(parameter);
+    let color = if own { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+    let mut wanted = (low, high);
+    let refused = RefCell::new(None);
+    ui.label("");
+    for (value, name, sign) in [(&mut wanted.0, "Lower bound", "≥ "), (&mut wanted.1, "Upper bound", "≤ ")] {
+        let before = *value;
+        let parse = |text: &str| {
+            let parsed = number_from_text(text.trim().trim_start_matches(sign.trim()), parameter.unit());
+            if parsed.is_none() {
+                *refused.borrow_mut() = Some(format!("{name} of {}: found {text:?}, expected a number.", parameter.symbol()));
+            }
+            parsed
+        };
+        let field = DragValue::from_get_set(|new| {
+            match new {
+                // Text as it was shown means the value as it was, with all its digits.
+                Some(new) if significant(new) != significant(*value) => *value = new,
+                _ => {}
+            }
+            *value
+        });
+        let field = field.speed((0.005 * before.abs()).max(1e-3)).custom_formatter(|value, _| significant(value)).custom_parser(parse);
+        let response = ui
+            .scope(|ui| {
+                ui.visuals_mut().override_text_color = Some(color);
+                ui.add_sized([92.0, 18.0], field.update_while_editing(false).prefix(sign))
+            })
+            .inner;
+        response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} of {}", parameter.key())));
+        response.on_hover_text(format!("{name} of {} in fits: {}", parameter.symbol(), parameter.domain()));
+    }
+    if wanted != (low, high)
+        && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
+    {
+        *notice = Some(format!("The bounds stay as they are: {error}."));
+    }
+    if let Some(sentence) = refused.into_inner() {
+        *notice = Some(sentence);
+    }
+    ui.label("");
+    let reset = ui.add_enabled(own, egui::Button::new("reset")).on_hover_text("back to the slider's range");
+    reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, format!("Reset bounds of {}", parameter.key())));
+    if reset.clicked() {
+        settings.reset_bounds(parameter);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod files;
 mod fitting;
+mod options;
 mod sliders;
 
 use super::state::Settings;

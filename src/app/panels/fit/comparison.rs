@@ -1,0 +1,46 @@
+//! The ladder of models on the open measurement.
+
+use crate::app::command::Command;
+use egui::{Grid, Ui};
+use pbrdf::fit::FitReport;
+use pbrdf::model::Preset;
+
+/// The ladder of models on the open measurement: what each added term buys.
+pub fn comparison_ui(
+    comparison: &[(&'static Preset, FitReport)],
+    running: Option<Option<&'static str>>,
+    commands: &mut Vec<Command>,
+    ui: &mut Ui,
+) {
+    ui.horizontal(|ui| {
+        if ui
+            .add_enabled(running.is_none(), egui::Button::new("Compare models"))
+            .on_hover_text("Fit the whole ladder of models to this measurement")
+            .clicked()
+        {
+            commands.push(Command::CompareModels);
+        }
+        if running.is_some() && ui.button("Cancel comparison").clicked() {
+            commands.push(Command::CancelComparison);
+        }
+    });
+    if let Some(at) = running {
+        ui.label(format!("Fitting: {}", at.unwrap_or("…")));
+    }
+    if comparison.is_empty() {
+        return;
+    }
+    Grid::new("comparison").num_columns(4).striped(true).show(ui, |ui| {
+        for heading in ["model", "ΔE", "AICc", "n, k"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for (preset, report) in comparison {
+            ui.label(preset.key).on_hover_text(format!("{}\n{}\n{}", preset.name, preset.citation, report.stop_reason.text()));
+            ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
+            ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
+            ui.monospace(format!("{:.2}, {:.2}", report.parameters.n, report.parameters.k));
+            ui.end_row();
+        }
+    });
+}

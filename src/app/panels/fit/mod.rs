@@ -1,0 +1,75 @@
+//! The fit: start it, watch it, read it, take it or leave it.
+
+mod comparison;
+mod options;
+mod outlook;
+mod past;
+mod result;
+
+use super::status::delta_e_text;
+use crate::app::command::Command;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use crate::app::worker::Job;
+use egui::Ui;
+use pbrdf::model::{Parameter, ParameterSet};
+
+pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let free = explorer.free();
+    let Explorer { worker, commands, derived, last_fit, past_fits, document, settings, comparison, outlook_is_shown, .. } = explorer;
+    egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            let running = worker.fit.is_some();
+            let fit = ui.add_enabled(!running, egui::Button::new(egui::RichText::new("Fit").strong()).min_size(egui::vec2(84.0, 26.0)));
+            if fit.on_hover_text("Levenberg–Marquardt from the sliders, all parameters that are not fixed").clicked() {
+                commands.push(Command::StartFit);
+            }
+            if ui
+                .add_enabled(running, egui::Button::new("Cancel").min_size(egui::vec2(64.0, 26.0)))
+                .on_hover_text("Stop and keep the best so far")
+                .clicked()
+            {
+                commands.push(Command::CancelFit);
+            }
+            if running {
+                ui.spinner();
+            }
+        });
+        ui.weak(free_text(free));
+        ui.checkbox(&mut settings.refit_live, "keep refitting while I drag")
+            .on_hover_text("Fixed parameters follow their sliders, the others are fitted again at once");
+        match worker.fit.as_ref().map(Job::progress) {
+            Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
+            Some(None) => ui.label("Fitting…"),
+            None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e))),
+        };
+        options::options_ui(settings, &document.measurement, ui);
+        let outlook = ui.collapsing("What these data determine", |ui| outlook::outlook_ui(derived.outlook.as_ref(), ui));
+        let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
+        if *outlook_is_shown != was_shown {
+            // It is made before the next frame.
+            ui.ctx().request_repaint();
+        }
+        ui.separator();
+        match last_fit.as_ref().filter(|fit| fit.number == document.number) {
+            Some(fit) => {
+                if fit.report.model != settings.model {
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), "This fit is of another model than the sliders show.");
+                }
+                result::result_ui(fit, commands, ui);
+            }
+            None => {
+                ui.label("Move the sliders until the curves are near the points, then press Fit.");
+            }
+        }
+        past::past_fits_ui(past_fits, last_fit.as_ref(), document.number, commands, ui);
+        ui.separator();
+        comparison::comparison_ui(comparison, worker.comparison.as_ref().map(Job::progress), commands, ui);
+    });
+}
+
+fn free_text(free: ParameterSet) -> String {
+    let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();
+    if names.is_empty() { "Nothing is free: all parameters are fixed.".to_owned() } else { format!("Free: {}", names.join(", ")) }
+}

@@ -1,0 +1,173 @@
+//! What a fit came to: values, standard errors, minima, correlations, and what stays open.
+
+use crate::app::command::Command;
+use crate::app::panels::parameters::significant;
+use crate::app::panels::status::delta_e_text;
+use crate::app::past_fits::PastFit;
+use crate::app::theme;
+use egui::{Grid, Ui};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, StopReason, Weights};
+
+/// Minima that are listed at most.
+const MOST_MINIMA: usize = 8;
+
+pub fn result_ui(fit: &PastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let report = &fit.report;
+    ui.horizontal(|ui| {
+        if ui.button("Use as sliders").on_hover_text("The fitted values to the sliders").clicked() {
+            commands.push(Command::UseFit);
+        }
+        if ui.button("Back").on_hover_text("The sliders as they were before the fit").clicked() {
+            commands.push(Command::Back);
+        }
+    });
+    ui.add_space(4.0);
+    let text = report.stop_reason.text();
+    let capital: String = text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect();
+    if matches!(report.stop_reason, StopReason::Converged | StopReason::ResidualsZero) {
+        ui.strong(capital);
+    } else {
+        ui.colored_label(theme::warning(ui.visuals().dark_mode), capital);
+    }
+    Grid::new("fit summary").num_columns(2).show(ui, |ui| {
+        for (name, value) in [
+            ("Before", delta_e_text(report.start_objective)),
+            ("After", delta_e_text(report.objective)),
+            ("Minimised", minimised_text(fit)),
+            ("χ²/dof", reduced_chi2_text(report)),
+            ("AICc", report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}"))),
+            ("Time", format!("{:.2} ms, {} evaluations", report.elapsed_ms, report.evaluations)),
+        ] {
+            if !value.is_empty() {
+                ui.label(name);
+                ui.label(value);
+                ui.end_row();
+            }
+        }
+    });
+    ui.add_space(6.0);
+    Grid::new("fit result").num_columns(4).striped(true).min_col_width(44.0).show(ui, |ui| {
+        for heading in ["", "start", "value", "± std. error"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for estimate in &report.estimates {
+            ui.label(estimate.parameter.symbol()).on_hover_text(estimate.parameter.name());
+            ui.monospace(significant(estimate.start));
+            ui.monospace(significant(estimate.value));
+            ui.label(error_text(estimate, report));
+            ui.end_row();
+        }
+    });
+    ui.add_space(6.0);
+    minima_ui(report, ui);
+    correlations_ui(report, ui);
+    if !report.undetermined.is_empty() {
+        ui.add_space(6.0);
+        ui.strong("The data leave open:");
+        for direction in &report.undetermined {
+            ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+        }
+    }
+}
+
+/// What fell, where that was not ΔE, named for what it is.
+fn minimised_text(fit: &PastFit) -> String {
+    let report = &fit.report;
+    let choices = fit.problem.choices();
+    let Some(start) = report.start_sum_of_squares.filter(|_| !report.minimises_delta_e) else { return String::new() };
+    let has_brdf = !fit.problem.knows_only_ratios() && !choices.dolp_only;
+    let form = match choices.brdf_residuals {
+        BrdfResiduals::Relative if has_brdf => "relative residuals",
+        BrdfResiduals::Log if has_brdf => "logarithmic residuals",
+        _ => "residuals",
+    };
+    let weights = if choices.weights == Weights::Sigma { " over σ" } else { "" };
+    let loss = match choices.loss {
+        Loss::Linear => "",
+        Loss::Huber => ", Huber loss",
+        Loss::SoftL1 => ", soft-L1 loss",
+    };
+    format!("{form}{weights}{loss}, Σ² {start:.3e} to {:.3e}", report.sum_of_squares)
+}
+
+/// χ² per degree of freedom where standard deviations were stated and used.
+fn reduced_chi2_text(report: &FitReport) -> String {
+    #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
+    let dof = report.dof as f64;
+    match report.chi2 {
+        Some(chi2) if report.dof > 0 => format!("{:.3} ({chi2:.2} of {})", chi2 / dof, report.dof),
+        Some(chi2) => format!("χ² = {chi2:.2}, no degree of freedom"),
+        None => String::new(),
+    }
+}
+
+/// Where the starts led: distinct minima, best first.
+fn minima_ui(report: &FitReport, ui: &mut Ui) {
+    let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
+    ui.collapsing(format!("{} minima from {starts} starts", report.minima.len()), |ui| {
+        Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
+            for heading in ["ΔE", "reached", "stop"] {
+                ui.strong(heading);
+            }
+            ui.end_row();
+            for minimum in report.minima.iter().take(MOST_MINIMA) {
+                ui.monospace(format!("{:.5e}", minimum.objective));
+                ui.label(format!("{} ×", minimum.reached));
+                ui.add(egui::Label::new(minimum.stop_reason.text()).truncate());
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// Correlations of the determined parameters as a coloured table: blue where two rise together, orange where one makes up for the other.
+fn correlations_ui(report: &FitReport, ui: &mut Ui) {
+    if report.determined.len() < 2 {
+        return;
+    }
+    ui.collapsing("Correlations", |ui| {
+        let dark = ui.visuals().dark_mode;
+        Grid::new("correlations").spacing([2.0, 2.0]).show(ui, |ui| {
+            ui.label("");
+            for parameter in &report.determined {
+                ui.label(parameter.symbol());
+            }
+            ui.end_row();
+            for (i, parameter) in report.determined.iter().enumerate() {
+                ui.label(parameter.symbol());
+                for (j, other) in report.determined.iter().enumerate() {
+                    let r = report.correlations[(i, j)];
+                    let (rect, response) = ui.allocate_exact_size(egui::vec2(30.0, 20.0), egui::Sense::hover());
+                    ui.painter().rect_filled(rect, 2.0, theme::correlation(r, dark));
+                    ui.painter().text(
+                        rect.center(),
+                        egui::Align2::CENTER_CENTER,
+                        short_correlation(r),
+                        egui::FontId::proportional(11.0),
+                        ui.visuals().text_color(),
+                    );
+                    response.on_hover_text(format!("{} and {}: r = {r:.4}", parameter.symbol(), other.symbol()));
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// Two decimals without the leading zero.
+fn short_correlation(r: f64) -> String {
+    if r.is_nan() { "-".to_owned() } else { format!("{r:.2}").replace("0.", ".") }
+}
+
+fn error_text(estimate: &Estimate, report: &FitReport) -> String {
+    let unit = estimate.parameter.unit();
+    match (estimate.free, estimate.at_bound, estimate.std_error) {
+        (false, ..) => "fixed".to_owned(),
+        (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
+        (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
+        (true, None, Some(error)) => format!("{error:.1e} {unit}").trim_end().to_owned(),
+        (true, None, None) if report.determined.contains(&estimate.parameter) => "no d.o.f.".to_owned(),
+        (true, None, None) => "open".to_owned(),
+    }
+}

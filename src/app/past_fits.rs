@@ -1,0 +1,70 @@
+//! The fits of this session, to look back at and to return to.
+
+use pbrdf::fit::{FitReport, Problem};
+use pbrdf::model::Parameters;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// A fit as the window remembers it.
+pub struct PastFit {
+    pub report: FitReport,
+    /// What was fitted, for scans around the solution.
+    pub problem: Arc<Problem>,
+    /// The sliders before it.
+    pub before: Parameters,
+    /// The measurement's name.
+    pub document: String,
+    /// Which measurement of the session it was.
+    pub number: u64,
+}
+
+/// Fits that are kept.
+const MOST_FITS: usize = 20;
+
+/// Residuals of all kept fits together: each fit holds on to its data.
+const MOST_RESIDUALS: usize = 500_000;
+
+/// The last fits, newest first.
+#[derive(Default)]
+pub struct PastFits {
+    fits: VecDeque<Rc<PastFit>>,
+    made: usize,
+}
+
+impl PastFits {
+    /// Takes a fit in, and gives it back to be shown.
+    pub fn push(&mut self, fit: PastFit) -> Rc<PastFit> {
+        let fit = Rc::new(fit);
+        self.made += 1;
+        self.fits.push_front(fit.clone());
+        self.fits.truncate(MOST_FITS);
+        let residuals = |fits: &VecDeque<Rc<PastFit>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
+        while self.fits.len() > 1 && residuals(&self.fits) > MOST_RESIDUALS {
+            self.fits.pop_back();
+        }
+        fit
+    }
+
+    /// The fit so many before the newest.
+    pub fn get(&self, index: usize) -> Option<Rc<PastFit>> {
+        self.fits.get(index).cloned()
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Rc<PastFit>> {
+        self.fits.iter()
+    }
+
+    pub fn len(&self) -> usize {
+        self.fits.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.fits.is_empty()
+    }
+
+    /// How many fits were made: the number of the newest.
+    pub fn made(&self) -> usize {
+        self.made
+    }
+}

@@ -1,0 +1,165 @@
+//! Bounds, choices and the history of fits.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::state::Settings;
+use crate::app::window::Explorer;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::fit::{Eq17, Loss, Starts, Weights};
+use pbrdf::model::{Parameter, Parameters};
+
+fn fit(harness: &mut Harness<'static, Option<Explorer>>) {
+    explorer(harness).commands.push(Command::StartFit);
+    wait(harness);
+}
+
+/// Chooses an entry of a list by its name.
+fn choose(harness: &mut Harness<'static, Option<Explorer>>, list: &str, entry: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).click();
+    harness.run();
+    harness.get_by_label(entry).click();
+    harness.run();
+}
+
+#[test]
+fn bounds_are_edited_under_the_slider_and_hold_in_a_fit() {
+    let mut harness = harness();
+    assert!(harness.query_by_label("Upper bound of n").is_none(), "the first look is without bounds");
+    harness.get_by_label("Bounds of fits").click();
+    harness.run();
+    harness.get_by_label("Upper bound of n").set_value_accesskit(1.5);
+    harness.run();
+    assert_eq!(explorer(&mut harness).settings.bounds, [(Parameter::N, 0.01, 1.5)]);
+    fit(&mut harness);
+    let report = &explorer(&mut harness).last_fit.as_ref().expect("a fit").report;
+    let n = report.estimates.iter().find(|estimate| estimate.parameter == Parameter::N).expect("n is of the model");
+    assert!(n.value <= 1.5, "{}", n.value);
+    // These angles leave n to wander: without the bound it goes elsewhere.
+    assert_eq!(n.at_bound.is_some(), n.value == 1.5);
+    harness.get_by_label("Reset bounds of n").click();
+    harness.run();
+    assert!(explorer(&mut harness).settings.bounds.is_empty());
+}
+
+#[test]
+fn bounds_that_are_none_are_refused_with_a_sentence() {
+    let mut harness = harness();
+    harness.get_by_label("Bounds of fits").click();
+    harness.run();
+    for (field, value, expected) in [
+        ("Lower bound of k", 25.0, "lower one must be below"),
+        ("Lower bound of sigma", -1.0, "expected a finite number > 0"),
+        ("Lower bound of q", 1.0, "expected a finite number > 1"),
+    ] {
+        harness.get_by_label(field).set_value_accesskit(value);
+        harness.run();
+        let explorer = explorer(&mut harness);
+        let notice = explorer.notice.take().expect("a sentence");
+        assert!(notice.contains(expected), "{notice}");
+        assert!(explorer.settings.bounds.is_empty());
+    }
+}
+
+#[test]
+fn bounds_hold_while_refitting_and_comparing() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.set_bounds(Parameter::K, 2.0, 2.5).expect("sound bounds");
+    explorer(&mut harness).settings.refit_live = true;
+    harness.step();
+    wait(&mut harness);
+    let k = explorer(&mut harness).settings.parameters.k;
+    assert!((2.0..=2.5).contains(&k), "{k}");
+    explorer(&mut harness).commands.push(Command::CompareModels);
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    assert!(!explorer.comparison.is_empty());
+    for (preset, report) in &explorer.comparison {
+        assert!((2.0..=2.5).contains(&report.parameters.k), "{}: {}", preset.key, report.parameters.k);
+    }
+}
+
+#[test]
+fn options_reach_the_fit() {
+    let mut harness = harness();
+    harness.get_by_label("Options").click();
+    harness.run();
+    choose(&mut harness, "Weights", "1/σ: χ²");
+    choose(&mut harness, "Loss", "Huber");
+    choose(&mut harness, "Starts", "one, from the sliders");
+    fit(&mut harness);
+    let explorer = explorer(&mut harness);
+    let settings = &explorer.settings;
+    assert_eq!((settings.choices.weights, settings.choices.loss, settings.starts), (Weights::Sigma, Loss::Huber, Starts::One));
+    let report = &explorer.last_fit.as_ref().expect("a fit").report;
+    assert_eq!(report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(), 1);
+    assert!(report.chi2.is_some() && !report.minimises_delta_e);
+    harness.get_by_label_contains("over σ, Huber loss");
+    harness.get_by_label("χ²/dof");
+}
+
+#[test]
+fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters.ks = 0.5;
+    harness.run();
+    let consistent = explorer(&mut harness).derived.own.dolp[0][40].y;
+    harness.get_by_label("Options").click();
+    harness.run();
+    choose(&mut harness, "Eq. (17)", "as printed");
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.choices.eq17, Eq17::Printed);
+    assert!(explorer.free().contains(Parameter::Ks));
+    assert_eq!(explorer.derived.own.dolp[0][40].y, consistent / 0.5);
+    harness.get_by_label("Default options").click();
+    harness.run();
+    assert!(!self::explorer(&mut harness).free().contains(Parameter::Ks));
+}
+
+#[test]
+fn weights_without_standard_deviations_are_a_sentence() {
+    let mut harness = harness();
+    let explorer = explorer(&mut harness);
+    let mut measurement = explorer.document.measurement.clone();
+    measurement.rows[3].dolp = measurement.rows[3].dolp.map(|dolp| pbrdf::measurement::Quantity { sigma: None, ..dolp });
+    explorer.take("bare".to_owned(), measurement);
+    explorer.settings.choices.weights = Weights::Sigma;
+    explorer.commands.push(Command::StartFit);
+    harness.run();
+    let notice = self::explorer(&mut harness).notice.clone().expect("a sentence");
+    assert!(notice.contains("The fit cannot begin") && notice.contains("dolp_sigma"), "{notice}");
+}
+
+#[test]
+fn a_click_in_the_history_returns_to_a_fit() {
+    let mut harness = harness();
+    fit(&mut harness);
+    let first = explorer(&mut harness).settings.parameters;
+    explorer(&mut harness).settings.set_bounds(Parameter::K, 1.0, 1.5).expect("sound bounds");
+    fit(&mut harness);
+    assert_ne!(explorer(&mut harness).settings.parameters, first);
+    harness.get_by_label("History of fits (2)").click();
+    harness.run();
+    harness.get_by_label("1. cauchy").click();
+    harness.run();
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.parameters, first);
+    assert_eq!(explorer.last_fit.as_ref().expect("a fit").report.parameters, first);
+}
+
+#[test]
+fn settings_with_bounds_and_choices_survive_a_restart_and_nonsense_does_not() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("settings.json");
+    let mut settings = Settings { starts: Starts::Exactly(12), seed: 7, ..Settings::default() };
+    settings.choices.loss = Loss::SoftL1;
+    settings.choices.loss_scale = Some(0.02);
+    settings.set_bounds(Parameter::C, -2.0, 0.5).expect("sound bounds");
+    crate::app::store::save(&path, &settings).expect("a writable folder");
+    assert_eq!(crate::app::store::load_from(&path), (settings, None));
+    std::fs::write(&path, "{\"bounds\": [[\"N\", 3.0, 1.0]]}").expect("a writable folder");
+    let (settings, notice) = crate::app::store::load_from(&path);
+    assert_eq!((settings.bounds, settings.parameters), (Vec::new(), Parameters::default()));
+    assert!(notice.expect("a notice").contains("damaged"));
+}
