@@ -4,6 +4,7 @@
 //! Torrance–Sparrow lobe of Fresnel-reflecting microfacets, a Minnaert lobe and a volume lobe. Which terms are there is part of
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
+mod assignment;
 mod gradient;
 mod ladder;
 mod lobes;
@@ -11,9 +12,10 @@ mod parameters;
 mod pbrdf;
 mod scene;
 
+pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
 pub use gradient::{Gradient, Wanted};
 pub use ladder::{PRESETS, Preset};
 pub use lobes::Lobe;
-pub use parameters::{Parameter, ParameterError, ParameterSet, Parameters};
+pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
 pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
 pub use scene::Scene;
