@@ -7,6 +7,7 @@
 mod assignment;
 mod gradient;
 mod ladder;
+mod lesson;
 mod lobes;
 mod parameters;
 mod pbrdf;
@@ -15,6 +16,7 @@ mod scene;
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
 pub use gradient::{Gradient, Wanted};
 pub use ladder::{PRESETS, Preset};
+pub use lesson::{Lesson, LessonError, LessonErrorKind, Step, Wording};
 pub use lobes::Lobe;
 pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
 pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
