@@ -35,7 +35,7 @@
 //! 2. [`model`]: the parameters, the lobes, the pBRDF, its gradient, prepared scenes, the ladder of models
 //! 3. [`measurement`]: tables read, written, simulated
 //! 4. [`fit`]: choices, bounds, residuals, solver and its coordinates, starts, uncertainty, profiles, bootstrap
-//! 5. [`report`]: results as JSON
+//! 5. [`report`]: results as JSON; error against run time, stability, cost
 
 pub mod fit;
 pub mod measurement;

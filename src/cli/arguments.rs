@@ -33,9 +33,8 @@ pub enum Task {
     Compare(Box<Compare>),
     /// Predict standard errors from a choice of angles.
     Plan(Plan),
-    /// Not there yet.
-    #[command(hide = true)]
-    Report(Later),
+    /// Report on error against run time, on numerical stability, or on the cost of each term.
+    Report(Report),
     /// Not there yet.
     #[command(hide = true)]
     Import(Later),
@@ -228,6 +227,42 @@ pub struct Simulate {
     /// File to write.
     #[arg(short, long)]
     pub output: PathBuf,
+}
+
+/// `report`.
+#[derive(Debug, Args)]
+pub struct Report {
+    /// What about.
+    #[arg(value_enum)]
+    pub subject: Subject,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the report as JSON and Markdown, and for its figures as SVG and PNG; made if it is not there.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+}
+
+/// What a report is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Subject {
+    /// Error against run time, of evaluations and of fits; a few minutes.
+    ErrorVsTime,
+    /// A gallery of stiff and extreme cases: digits held, and what becomes of fits.
+    Stability,
+    /// Nanoseconds per point, and what each scene leaves out.
+    Cost,
+}
+
+impl Subject {
+    /// Its name on the command line and in names of files.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::ErrorVsTime => "error-vs-time",
+            Self::Stability => "stability",
+            Self::Cost => "cost",
+        }
+    }
 }
 
 /// Choices of the core under their names on the command line.

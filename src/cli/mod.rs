@@ -13,6 +13,7 @@ mod interrupt;
 mod output;
 mod plan;
 mod problem;
+mod report;
 mod simulate;
 mod values;
 mod watched;
@@ -36,7 +37,7 @@ pub fn run() -> ExitCode {
         Some(Task::Simulate(task)) => simulate::run(&task),
         Some(Task::Compare(task)) => compare::run(&task),
         Some(Task::Plan(task)) => plan::run(&task),
-        Some(Task::Report(_)) => Err(Failure::not_yet("report")),
+        Some(Task::Report(task)) => report::run(&task),
         Some(Task::Import(_)) => Err(Failure::not_yet("import")),
         Some(Task::Export(_)) => Err(Failure::not_yet("export")),
         Some(Task::Metals(_)) => Err(Failure::not_yet("metals")),

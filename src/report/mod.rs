@@ -1,5 +1,20 @@
-//! Floor 5: results in the forms that leave the program.
+//! Floor 5: results in the forms that leave the program, and what the program says about itself.
+//!
+//! A [`Report`] is a value: rows with named columns, shown as Markdown, as JSON, or in the window. Clock, cancel and progress come
+//! from outside ([`Surroundings`]), and so does what is known of the machine.
 
+mod error_vs_time;
 mod fit_json;
+mod machine;
+mod reference;
+mod table;
+mod textbook;
+mod timing;
 
+pub use error_vs_time::{ErrorVsTime, TaskKind};
 pub use fit_json::fit_json;
+pub use machine::Machine;
+pub use reference::{Reference, critical_angle_factor, golden, gradient_error, relative_error};
+pub use table::{Cell, Report, Row};
+pub use textbook::{textbook_f32, textbook_f64};
+pub use timing::{Surroundings, Timing, quantile};

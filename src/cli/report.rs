@@ -1,0 +1,91 @@
+//! `report`: what the program says about itself, as a table, as JSON, and as files in a folder.
+
+use super::arguments::{Report as Task, Subject};
+use super::failure::Failure;
+use super::output::Progress;
+use super::{interrupt, output};
+use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Surroundings};
+use serde_json::Value;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::time::{Instant, SystemTime};
+
+/// A finished report in the forms that leave the program.
+struct Answer {
+    /// As printed with `--json`.
+    json: Value,
+    /// As printed without.
+    markdown: String,
+    /// Further files of the folder: their names and contents.
+    files: Vec<(String, Vec<u8>)>,
+}
+
+impl Answer {
+    fn new<R: Row>(report: &Report<R>) -> Self {
+        Self { json: report.json(), markdown: report.markdown(), files: Vec::new() }
+    }
+}
+
+pub fn run(task: &Task) -> Result<ExitCode, Failure> {
+    interrupt::watch();
+    if let Some(folder) = &task.output {
+        // Before minutes of work, not after.
+        prepare(folder)?;
+    }
+    let begun = Instant::now();
+    let progress = Mutex::new(Progress::new(task.subject.key()));
+    let surroundings = Surroundings {
+        clock: &|| begun.elapsed().as_secs_f64() * 1e3,
+        cancelled: &interrupt::asked,
+        progress: &|fraction| {
+            if let Ok(mut progress) = progress.lock() {
+                progress.tell_fraction(fraction);
+            }
+        },
+    };
+    let answer = match task.subject {
+        Subject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), date(), surroundings)),
+        Subject::Stability => return Err(Failure::not_yet("report stability")),
+        Subject::Cost => return Err(Failure::not_yet("report cost")),
+    };
+    drop(progress);
+    if task.json {
+        output::write_json(&answer.json)?;
+    } else {
+        output::write(None, |out| out.write_all(answer.markdown.as_bytes()))?;
+    }
+    if let Some(folder) = &task.output {
+        save(folder, task.subject.key(), &answer)?;
+    }
+    Ok(output::exit_code())
+}
+
+/// Makes the folder, and makes sure that files can be written into it.
+fn prepare(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder)
+        .and_then(|()| tempfile::tempfile_in(folder).map(drop))
+        .map_err(|error| Failure::output(format_args!("The folder {}", folder.display()), &error.kind().into()))
+}
+
+fn save(folder: &Path, name: &str, answer: &Answer) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(&answer.json).map_err(|error| Failure::output("JSON", &error.into()))?;
+    output::write(Some(&folder.join(format!("{name}.json"))), |out| writeln!(out, "{json}"))?;
+    output::write(Some(&folder.join(format!("{name}.md"))), |out| out.write_all(answer.markdown.as_bytes()))?;
+    for (name, contents) in &answer.files {
+        output::write(Some(&folder.join(name)), |out| out.write_all(contents))?;
+    }
+    Ok(())
+}
+
+/// This machine.
+pub fn machine() -> Machine {
+    // Absent outside Linux: then the architecture has to do.
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    Machine::new(&cpuinfo, std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
+}
+
+/// Now, as ISO 8601 in UTC.
+pub fn date() -> String {
+    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+}
