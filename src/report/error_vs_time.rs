@@ -90,27 +90,15 @@ fn evaluations(golden: &[Reference], surroundings: Surroundings<'_>) -> Vec<Erro
         let reflection = row.surface.reflection(&Facet::new(row.geometry));
         (reflection.brdf, reflection.dolp)
     };
-    let each = |body: &dyn Fn(Geometry)| geometries.iter().for_each(|&geometry| body(black_box(geometry)));
-    let double_all = || {
-        each(&|geometry| {
-            black_box(textbook_f64(model, &parameters, geometry));
-        })
+    let each = |body: &dyn Fn(Geometry)| {
+        for &geometry in &geometries {
+            body(black_box(geometry));
+        }
     };
-    let single_all = || {
-        each(&|geometry| {
-            black_box(textbook_f32(model, &parameters, geometry));
-        })
-    };
-    let scalar_all = || {
-        each(&|geometry| {
-            black_box(surface.reflection(&Facet::new(geometry)));
-        })
-    };
-    let prepared_all = || {
-        scene.reflections(black_box(&surface)).for_each(|reflection| {
-            black_box(reflection);
-        })
-    };
+    let double_all = || each(&|geometry| _ = black_box(textbook_f64(model, &parameters, geometry)));
+    let single_all = || each(&|geometry| _ = black_box(textbook_f32(model, &parameters, geometry)));
+    let scalar_all = || each(&|geometry| _ = black_box(surface.reflection(&Facet::new(geometry))));
+    let prepared_all = || scene.reflections(black_box(&surface)).for_each(|reflection| _ = black_box(reflection));
     let methods = [
         Method { name: "textbook, f32", values: &single, all: &single_all },
         Method { name: "textbook, f64", values: &double, all: &double_all },
