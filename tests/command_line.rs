@@ -264,13 +264,9 @@ fn what_is_said_of_a_parameter_that_the_model_lacks_is_ignored_with_a_notice() {
 #[test]
 fn what_is_not_there_yet_is_refused_and_not_ignored() {
     let steel = example("steel45_simulated.csv");
-    for arguments in [
-        vec!["report", "cost"],
-        vec!["import", "x.dat"],
-        vec!["export", "mitsuba", "-o", "x"],
-        vec!["metals"],
-        vec!["fit", &steel, "--model", "hyde"],
-    ] {
+    for arguments in
+        [vec!["report", "cost"], vec!["import", "x.dat"], vec!["export", "mitsuba", "-o", "x"], vec!["fit", &steel, "--model", "hyde"]]
+    {
         assert!(refusal(&arguments).contains("not there yet"), "{arguments:?}");
     }
 }
@@ -347,5 +343,32 @@ fn the_same_seed_finds_the_same_fit_on_any_number_of_threads() {
     let (one, two) = (fit("1"), fit("3"));
     for key in ["parameters", "starts", "evaluations", "objective"] {
         assert_eq!(one[key], two[key], "{key}");
+    }
+}
+
+#[test]
+fn metals_lists_names_sources_and_values() {
+    let table = answer(&["metals"]);
+    for name in ["Cu", "stainless-steel", "brass", "refractiveindex.info"] {
+        assert!(table.contains(name), "{name}");
+    }
+    let at = answer(&["metals", "--wavelength", "100"]);
+    assert!(at.contains("outside the tabulated range"));
+    let copper = answer(&["metals", "copper", "--wavelength", "650"]);
+    // The value that the database's page of Hagemann gives at 650 nm.
+    assert!(copper.contains("n = 0.2184  k = 3.6370") && copper.contains("Phys. Rev. B 6, 4370"), "{copper}");
+    let json: Value = serde_json::from_str(&answer(&["metals", "Ag", "--wavelength", "250", "--json"])).expect("JSON");
+    assert_eq!(json["wavelength_nm"].as_f64(), Some(250.0));
+    let rows = json["rows"].as_array().expect("rows");
+    let row = |source: &str| rows.iter().find(|row| row["source"] == source).expect("a source of silver");
+    assert!(row("Johnson")["n"].is_f64() && row("Jiang")["n"].is_null() && row("Jiang")["from_nm"].as_f64() == Some(300.0));
+    for (arguments, expected) in [
+        (vec!["metals", "unobtainium"], "not among the tabulated metals"),
+        (vec!["metals", "Al", "--wavelength", "100"], "No source of aluminium has 100 nm"),
+        (vec!["metals", "Al", "--wavelength", "100", "--json"], "No source of aluminium has 100 nm"),
+        (vec!["metals", "--wavelength", "0"], "not above 0"),
+    ] {
+        let message = refusal(&arguments);
+        assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }

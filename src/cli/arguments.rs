@@ -41,9 +41,8 @@ pub enum Task {
     /// Not there yet.
     #[command(hide = true)]
     Export(Later),
-    /// Not there yet.
-    #[command(hide = true)]
-    Metals(Later),
+    /// List tabulated refractive indices of metals, source by source.
+    Metals(Metals),
 }
 
 /// Arguments of a command that is announced but not built.
@@ -203,6 +202,28 @@ pub struct Angles {
     #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
     pub dphi: f64,
 }
+
+/// `metals`.
+#[derive(Debug, Args)]
+#[command(after_help = METALS_HELP)]
+pub struct Metals {
+    /// Symbol or name, such as Cu or copper; all metals without.
+    pub name: Option<String>,
+    /// Vacuum wavelength in nm at which to give n and k, linear between tabulated ones.
+    #[arg(long, value_name = "NM", value_parser = values::positive)]
+    pub wavelength: Option<f64>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What the answer of `metals` holds.
+const METALS_HELP: &str = "\
+Figures of the refractiveindex.info database (CC0); sources differ, and each is cited.
+
+JSON: {\"wavelength_nm\": number or null, \"rows\": [...]}, one flat row per source:
+  metal, name, source, authors, citation, comment, from_nm, to_nm, n, k
+  n and k are null without --wavelength and where it is outside from_nm to to_nm.";
 
 /// `simulate`.
 #[derive(Debug, Args)]

@@ -10,6 +10,7 @@ mod failure;
 mod fit;
 mod input;
 mod interrupt;
+mod metals;
 mod output;
 mod plan;
 mod problem;
@@ -40,7 +41,7 @@ pub fn run() -> ExitCode {
         Some(Task::Report(task)) => report::run(&task),
         Some(Task::Import(_)) => Err(Failure::not_yet("import")),
         Some(Task::Export(_)) => Err(Failure::not_yet("export")),
-        Some(Task::Metals(_)) => Err(Failure::not_yet("metals")),
+        Some(Task::Metals(task)) => metals::run(&task),
         None => window(arguments.file),
     };
     match result {

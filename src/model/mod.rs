@@ -5,6 +5,7 @@
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
 mod assignment;
+mod finishes;
 mod gradient;
 mod ladder;
 mod lesson;
@@ -14,6 +15,7 @@ mod pbrdf;
 mod scene;
 
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
+pub use finishes::{FINISHES, Finish};
 pub use gradient::{Gradient, Wanted};
 pub use ladder::{PRESETS, Preset};
 pub use lesson::{Lesson, LessonError, LessonErrorKind, Step, Wording};

@@ -8,6 +8,7 @@ mod angle;
 mod facets;
 mod fresnel;
 mod geometry;
+mod metals;
 mod polarization;
 mod refractive_index;
 
@@ -16,5 +17,6 @@ pub use facets::SlopeDistribution;
 pub(crate) use facets::reduced_slope_sq;
 pub use fresnel::{Fresnel, FresnelGradient};
 pub use geometry::{Facet, Geometry, GeometryError, Rotation};
+pub use metals::{Metal, MetalsError, MetalsErrorKind, OutsideRange, Sample, Source, metal, metals, read_metals};
 pub use polarization::{Mueller, Stokes};
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};
