@@ -299,7 +299,7 @@ impl Source {
 
 #[cfg(test)]
 mod tests {
-    use super::{MetalsErrorKind, metal, metals, read_metals};
+    use super::{MetalsErrorKind, RefractiveIndex, metal, metals, read_metals};
 
     const HEAD: &str = "# metal: X | ex\n# source: X/A | A 1999 | J. 1, 2 | film\nsource,wavelength_nm,n,k\n";
 
@@ -333,7 +333,7 @@ mod tests {
     fn copper_is_not_one_number() {
         let copper = metal("copper").expect("the bundled table is whole").expect("copper");
         assert_eq!(copper.key, "Cu");
-        let n: Vec<f64> = copper.sources.iter().filter_map(|source| source.index_at(650.0).ok()).map(|index| index.n()).collect();
+        let n: Vec<f64> = copper.sources.iter().filter_map(|source| source.index_at(650.0).ok()).map(RefractiveIndex::n).collect();
         let (low, high) = (n.iter().copied().fold(f64::INFINITY, f64::min), n.iter().copied().fold(0.0, f64::max));
         // The sources of the database at 650 nm, as published: n from 0.09 to 0.50.
         assert!(n.len() >= 6 && low < 0.12 && high > 0.4, "{n:?}");
