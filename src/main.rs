@@ -4,6 +4,7 @@
 mod app;
 mod cli;
 mod open_file;
+mod write_file;
 
 use std::process::ExitCode;
 

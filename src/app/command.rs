@@ -10,6 +10,10 @@ pub enum Command {
     ChooseMeasurement,
     /// Read that file.
     OpenMeasurement(PathBuf),
+    /// Ask the desktop where to save.
+    ChooseSave,
+    /// Write the measurement, masks and all, into that file.
+    SaveMeasurement(PathBuf),
     /// Load the bundled example of that number.
     OpenExample(usize),
     /// Stop reading.
@@ -21,6 +25,11 @@ pub enum Command {
     /// The values from before the fit to the sliders.
     Back,
     DismissNotice,
+    /// Take rows out of every statistic, or back in.
+    Mask {
+        rows: Vec<usize>,
+        masked: bool,
+    },
     Undo,
     Redo,
     /// Sliders and results as the earlier fit of that number left them, the newest first.

@@ -208,7 +208,7 @@ impl Derived {
         };
         self.fault = None;
         let plane = settings.dphi.rem_euclid(360.0);
-        let own = Series { theta_i: settings.theta_i, plane, dolp: Vec::new(), brdf: Vec::new() };
+        let own = Series { theta_i: settings.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
         let curves = |series: &Series| Curves::new(&surface, settings.choices.eq17, series, backscatter, settings.log_brdf);
         self.series = drawn(document).map(curves).collect();
         self.own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);

@@ -2,6 +2,7 @@
 
 use pbrdf::measurement::{Measurement, Quantity, Row};
 use pbrdf::optics::Geometry;
+use std::sync::Arc;
 
 /// A bundled example.
 pub struct Example {
@@ -23,6 +24,8 @@ pub struct Mark {
     pub theta_r: f64,
     pub quantity: Quantity,
     pub masked: bool,
+    /// Its row in the measurement.
+    pub row: usize,
 }
 
 /// Rows of one θi in one plane through the surface normal.
@@ -34,6 +37,8 @@ pub struct Series {
     pub plane: f64,
     pub dolp: Vec<Mark>,
     pub brdf: Vec<Mark>,
+    /// Its rows in the measurement.
+    pub rows: Vec<usize>,
 }
 
 impl Series {
@@ -53,13 +58,18 @@ impl Series {
 #[derive(Debug, Clone)]
 pub struct Document {
     pub name: String,
-    pub measurement: Measurement,
+    /// Shared with jobs that read it.
+    pub measurement: Arc<Measurement>,
     pub series: Vec<Series>,
     /// Which measurement of this session it is.
     pub number: u64,
     /// Grows with every document and every change of one, so that what is derived knows.
     pub generation: u64,
+    mask: Mask,
 }
+
+/// The rows that are masked, in ascending order.
+pub type Mask = Arc<[usize]>;
 
 /// Bits of the generation that count the changes of one document.
 const CHANGES: u32 = 32;
@@ -67,7 +77,49 @@ const CHANGES: u32 = 32;
 impl Document {
     pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
         let series = series(&measurement.rows);
-        Self { name, measurement, series, number, generation: number << CHANGES }
+        let mask = masked_rows(&measurement.rows);
+        Self { name, measurement: Arc::new(measurement), series, number, generation: number << CHANGES, mask }
+    }
+
+    /// The rows that are masked.
+    pub fn mask(&self) -> &Mask {
+        &self.mask
+    }
+
+    /// Takes rows out of every statistic, or back in; they stay where they are.
+    pub fn set_masked(&mut self, rows: &[usize], masked: bool) {
+        let all = &mut Arc::make_mut(&mut self.measurement).rows;
+        for &row in rows {
+            if let Some(row) = all.get_mut(row) {
+                row.masked = masked;
+            }
+        }
+        self.mask = masked_rows(all);
+        self.mask_changed();
+    }
+
+    /// Masks exactly those rows.
+    pub fn restore_mask(&mut self, mask: &Mask) {
+        if *mask == self.mask {
+            return;
+        }
+        let all = &mut Arc::make_mut(&mut self.measurement).rows;
+        all.iter_mut().for_each(|row| row.masked = false);
+        for &row in mask.iter() {
+            if let Some(row) = all.get_mut(row) {
+                row.masked = true;
+            }
+        }
+        self.mask = mask.clone();
+        self.mask_changed();
+    }
+
+    fn mask_changed(&mut self) {
+        self.generation += 1;
+        let rows = &self.measurement.rows;
+        for mark in self.series.iter_mut().flat_map(|series| series.dolp.iter_mut().chain(&mut series.brdf)) {
+            mark.masked = rows[mark.row].masked;
+        }
     }
 
     /// Whether anything was measured on the backscatter side.
@@ -81,6 +133,12 @@ impl Document {
         values().fold(0.0, f64::max) > 1e3 * values().fold(f64::INFINITY, f64::min)
     }
 
+    /// A name for its file.
+    pub fn file_name(&self) -> String {
+        let stem: String = self.name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect();
+        if stem.to_lowercase().ends_with(".csv") { stem } else { format!("{}.csv", stem.trim_matches('_')) }
+    }
+
     /// What its metadata say about it, for a line under the plots.
     pub fn description(&self) -> String {
         let simulated = self.measurement.metadata("simulated") == Some("true");
@@ -90,7 +148,8 @@ impl Document {
         if simulated && !self.name.contains("simulated") {
             parts.push("simulated".to_owned());
         }
-        parts.push(format!("{} rows", self.measurement.rows.len()));
+        let rows = self.measurement.rows.len();
+        parts.push(if self.mask.is_empty() { format!("{rows} rows") } else { format!("{rows} rows, {} masked", self.mask.len()) });
         parts.join(" · ")
     }
 }
@@ -102,24 +161,31 @@ fn plane_of(geometry: Geometry) -> (f64, f64) {
     if dphi > 90.0 && dphi <= 270.0 { (dphi, theta_r) } else { ((dphi + 180.0).rem_euclid(360.0), -theta_r) }
 }
 
+fn masked_rows(rows: &[Row]) -> Mask {
+    rows.iter().enumerate().filter(|(_, row)| row.masked).map(|(index, _)| index).collect()
+}
+
 fn series(rows: &[Row]) -> Vec<Series> {
-    let mut order: Vec<(f64, f64, f64, &Row)> = rows
+    let mut order: Vec<(f64, f64, f64, usize)> = rows
         .iter()
-        .map(|row| {
+        .enumerate()
+        .map(|(index, row)| {
             let (plane, theta_r) = plane_of(row.geometry);
-            (row.geometry.theta_i().0, plane, theta_r, row)
+            (row.geometry.theta_i().0, plane, theta_r, index)
         })
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
     let mut groups: Vec<Series> = Vec::new();
-    for (theta_i, plane, theta_r, row) in order {
+    for (theta_i, plane, theta_r, index) in order {
         if groups.last().is_none_or(|last| last.theta_i != theta_i || last.plane != plane) {
-            groups.push(Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new() });
+            groups.push(Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() });
         }
         if let Some(last) = groups.last_mut() {
-            let mark = |quantity| Mark { theta_r, quantity, masked: row.masked };
+            let row = &rows[index];
+            let mark = |quantity| Mark { theta_r, quantity, masked: row.masked, row: index };
             last.dolp.extend(row.dolp.map(mark));
             last.brdf.extend(row.brdf.map(mark));
+            last.rows.push(index);
         }
     }
     groups

@@ -1,9 +1,10 @@
 //! Undo and redo of the sliders: one step for a drag, a typed value, a fit.
 
+use super::document::Mask;
 use pbrdf::model::{Model, Parameters};
 
 /// What one step brings back.
-pub type Step = (Parameters, Model);
+pub type Step = (Parameters, Model, Mask, u64);
 
 /// Steps back and forth.
 #[derive(Debug, Default)]
@@ -19,7 +20,7 @@ const LONGEST: usize = 200;
 impl History {
     /// Takes down where the sliders have come to rest, if that is somewhere new.
     pub fn rest(&mut self, at: Step) {
-        if self.current == Some(at) {
+        if self.current.as_ref() == Some(&at) {
             return;
         }
         if let Some(before) = self.current.replace(at) {
@@ -34,14 +35,14 @@ impl History {
     /// One step back, if there is one.
     pub fn undo(&mut self) -> Option<Step> {
         let before = self.past.pop()?;
-        self.future.extend(self.current.replace(before));
+        self.future.extend(self.current.replace(before.clone()));
         Some(before)
     }
 
     /// One step forth, if there is one.
     pub fn redo(&mut self) -> Option<Step> {
         let after = self.future.pop()?;
-        self.past.extend(self.current.replace(after));
+        self.past.extend(self.current.replace(after.clone()));
         Some(after)
     }
 

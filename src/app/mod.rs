@@ -8,6 +8,7 @@ mod derived;
 mod document;
 mod frame_times;
 mod history;
+mod memo;
 mod panels;
 mod past_fits;
 mod plots;
@@ -17,6 +18,7 @@ mod store;
 #[cfg(test)]
 mod tests;
 mod theme;
+mod views;
 mod window;
 mod worker;
 

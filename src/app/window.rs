@@ -10,6 +10,7 @@ use super::past_fits::{PastFit, PastFits};
 use super::plots;
 use super::problem::{problem, reason};
 use super::state::{Settings, Theme};
+use super::views::{self, Views};
 use super::worker::{Event, Worker};
 use super::{store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport};
@@ -18,6 +19,14 @@ use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters, Preset};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
+
+/// What the middle shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Middle {
+    #[default]
+    Plots,
+    Table,
+}
 
 /// The window.
 pub struct Explorer {
@@ -40,6 +49,9 @@ pub struct Explorer {
     refitted: Option<Parameters>,
     pub notice: Option<String>,
     pub view: plots::View,
+    pub views: Views,
+    /// What the middle shows.
+    pub middle: Middle,
     /// A path typed by hand, where there is no file dialog.
     pub typed_path: String,
     pub commands: Vec<Command>,
@@ -71,6 +83,8 @@ impl Explorer {
             refitted: None,
             notice: None,
             view: plots::View::default(),
+            views: Views::default(),
+            middle: Middle::default(),
             typed_path: String::new(),
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
@@ -138,13 +152,16 @@ impl Explorer {
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.refit_if_moved();
         if !dragging && self.worker.refit.is_none() {
-            self.history.rest((self.settings.parameters, self.settings.model));
+            self.history.rest((self.settings.parameters, self.settings.model, self.document.mask().clone(), self.document.number));
         }
         self.derived.refresh(&self.settings, &self.document, dragging);
         let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
         let free = self.free();
         self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
         self.derived.refresh_ghost(&self.settings, &self.document, fitted);
+        if self.middle == Middle::Table {
+            views::table_refresh(self);
+        }
         self.remember_window(ctx);
         self.save_when_rested(ctx);
     }
@@ -152,6 +169,9 @@ impl Explorer {
     fn receive(&mut self, event: Event) {
         match event {
             Event::Chosen(path) => self.commands.extend(path.map(Command::OpenMeasurement)),
+            Event::ChosenSave(path) => self.commands.extend(path.map(Command::SaveMeasurement)),
+            Event::Saved(Ok(path)) => self.say(format!("The measurement is saved to {}.", path.display())),
+            Event::Saved(Err(sentence)) => self.say(sentence),
             Event::Loaded { name, result: Ok(measurement) } => {
                 self.notice = None;
                 self.take(name, measurement);
@@ -227,6 +247,12 @@ impl Explorer {
         match command {
             Command::ChooseMeasurement => self.worker.choose()?,
             Command::OpenMeasurement(path) => self.worker.open(path)?,
+            Command::ChooseSave => self.worker.choose_save(self.document.file_name())?,
+            Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
+            Command::Mask { rows, masked } => {
+                self.document.set_masked(&rows, masked);
+                self.refitted = None;
+            }
             Command::OpenExample(index) => {
                 if let Some(example) = EXAMPLES.get(index) {
                     self.worker.open_text(example.name.to_owned(), example.text)?;
@@ -242,8 +268,14 @@ impl Explorer {
             Command::DismissNotice => self.notice = None,
             Command::Undo | Command::Redo => {
                 let step = if command == Command::Undo { self.history.undo() } else { self.history.redo() };
-                (self.settings.parameters, self.settings.model) = step.unwrap_or((self.settings.parameters, self.settings.model));
-                self.refitted = Some(self.settings.parameters);
+                if let Some((parameters, model, mask, number)) = step {
+                    (self.settings.parameters, self.settings.model) = (parameters, model);
+                    self.refitted = Some(parameters);
+                    // The rows of another measurement are other rows.
+                    if number == self.document.number {
+                        self.document.restore_mask(&mask);
+                    }
+                }
             }
             Command::ReturnTo(index) => self.return_to(index),
             Command::CompareModels => self.compare_models()?,
@@ -334,7 +366,15 @@ impl Explorer {
             .show(ui, |ui| panels::fit_ui(self, ui));
         egui::CentralPanel::default().show(ui, |ui| {
             panels::notice_ui(self, ui);
-            plots::plots_ui(self, ui);
+            ui.horizontal(|ui| {
+                for (middle, name) in [(Middle::Plots, "Plots"), (Middle::Table, "Data table")] {
+                    ui.selectable_value(&mut self.middle, middle, name);
+                }
+            });
+            match self.middle {
+                Middle::Plots => plots::plots_ui(self, ui),
+                Middle::Table => views::table_ui(self, ui),
+            }
         });
     }
 }

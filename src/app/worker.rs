@@ -4,6 +4,7 @@
 //! that was replaced meanwhile are dropped by its number.
 
 use crate::open_file::open_file;
+use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Starts, TracePoint, Watch, fit};
 use pbrdf::measurement::{self, Measurement};
 use pbrdf::model::Preset;
@@ -19,6 +20,10 @@ use std::time::{Duration, Instant};
 pub enum Event {
     /// A file was chosen, or none.
     Chosen(Option<PathBuf>),
+    /// A place to save was chosen, or none.
+    ChosenSave(Option<PathBuf>),
+    /// A measurement was written there, or why not.
+    Saved(Result<PathBuf, String>),
     /// A measurement was read, or why not.
     Loaded {
         name: String,
@@ -67,6 +72,7 @@ pub struct Worker {
     pub load: Option<Job<f64>>,
     pub refit: Option<Job<()>>,
     pub comparison: Option<Job<&'static str>>,
+    pub save: Option<Job<()>>,
     dialog: Option<u64>,
 }
 
@@ -92,7 +98,7 @@ impl<P> Teller<P> {
 impl Worker {
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, receiver) = sync_channel(16);
-        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, refit: None, comparison: None, dialog: None }
+        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, refit: None, comparison: None, save: None, dialog: None }
     }
 
     /// Begins a job on a thread of its own name; none if the machine refuses a thread.
@@ -130,6 +136,34 @@ impl Worker {
             })?;
             self.dialog = Some(job.number);
         }
+        Ok(())
+    }
+
+    /// Asks the desktop where to save, with a name to begin with.
+    pub fn choose_save(&mut self, name: String) -> Result<(), String> {
+        if self.dialog.is_none() {
+            let job: Job<()> = self.spawn("choose where to save", |_, _| {
+                let dialog = rfd::FileDialog::new().set_title("Save measurement as").add_filter("CSV", &["csv"]).set_file_name(name);
+                Event::ChosenSave(dialog.save_file())
+            })?;
+            self.dialog = Some(job.number);
+        }
+        Ok(())
+    }
+
+    /// Writes a measurement in one move; one at a time, so that the last one asked for is the last one written.
+    pub fn save(&mut self, path: PathBuf, measurement: Arc<Measurement>) -> Result<(), String> {
+        if self.save.is_some() {
+            return Err("The measurement is still being saved.".to_owned());
+        }
+        let job = self.spawn("save measurement", move |_: &Teller<()>, _| {
+            let written = write_file(&path, |out| measurement::write(&measurement, out));
+            Event::Saved(match written {
+                Ok(()) => Ok(path),
+                Err(error) => Err(format!("{} cannot be written: {error}.", path.display())),
+            })
+        })?;
+        self.save = Some(job);
         Ok(())
     }
 
@@ -235,7 +269,8 @@ impl Worker {
     pub fn next(&mut self) -> Option<Event> {
         while let Ok((number, event)) = self.receiver.try_recv() {
             let matters = match event {
-                Event::Chosen(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+                Event::Chosen(_) | Event::ChosenSave(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+                Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
                 Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
                 Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
@@ -251,7 +286,7 @@ impl Worker {
     /// Whether a job is on its way.
     #[cfg(test)]
     pub fn is_busy(&self) -> bool {
-        self.fit.is_some() || self.load.is_some() || self.refit.is_some() || self.comparison.is_some()
+        self.fit.is_some() || self.load.is_some() || self.save.is_some() || self.refit.is_some() || self.comparison.is_some()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, INTERRUPTED};
 use super::interrupt;
+use crate::write_file::write_file;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,33 +17,6 @@ pub fn write(path: Option<&Path>, body: impl FnOnce(&mut dyn Write) -> io::Resul
             body(&mut out).and_then(|()| out.flush()).map_err(|error| Failure::output("Standard output", &error))
         }
     }
-}
-
-fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // What a link points to is replaced, not the link; a device, a pipe or a stream of this process can only be written to.
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let is_stream = [path, &target].into_iter().any(|path| path.starts_with("/dev") || path.starts_with("/proc"));
-    let path = target.as_path();
-    if is_stream || std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        let mut out = io::BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
-        return body(&mut out).and_then(|()| out.flush());
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // As a newly created file has, less the umask; a temporary file alone would be private.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    // The name of a temporary file would only confuse.
-    let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
-    let mut out = io::BufWriter::new(file);
-    body(&mut out)?;
-    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }
 
 /// A line on stderr for whoever waits: from 0.2 s on, several times a second on a terminal and every other second elsewhere.

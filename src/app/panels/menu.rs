@@ -19,6 +19,9 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             if ui.add(egui::Button::new("Open measurement…").shortcut_text("Ctrl+O")).clicked() {
                 push(ui, Command::ChooseMeasurement);
             }
+            if ui.add(egui::Button::new("Save measurement as…").shortcut_text("Ctrl+S")).clicked() {
+                push(ui, Command::ChooseSave);
+            }
             ui.menu_button("Examples", |ui| {
                 for (index, example) in EXAMPLES.iter().enumerate() {
                     if ui.button(example.name).clicked() {

@@ -7,5 +7,5 @@ mod status;
 
 pub use fit::fit_ui;
 pub use menu::menu_ui;
-pub use parameters::parameters_ui;
+pub use parameters::{parameters_ui, significant};
 pub use status::{notice_ui, status_ui};

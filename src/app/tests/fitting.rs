@@ -105,7 +105,7 @@ fn a_fit_of_the_measurement_before_does_not_reach_the_one_after() {
     }
     harness.step();
     // The new measurement arrives while both jobs are on their way.
-    let rows = explorer(&mut harness).document.measurement.clone();
+    let rows = (*explorer(&mut harness).document.measurement).clone();
     explorer(&mut harness).take("another".to_owned(), rows);
     wait(&mut harness);
     std::thread::sleep(std::time::Duration::from_millis(300));

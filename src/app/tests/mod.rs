@@ -2,6 +2,7 @@
 
 mod files;
 mod fitting;
+mod masks;
 mod options;
 mod sliders;
 

@@ -121,7 +121,7 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
 fn weights_without_standard_deviations_are_a_sentence() {
     let mut harness = harness();
     let explorer = explorer(&mut harness);
-    let mut measurement = explorer.document.measurement.clone();
+    let mut measurement = (*explorer.document.measurement).clone();
     measurement.rows[3].dolp = measurement.rows[3].dolp.map(|dolp| pbrdf::measurement::Quantity { sigma: None, ..dolp });
     explorer.take("bare".to_owned(), measurement);
     explorer.settings.choices.weights = Weights::Sigma;

@@ -1,0 +1,138 @@
+//! Masks and the data table.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::window::{Explorer, Middle};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::measurement::{Measurement, Quantity, Row};
+use pbrdf::optics::Geometry;
+use std::ops::ControlFlow;
+
+/// The window with the table in the middle.
+fn table() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    harness.get_by_label("Data table").click();
+    // The rows that are seen are known after a frame, and what the model gives in them after another.
+    harness.run();
+    harness
+}
+
+fn masked(harness: &mut Harness<'static, Option<Explorer>>) -> Vec<usize> {
+    explorer(harness).document.mask().to_vec()
+}
+
+#[test]
+fn a_row_is_masked_in_the_table_and_counts_no_more() {
+    let mut harness = table();
+    let before = explorer(&mut harness).derived.delta_e;
+    harness.get_by_label("Mask row 3").click();
+    harness.run();
+    assert_eq!(masked(&mut harness), [2]);
+    let explorer = explorer(&mut harness);
+    assert_ne!(explorer.derived.delta_e, before);
+    assert_eq!(explorer.derived.residuals.iter().map(Vec::len).sum::<usize>(), 26);
+    assert_eq!(explorer.derived.marks.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
+    assert!(explorer.document.description().contains("27 rows, 1 masked"));
+}
+
+#[test]
+fn a_series_is_masked_as_a_whole_and_back() {
+    let mut harness = table();
+    harness.get_by_label("Series (3)").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::CheckBox, "mask θi = 30°: 0 of 9 rows masked").click();
+    harness.run();
+    assert_eq!(masked(&mut harness), (0..9).collect::<Vec<_>>());
+    harness.get_by_role_and_label(Role::CheckBox, "mask θi = 30°: 9 of 9 rows masked").click();
+    harness.run();
+    assert!(masked(&mut harness).is_empty());
+}
+
+#[test]
+fn masks_survive_fits_and_are_undone() {
+    let mut harness = table();
+    explorer(&mut harness).commands.push(Command::Mask { rows: vec![0, 5, 7], masked: true });
+    harness.run();
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert_eq!(masked(&mut harness), [0, 5, 7]);
+    assert_eq!(explorer(&mut harness).last_fit.as_ref().expect("a fit").problem.len(), 24);
+    for expected in [vec![0, 5, 7], vec![]] {
+        explorer(&mut harness).commands.push(Command::Undo);
+        harness.run();
+        assert_eq!(masked(&mut harness), expected);
+    }
+    explorer(&mut harness).commands.push(Command::Redo);
+    harness.run();
+    assert_eq!(masked(&mut harness), [0, 5, 7]);
+}
+
+#[test]
+fn a_measurement_with_everything_masked_is_no_disaster() {
+    let mut harness = table();
+    explorer(&mut harness).commands.push(Command::Mask { rows: (0..27).collect(), masked: true });
+    harness.run();
+    assert_eq!(explorer(&mut harness).derived.delta_e, None);
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    let report = &explorer(&mut harness).last_fit.as_ref().expect("an answer").report;
+    assert_eq!(report.stop_reason, pbrdf::fit::StopReason::NoData);
+}
+
+#[test]
+fn masks_are_saved_and_read_back() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("masked.csv");
+    std::fs::write(&path, "what was there before").expect("a writable folder");
+    let mut harness = table();
+    explorer(&mut harness).commands.extend([Command::Mask { rows: vec![1, 26], masked: true }, Command::SaveMeasurement(path.clone())]);
+    wait(&mut harness);
+    let text = std::fs::read(&path).expect("a file");
+    let read = pbrdf::measurement::read(text.as_slice(), &mut |_| ControlFlow::Continue(())).expect("a measurement");
+    let explorer = explorer(&mut harness);
+    assert_eq!(read.rows, explorer.document.measurement.rows);
+    assert_eq!(read.metadata, explorer.document.measurement.metadata);
+    assert_eq!(read.rows.iter().filter(|row| row.masked).count(), 2);
+    assert!(explorer.notice.as_deref().is_some_and(|notice| notice.contains("saved")));
+
+    explorer.commands.push(Command::SaveMeasurement(folder.path().join("no such folder").join("x.csv")));
+    wait(&mut harness);
+    assert!(self::explorer(&mut harness).notice.as_deref().is_some_and(|notice| notice.contains("cannot be written")));
+}
+
+#[test]
+fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
+    let rows = (0..1_000_000_u32).map(|i| Row {
+        geometry: Geometry::new(f64::from(i % 8) * 10.0, f64::from(i % 89), 180.0).expect("a geometry"),
+        dolp: Some(Quantity { value: f64::from(i % 1000) / 1000.0, sigma: None }),
+        brdf: None,
+        masked: false,
+    });
+    let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
+    let mut harness = table();
+    explorer(&mut harness).take("long".to_owned(), measurement);
+    assert_eq!(explorer(&mut harness).middle, Middle::Table);
+    harness.run();
+    harness.get_by_label("Mask row 1");
+    let middle = harness.get_by_label("Mask row 4").rect().center();
+    harness.hover_at(middle);
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: egui::vec2(0.0, -1e9),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: egui::Modifiers::NONE,
+    });
+    // A long wheel is spread over frames.
+    for _ in 0..40 {
+        harness.step();
+    }
+    harness.get_by_label("Mask row 1000000");
+    let view = &explorer(&mut harness).views.table;
+    let (_, _, _, _, seen) = view.predicted.key().expect("what is seen is evaluated");
+    assert_eq!(seen.end, 1_000_000);
+    assert!(seen.len() < 100, "{seen:?}");
+    assert_eq!(view.predicted.get().map(Vec::len), Some(seen.len()));
+}

@@ -1,0 +1,231 @@
+//! The measurement row by row, with what the model gives there; masks by row and by series.
+
+use crate::app::command::Command;
+use crate::app::document::{Document, Series};
+use crate::app::memo::Memo;
+use crate::app::panels::significant;
+use crate::app::problem::dolp_gain;
+use crate::app::window::Explorer;
+use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
+use egui_extras::{Column, TableBuilder, TableRow};
+use pbrdf::fit::Eq17;
+use pbrdf::measurement::{Quantity, Row};
+use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::optics::Facet;
+use std::ops::Range;
+
+/// What the model gives in one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predicted {
+    pub dolp: f64,
+    pub brdf: f64,
+}
+
+/// What the model in the seen rows depends on: the sliders, the reading of Eq. (17), the document's generation, the rows.
+type PredictedKey = (Parameters, Model, Eq17, u64, Range<usize>);
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct TableView {
+    /// The rows that the last frame drew.
+    visible: Range<usize>,
+    /// The model in those rows.
+    pub predicted: Memo<PredictedKey, Vec<Predicted>>,
+}
+
+/// Evaluates the rows that are seen, and no others: there may be a million.
+pub fn table_refresh(explorer: &mut Explorer) {
+    let Explorer { settings, document, views, .. } = explorer;
+    let view = &mut views.table;
+    let rows = &document.measurement.rows;
+    let visible = view.visible.start.min(rows.len())..view.visible.end.min(rows.len());
+    let key = (settings.parameters, settings.model, settings.choices.eq17, document.generation, visible);
+    view.predicted.refresh(key, |(parameters, model, eq17, _, visible)| {
+        let Ok(surface) = Pbrdf::new(*model, *parameters) else { return Vec::new() };
+        let gain = dolp_gain(*eq17, parameters);
+        let predict = |row: &Row| {
+            let reflection = surface.reflection(&Facet::new(row.geometry));
+            Predicted { dolp: gain * reflection.dolp, brdf: reflection.brdf }
+        };
+        rows[visible.clone()].iter().map(predict).collect()
+    });
+}
+
+pub fn table_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { document, commands, views, .. } = explorer;
+    metadata_ui(document, ui);
+    series_ui(document, commands, ui);
+    let visible = rows_ui(document, &views.table, commands, ui);
+    if visible != views.table.visible {
+        views.table.visible = visible;
+        // The model in the new rows is evaluated before the next frame.
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Height that metadata and series have at most.
+const LIST_HEIGHT: f32 = 120.0;
+
+fn metadata_ui(document: &Document, ui: &mut Ui) {
+    let metadata = &document.measurement.metadata;
+    let title = format!("Metadata ({})", metadata.len());
+    CollapsingHeader::new(title).id_salt("metadata").show(ui, |ui| {
+        if metadata.is_empty() {
+            ui.label("The file says nothing about itself: there are no lines of the form # key: value.");
+        }
+        ScrollArea::vertical().id_salt("metadata").max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
+            egui::Grid::new("metadata").num_columns(2).striped(true).show(ui, |ui| {
+                for (key, value) in metadata {
+                    ui.label(key);
+                    ui.add(egui::Label::new(value).truncate());
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}
+
+fn series_ui(document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let title = format!("Series ({})", document.series.len());
+    CollapsingHeader::new(title).id_salt("series").show(ui, |ui| {
+        let height = ui.spacing().interact_size.y;
+        let area = ScrollArea::vertical().id_salt("series").max_height(LIST_HEIGHT).auto_shrink([false, true]);
+        area.show_rows(ui, height, document.series.len(), |ui, range| {
+            for series in &document.series[range] {
+                one_series_ui(document, series, commands, ui);
+            }
+        });
+    });
+}
+
+fn one_series_ui(document: &Document, series: &Series, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let rows = &document.measurement.rows;
+    let masked = series.rows.iter().filter(|&&row| rows[row].masked).count();
+    let all = masked == series.rows.len();
+    let mut wanted = all;
+    let text = format!("mask {}: {masked} of {} rows masked", series.name(), series.rows.len());
+    let response = ui.add(Checkbox::new(&mut wanted, text).indeterminate(masked > 0 && !all));
+    if response.on_hover_text("Leave this whole series out of every statistic, without deleting it").changed() {
+        commands.push(Command::Mask { rows: series.rows.clone(), masked: !all });
+    }
+}
+
+/// A column of numbers: heading, explanation, width.
+type Heading = (&'static str, &'static str, f32);
+
+const ANGLES: [Heading; 3] = [
+    ("θi / °", "Angle of incidence", 56.0),
+    ("θr / °", "Angle of view", 56.0),
+    ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 56.0),
+];
+const DOLP: [Heading; 4] = [
+    ("DoLP", "Measured degree of linear polarisation", 72.0),
+    ("± σ", "Its stated standard deviation", 72.0),
+    ("model", "DoLP of the model at the sliders", 72.0),
+    ("residual", "Model less measurement", 76.0),
+];
+const BRDF: [Heading; 4] = [
+    ("BRDF", "Measured BRDF in 1/sr", 80.0),
+    ("± σ", "Its stated standard deviation", 80.0),
+    ("model", "BRDF of the model at the sliders", 80.0),
+    ("residual", "Model less measurement", 80.0),
+];
+
+/// The rows; returns those that are seen.
+fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, ui: &mut Ui) -> Range<usize> {
+    let measurement = &document.measurement;
+    let (has_dolp, has_brdf) = (measurement.has_dolp(), measurement.has_brdf());
+    let headings = ANGLES.iter().chain(DOLP.iter().filter(|_| has_dolp)).chain(BRDF.iter().filter(|_| has_brdf));
+    let height = ui.spacing().interact_size.y;
+    let mut visible: Option<Range<usize>> = None;
+    ScrollArea::horizontal().id_salt("table").auto_shrink([false; 2]).show(ui, |ui| {
+        // A million rows of whole points stay apart in f32; with a gap between them they would not.
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let mut builder = TableBuilder::new(ui).id_salt(document.number).striped(true).auto_shrink([false; 2]);
+        builder = builder.cell_layout(Layout::right_to_left(Align::Center)).column(Column::exact(46.0)).column(Column::exact(54.0));
+        for (_, _, width) in headings.clone() {
+            builder = builder.column(Column::exact(*width));
+        }
+        let table = builder.header(height, |mut header| {
+            header.col(|ui| {
+                ui.strong("mask").on_hover_text("Masked rows stay and are shown, but count in no statistic");
+            });
+            for (heading, help, _) in [("row", "Place in the file, from 1", 0.0)].iter().chain(headings) {
+                header.col(|ui| {
+                    ui.strong(*heading).on_hover_text(*help);
+                });
+            }
+        });
+        table.body(|body| {
+            body.rows(height, measurement.rows.len(), |mut line| {
+                let index = line.index();
+                let seen = visible.get_or_insert(index..index);
+                *seen = seen.start.min(index)..seen.end.max(index + 1);
+                let predicted = view.predicted.key().filter(|key| key.4.contains(&index)).and_then(|key| {
+                    let values = view.predicted.get()?;
+                    values.get(index - key.4.start).copied()
+                });
+                line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp, has_brdf), commands);
+            });
+        });
+    });
+    visible.unwrap_or_default()
+}
+
+fn line_ui(
+    line: &mut TableRow<'_, '_>,
+    index: usize,
+    row: &Row,
+    predicted: Option<Predicted>,
+    (has_dolp, has_brdf): (bool, bool),
+    commands: &mut Vec<Command>,
+) {
+    line.col(|ui| {
+        let mut masked = row.masked;
+        let response = ui.add(Checkbox::without_text(&mut masked));
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, masked, format!("Mask row {}", index + 1)));
+        if response.changed() {
+            commands.push(Command::Mask { rows: vec![index], masked });
+        }
+    });
+    let mut cell = |text: String| {
+        line.col(|ui| {
+            if row.masked {
+                ui.weak(text);
+            } else {
+                ui.label(text);
+            }
+        });
+    };
+    cell((index + 1).to_string());
+    let geometry = row.geometry;
+    for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
+        cell(significant(angle));
+    }
+    let mut quantity = |measured: Option<Quantity>, model: Option<f64>| {
+        cell(measured.map_or_else(String::new, |measured| significant(measured.value)));
+        cell(measured.and_then(|measured| measured.sigma).map_or_else(String::new, short));
+        cell(model.map_or_else(|| "…".to_owned(), significant));
+        cell(measured.zip(model).map_or_else(String::new, |(measured, model)| short(model - measured.value)));
+    };
+    if has_dolp {
+        quantity(row.dolp, predicted.map(|predicted| predicted.dolp));
+    }
+    if has_brdf {
+        quantity(row.brdf, predicted.map(|predicted| predicted.brdf));
+    }
+}
+
+/// Three significant digits are enough for an error.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e4).contains(&value.abs()) { significant_of(value, 3) } else { format!("{value:.2e}") }
+}
+
+fn significant_of(value: f64, digits: i32) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 6")]
+    let decimals = (f64::from(digits - 1) - libm::log10(value.abs()).floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}

@@ -1,0 +1,32 @@
+//! Writing a file so that a crash or a full disk leaves the old one or the new one.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes a file in one move: what was there before stays until the new file is whole, and on any error.
+pub fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    // What a link points to is replaced, not the link; a device, a pipe or a stream of this process can only be written to.
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let is_stream = [path, &target].into_iter().any(|path| path.starts_with("/dev") || path.starts_with("/proc"));
+    let path = target.as_path();
+    if is_stream || std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        let mut out = io::BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
+        return body(&mut out).and_then(|()| out.flush());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As a newly created file has, less the umask; a temporary file alone would be private.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    // The name of a temporary file would only confuse.
+    let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
+    let mut out = io::BufWriter::new(file);
+    body(&mut out)?;
+    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
