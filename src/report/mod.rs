@@ -4,8 +4,10 @@
 //! from outside ([`Surroundings`]), and so does what is known of the machine.
 
 mod error_vs_time;
+pub mod figure;
 mod fit_json;
 mod machine;
+mod palette;
 mod reference;
 mod table;
 mod textbook;
