@@ -31,7 +31,7 @@ fn color(index: usize) -> String {
 
 /// Numbers of a path's data, in pairs.
 fn points(data: &str) -> Vec<(f64, f64)> {
-    let words: Vec<f64> = data.split(['M', 'L', ' ', 'Z']).filter(|word| !word.is_empty()).filter_map(|word| word.parse().ok()).collect();
+    let words: Vec<f64> = data.split(['M', 'L', ' ', 'Z']).filter_map(|word| word.parse().ok()).collect();
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
@@ -89,7 +89,7 @@ fn nothing_of_a_curve_leaves_the_frame() {
     let series = vec![Series::line("", wild), Series::line("", steep), Series::band("", band)];
     let svg = svg_of(Panel { legend: false, ..panel(series) });
     let document = Document::parse(&svg).unwrap();
-    let frame = points(&paths(&document, &color(2), None)[0].attribute("d").unwrap());
+    let frame = points(paths(&document, &color(2), None)[0].attribute("d").unwrap());
     // The band fills the panel from left to right and from foot to top somewhere: its extremes are the frame.
     let (left, right) = frame.iter().fold((f64::MAX, f64::MIN), |(low, high), (x, _)| (low.min(*x), high.max(*x)));
     let (top, foot) = frame.iter().fold((f64::MAX, f64::MIN), |(low, high), (_, y)| (low.min(*y), high.max(*y)));
