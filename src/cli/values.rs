@@ -16,9 +16,6 @@ const LARGEST_GRID: f64 = 1e6;
 
 /// A preset by its name.
 pub fn preset(text: &str) -> Result<&'static Preset, String> {
-    if text == "hyde" {
-        return Err("the model hyde is not there yet; a later version will bring it".to_owned());
-    }
     Preset::from_key(text).ok_or_else(|| format!("expected one of {}", PRESETS.map(|preset| preset.key).join(", ")))
 }
 

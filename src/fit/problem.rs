@@ -11,7 +11,7 @@
 use super::bounds::Bounds;
 use super::choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
-use crate::model::{Diffuse, Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
+use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
 use crate::optics::Facet;
 use nalgebra::{DMatrix, DVector};
 
@@ -486,7 +486,6 @@ pub fn free_by_default(model: Model, measurement: &Measurement, choices: &Choice
     let set = model.dolp_parameters();
     match choices.eq17 {
         Eq17::Consistent => set.without(Parameter::Ks),
-        Eq17::Printed if model.diffuse == Diffuse::Absent && !model.volume => set.with(Parameter::Ks),
-        Eq17::Printed => set,
+        Eq17::Printed => set.with(Parameter::Ks),
     }
 }

@@ -11,6 +11,7 @@
 
 use super::lobes::Lobe;
 use super::pbrdf::{Lobes, Pbrdf, Reflection};
+use super::single_reflection::Loss;
 use super::{Diffuse, Parameter, ParameterSet};
 use crate::optics::{Facet, Fresnel, FresnelGradient};
 
@@ -46,6 +47,13 @@ fn fading(value: f64, slope: f64) -> f64 {
     if value == 0.0 || slope == 0.0 { 0.0 } else { value * slope }
 }
 
+/// Adds to a derivative; one that lies beyond f64 already stays there, even against another.
+fn join(derivative: &mut f64, other: f64) {
+    if derivative.is_finite() {
+        *derivative += other;
+    }
+}
+
 /// What the derivatives of DoLP share.
 struct Mixture {
     /// DoLP_s.
@@ -64,8 +72,11 @@ impl Pbrdf {
     pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
         let p = self.parameters();
         let lobes = self.lobes(facet);
-        let mut reflection =
-            Reflection { diffuse: lobes.diffuse.weighted(p.kd), volume: lobes.volume.weighted(p.kv), ..Reflection::default() };
+        let mut reflection = Reflection {
+            diffuse: lobes.diffuse.weighted(self.diffuse_weight()),
+            volume: lobes.volume.weighted(p.kv),
+            ..Reflection::default()
+        };
         let mut gradient = Gradient::default();
         if self.model().specular {
             let fresnel = Fresnel::new(self.index(), facet);
@@ -106,7 +117,7 @@ impl Pbrdf {
     /// Whether there is any light, so that DoLP has a derivative.
     fn reflects_or_depolarises(&self, lobes: &Lobes) -> bool {
         let p = self.parameters();
-        self.reflects_specularly() || p.kd * lobes.diffuse.factor > 0.0 || p.kv * lobes.volume.factor > 0.0
+        self.reflects_specularly() || self.diffuse_weight() * lobes.diffuse.factor > 0.0 || p.kv * lobes.volume.factor > 0.0
     }
 
     fn specular_brdf_gradient(&self, lobes: &Lobes, mean: f64, specular: f64, by_index: FresnelGradient, out: &mut [f64; 9]) {
@@ -124,10 +135,21 @@ impl Pbrdf {
 
     fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, out: &mut [f64; 9]) {
         let p = self.parameters();
-        out[Parameter::Kd as usize] = lobes.diffuse.value();
         out[Parameter::Kv as usize] = lobes.volume.value();
-        if self.model().diffuse == Diffuse::Minnaert {
-            out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
+        match self.model().diffuse {
+            Diffuse::Absent => {}
+            Diffuse::Lambert => out[Parameter::Kd as usize] = lobes.diffuse.value(),
+            Diffuse::Minnaert => {
+                out[Parameter::Kd as usize] = lobes.diffuse.value();
+                out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
+            }
+            Diffuse::Hyde if self.model().specular => {
+                let loss = self.loss(facet);
+                out[Parameter::Ks as usize] += lobes.diffuse.value();
+                join(&mut out[Parameter::Sigma as usize], fading(reflection.diffuse, loss.by_sigma));
+                join(&mut out[Parameter::Q as usize], fading(reflection.diffuse, loss.by_q));
+            }
+            Diffuse::Hyde => {}
         }
         if self.model().volume {
             out[Parameter::SigmaV as usize] = fading(reflection.volume, volume_slope(lobes.volume, p.sigma_v));
@@ -151,14 +173,35 @@ impl Pbrdf {
         // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
         let gain = fading(-limit * share, 1.0 / total);
         let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gain);
-        out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0);
         out[Parameter::Kv as usize] = darken(lobes.volume, 1.0);
-        if self.model().diffuse == Diffuse::Minnaert {
-            out[Parameter::C as usize] = darken(lobes.diffuse, p.kd) * facet.ln_cosines;
+        match self.model().diffuse {
+            Diffuse::Absent => {}
+            Diffuse::Lambert => out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0),
+            Diffuse::Minnaert => {
+                out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0);
+                out[Parameter::C as usize] = darken(lobes.diffuse, p.kd) * facet.ln_cosines;
+            }
+            Diffuse::Hyde => {
+                let loss = self.loss(facet);
+                let balance = darken(lobes.diffuse, p.ks);
+                join(&mut out[Parameter::Sigma as usize], fading(balance, loss.by_sigma));
+                join(&mut out[Parameter::Q as usize], fading(balance, loss.by_q));
+                // Specular lobe and balance rise together: against the volume lobe alone k_s counts.
+                let others = lobes.volume.scaled(self.raised(p.kv)).over(lobes.specular);
+                let rest = if others == 0.0 { 0.0 } else { (others / total).min(1.0) };
+                out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
+            }
         }
         if self.model().volume {
             out[Parameter::SigmaV as usize] = fading(darken(lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
         }
+    }
+}
+
+impl Pbrdf {
+    /// What single reflection loses, for Hyde's term.
+    fn loss(&self, facet: &Facet) -> Loss {
+        Loss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)
     }
 }
 

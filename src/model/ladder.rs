@@ -23,7 +23,7 @@ const fn model(distribution: SlopeDistribution, masking: bool, diffuse: Diffuse,
 }
 
 /// All presets, from the fewest terms to the most.
-pub const PRESETS: [Preset; 9] = [
+pub const PRESETS: [Preset; 10] = [
     Preset {
         key: "fresnel",
         name: "Fresnel reflection alone (Thilak)",
@@ -50,6 +50,13 @@ pub const PRESETS: [Preset; 9] = [
         name: "Gauss facets with masking",
         citation: "the specular part of Wang et al. 2021",
         model: model(Gauss, true, Diffuse::Absent, false),
+        dolp_only: false,
+    },
+    Preset {
+        key: "hyde",
+        name: "Gauss facets, and what they lose as depolarised light (Hyde)",
+        citation: "Hyde, Schmidt, Havrilla, Opt. Express 17(24), 22138 (2009)",
+        model: model(Gauss, true, Diffuse::Hyde, false),
         dolp_only: false,
     },
     Preset {

@@ -13,6 +13,7 @@ mod lobes;
 mod parameters;
 mod pbrdf;
 mod scene;
+mod single_reflection;
 
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
 pub use finishes::{FINISHES, Finish};

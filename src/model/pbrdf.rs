@@ -5,6 +5,7 @@
 //! and right even where the specular term underflows.
 
 use super::lobes::{self, Lobe};
+use super::single_reflection::Loss;
 use super::{Parameter, ParameterError, ParameterSet, Parameters};
 use crate::optics::{Facet, Fresnel, Geometry, Mueller, RefractiveIndex, SlopeDistribution};
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,10 @@ pub enum Diffuse {
     Lambert,
     /// Eq. (12) with the exponent c.
     Minnaert,
+    /// Lambertian, and as strong as the light that single reflection loses: `k_s (1 − ρ(θi))/π`, ρ the directional-hemispherical
+    /// reflectance of the specular lobe of a perfect reflector in V-grooves (Hyde, Schmidt, Havrilla, Opt. Express 17, 22138 (2009)). That k_s scales it
+    /// as it scales the specular lobe is a choice of this project's. Without a specular lobe there is none of it.
+    Hyde,
 }
 
 /// Which distribution and which terms there are. A term that is absent is not evaluated and has no parameters.
@@ -53,11 +58,10 @@ impl Model {
                 set = set.with(Parameter::Q);
             }
         }
-        if self.diffuse != Diffuse::Absent {
-            set = set.with(Parameter::Kd);
-        }
-        if self.diffuse == Diffuse::Minnaert {
-            set = set.with(Parameter::C);
+        match self.diffuse {
+            Diffuse::Absent | Diffuse::Hyde => {}
+            Diffuse::Lambert => set = set.with(Parameter::Kd),
+            Diffuse::Minnaert => set = set.with(Parameter::Kd).with(Parameter::C),
         }
         if self.volume {
             set = set.with(Parameter::Kv).with(Parameter::SigmaV);
@@ -66,13 +70,15 @@ impl Model {
     }
 
     /// Whether its DoLP depends on those parameters at all: a lone specular lobe has the DoLP of its facets,
-    /// whatever their distribution, and then σ, q and k_s show in the BRDF only.
+    /// whatever their distribution, and then σ, q and k_s show in the BRDF only; beside Hyde's term alone k_s cancels.
     #[must_use]
     pub fn dolp_parameters(&self) -> ParameterSet {
         if !self.specular {
             ParameterSet::EMPTY
         } else if self.diffuse == Diffuse::Absent && !self.volume {
             [Parameter::N, Parameter::K].into_iter().collect()
+        } else if self.diffuse == Diffuse::Hyde && !self.volume {
+            self.parameters().without(Parameter::Ks)
         } else {
             self.parameters()
         }
@@ -164,8 +170,11 @@ impl Pbrdf {
     pub fn reflection(&self, facet: &Facet) -> Reflection {
         let p = &self.parameters;
         let lobes = self.lobes(facet);
-        let mut reflection =
-            Reflection { diffuse: lobes.diffuse.weighted(p.kd), volume: lobes.volume.weighted(p.kv), ..Reflection::default() };
+        let mut reflection = Reflection {
+            diffuse: lobes.diffuse.weighted(self.diffuse_weight()),
+            volume: lobes.volume.weighted(p.kv),
+            ..Reflection::default()
+        };
         if self.model.specular {
             let fresnel = Fresnel::new(self.index, facet);
             let mean = fresnel.mean();
@@ -224,9 +233,16 @@ impl Pbrdf {
                 Diffuse::Absent => Lobe::DARK,
                 Diffuse::Lambert => lobes::diffuse(facet, 0.0),
                 Diffuse::Minnaert => lobes::diffuse(facet, p.c),
+                Diffuse::Hyde if model.specular => Loss::at(model.distribution, facet.theta_i, p.sigma, p.q).lobe,
+                Diffuse::Hyde => Lobe::DARK,
             },
             volume: if model.volume { lobes::volume(facet, p.sigma_v) } else { Lobe::DARK },
         }
+    }
+
+    /// What the diffuse lobe is multiplied by: k_d, or k_s in Hyde's balance.
+    pub(super) fn diffuse_weight(&self) -> f64 {
+        if self.model.diffuse == Diffuse::Hyde { self.parameters.ks } else { self.parameters.kd }
     }
 
     /// A weight as DoLP takes it: the same, unless k_s is so faint that all three are raised.
@@ -236,7 +252,7 @@ impl Pbrdf {
 
     /// b: the (raised) depolarised terms over the specular lobe of unit weight and reflectance.
     pub(super) fn depolarised_over_specular(&self, lobes: &Lobes) -> f64 {
-        let diffuse = lobes.diffuse.scaled(self.raised(self.parameters.kd));
+        let diffuse = lobes.diffuse.scaled(self.raised(self.diffuse_weight()));
         let volume = lobes.volume.scaled(self.raised(self.parameters.kv));
         diffuse.over(lobes.specular) + volume.over(lobes.specular)
     }

@@ -79,6 +79,15 @@ impl SlopeDistribution {
         }
     }
 
+    /// y of the share e^(−y) of the projected facets that are steeper: Gauss w, Cauchy (q − 1) ln(1 + w).
+    #[must_use]
+    pub fn survival_exponent(self, w: f64, q: f64) -> f64 {
+        match self {
+            Self::Gauss => w,
+            Self::Cauchy => (q - 1.0) * libm::log1p(w),
+        }
+    }
+
     /// P(α), Eq. (5) or (7), for tan²α, slope σ > 0 and tail exponent q > 1.
     #[must_use]
     pub fn facet_density(self, tan_alpha_sq: f64, sigma: f64, q: f64) -> f64 {

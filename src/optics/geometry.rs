@@ -163,6 +163,8 @@ pub struct Facet {
     pub one_over_cosines: f64,
     /// ln(cos θi cos θr) ≤ 0.
     pub ln_cosines: f64,
+    /// θi.
+    pub theta_i: Degrees,
     /// θr in radians.
     pub theta_r: f64,
 }
@@ -193,6 +195,7 @@ impl Facet {
             g_over_cosines: one_over_cosines.min(2.0 * mean_cosine / (cos_beta_sq * cos_i.max(cos_r))),
             one_over_cosines,
             ln_cosines: ln_cos(sin_i, cos_i) + ln_cos(sin_r, cos_r),
+            theta_i,
             theta_r: theta_r.radians(),
         }
     }

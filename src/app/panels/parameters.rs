@@ -81,7 +81,7 @@ fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui
 
 fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
-    let switch = ui.checkbox(&mut present, "Diffuse lobe").on_hover_text("Minnaert, Eq. (12): depolarises");
+    let switch = ui.checkbox(&mut present, "Diffuse lobe").on_hover_text("Minnaert, Eq. (12), or one of its relatives: depolarises");
     if switch.changed() {
         settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
     }
@@ -89,9 +89,14 @@ fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui)
         ui.horizontal(|ui| {
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, "Minnaert").on_hover_text("(cos θi cos θr)^c / π");
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, "Lambert").on_hover_text("1/π in all directions: c = 0");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, "Hyde")
+                .on_hover_text("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own");
         });
-        let shown: &[Parameter] =
-            if settings.model.diffuse == Diffuse::Minnaert { &[Parameter::Kd, Parameter::C] } else { &[Parameter::Kd] };
+        let shown: &[Parameter] = match settings.model.diffuse {
+            Diffuse::Absent | Diffuse::Hyde => &[],
+            Diffuse::Lambert => &[Parameter::Kd],
+            Diffuse::Minnaert => &[Parameter::Kd, Parameter::C],
+        };
         sliders_ui(settings, notice, ui, "diffuse", shown);
     }
     ui.separator();

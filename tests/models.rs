@@ -1,0 +1,113 @@
+//! The ladder beyond the nine-parameter model: Hyde's balance.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+
+use pbrdf::fit::{Bounds, Choices, Problem, Starts, Watch, fit, free_by_default};
+use pbrdf::measurement::{Columns, Measurement, Simulation};
+use pbrdf::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Preset, Wanted};
+use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
+
+const STEEL: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
+
+fn hyde() -> Model {
+    Preset::from_key("hyde").expect("a preset").model
+}
+
+fn facet(theta_i: f64, theta_r: f64, dphi: f64) -> Facet {
+    Facet::new(Geometry::new(theta_i, theta_r, dphi).expect("a valid geometry"))
+}
+
+fn simulated(model: Model, truth: Parameters, columns: Columns, noise: f64) -> Measurement {
+    let grid = |from: i32, to: i32, step: usize| (from..=to).step_by(step).map(f64::from).collect();
+    let surface = Pbrdf::new(model, truth).expect("a valid surface");
+    let (theta_i, theta_r) = (grid(10, 80, 10), grid(0, 85, 5));
+    Simulation { model_name: "test".to_owned(), surface, theta_i, theta_r, dphi: 180.0, columns, noise, brdf_noise: noise, seed: 3 }
+        .run()
+        .expect("valid angles")
+}
+
+#[test]
+fn hydes_term_is_the_same_in_all_directions_of_view_and_scales_with_k_s() {
+    let dark = |ks: f64, theta_r: f64, dphi: f64| {
+        Pbrdf::new(hyde(), Parameters { ks, ..STEEL }).expect("a surface").reflection(&facet(40.0, theta_r, dphi)).diffuse
+    };
+    let one = dark(1.0, 10.0, 180.0);
+    // 1 − ρ of some tenths, over π.
+    assert!((0.02..0.1).contains(&one), "{one}");
+    assert_eq!(dark(1.0, 70.0, 30.0), one);
+    assert_eq!(dark(0.0, 70.0, 30.0), 0.0);
+    assert!((dark(3.0, 70.0, 30.0) / (3.0 * one) - 1.0).abs() < 4.0 * f64::EPSILON);
+}
+
+#[test]
+fn k_s_cancels_from_hydes_dolp() {
+    let at = |ks: f64| {
+        Pbrdf::new(hyde(), Parameters { ks, ..STEEL }).expect("a surface").reflection_and_gradient(&facet(50.0, 30.0, 180.0), Wanted::ALL)
+    };
+    let ((one, gradient), (two, _)) = (at(1.0), at(2.0));
+    assert_eq!(one.dolp, two.dolp);
+    assert_eq!(gradient.dolp[Parameter::Ks as usize], 0.0);
+}
+
+#[test]
+fn derivatives_of_hydes_term_are_those_of_its_values() {
+    // A central difference of this step is good to about its square and the rounding over it.
+    let (step, tolerance) = (1e-5, 1e-6);
+    for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
+        for volume in [false, true] {
+            let model = Model { distribution, volume, ..hyde() };
+            for (theta_i, theta_r, sigma) in [(10.0, 30.0, 0.2), (50.0, 40.0, 0.5), (75.0, 60.0, 0.1), (80.0, 20.0, 0.9)] {
+                let here = Parameters { sigma, ks: 1.3, ..STEEL };
+                let facet = facet(theta_i, theta_r, 150.0);
+                let (_, gradient) = Pbrdf::new(model, here).expect("a surface").reflection_and_gradient(&facet, Wanted::ALL);
+                for parameter in Parameter::ALL {
+                    let moved = |by: f64| {
+                        let mut there = here;
+                        there[parameter] *= 1.0 + by;
+                        Pbrdf::new(model, there).expect("a surface").reflection(&facet)
+                    };
+                    let (up, down) = (moved(step), moved(-step));
+                    let width = 2.0 * step * here[parameter];
+                    let j = parameter as usize;
+                    for (analytic, numeric, size) in [
+                        (gradient.brdf[j], (up.brdf - down.brdf) / width, up.brdf),
+                        (gradient.dolp[j], (up.dolp - down.dolp) / width, up.dolp),
+                    ] {
+                        let scale = numeric.abs().max(1e-3 * size / here[parameter].abs());
+                        assert!(
+                            (analytic - numeric).abs() <= tolerance * scale,
+                            "{model:?} {parameter:?} at {theta_i}: {analytic} {numeric}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn hyde_is_fitted_by_index_and_slope_and_with_a_brdf_by_k_s_too() {
+    let names = |measurement: &Measurement| free_by_default(hyde(), measurement, &Choices::default());
+    let by_dolp = simulated(hyde(), STEEL, Columns::Dolp, 0.0);
+    let by_both = simulated(hyde(), Parameters { ks: 0.7, ..STEEL }, Columns::Both, 0.0);
+    let expected: ParameterSet = [Parameter::N, Parameter::K, Parameter::Sigma].into_iter().collect();
+    assert_eq!((names(&by_dolp), names(&by_both)), (expected, expected.with(Parameter::Ks)));
+    for (measurement, ks) in [(by_dolp, 1.0), (by_both, 0.7)] {
+        let free = names(&measurement);
+        let problem =
+            Problem::new(&measurement, hyde(), Parameters::default(), free, Bounds::default(), Choices::default()).expect("a problem");
+        let report = fit(&problem, Starts::Automatic, 1, Watch::NOBODY);
+        for parameter in free {
+            let truth = Parameters { ks, ..STEEL }[parameter];
+            // Noise-free, and four parameters at most: nine digits less than f64 has.
+            assert!((report.parameters[parameter] - truth).abs() < 1e-6, "{parameter:?}: {}", report.parameters[parameter]);
+        }
+        assert!(report.undetermined.is_empty());
+    }
+}
+
+#[test]
+fn without_a_specular_lobe_there_is_no_balance_to_carry() {
+    let surface = Pbrdf::new(Model { specular: false, diffuse: Diffuse::Hyde, ..hyde() }, STEEL).expect("a surface");
+    assert_eq!(surface.reflection(&facet(30.0, 30.0, 180.0)).brdf, 0.0);
+    assert!(surface.model().parameters().is_empty());
+}
