@@ -24,3 +24,4 @@ pub use lobes::Lobe;
 pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
 pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
 pub use scene::Scene;
+pub(crate) use single_reflection::lost_by_single_reflection;

@@ -8,10 +8,10 @@
 //! is left to Gauss–Legendre quadrature in ln(1 + w), piece by piece between the slopes where `lost` has kinks. Relative error of 1 − ρ (not of ρ): below
 //! 1e-11 for σ ≥ 0.01 and θi ≤ 85°, below 1e-8 for σ ≥ 0.001 and θi ≤ 89.9°. Where e^(−y) alone underflows, the exponent is kept apart.
 
-use super::Lobe;
-use crate::optics::{Degrees, Grooves, Order, SlopeDistribution, reduced_slope_sq};
+use super::{Lobe, Model, Parameters};
+use crate::optics::{Degrees, Geometry, Grooves, Order, SlopeDistribution, reduced_slope_sq};
 use std::cell::RefCell;
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// (1 − ρ)/π, and its logarithmic derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,6 +91,11 @@ impl Loss {
     }
 }
 
+/// 1 − ρ(θi), what single reflection by a perfect reflector loses in V-grooves of a model's facets: 0 to 1.
+pub(crate) fn lost_by_single_reflection(model: Model, parameters: &Parameters, geometry: Geometry) -> f64 {
+    PI * Loss::at(model.distribution, geometry.theta_i(), parameters.sigma, parameters.q).lobe.value()
+}
+
 /// Where a loss is remembered: any mixture of the bits that tells neighbouring angles apart (Fibonacci hashing).
 fn slot([theta_i, sigma, q]: [u64; 3]) -> usize {
     let mixed = (theta_i ^ sigma.rotate_left(21) ^ q.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -120,11 +125,10 @@ fn survival_slopes(distribution: SlopeDistribution, w: f64, sigma: f64, q: f64) 
 
 #[cfg(test)]
 mod tests {
-    use super::{Degrees, Lobe, Loss, Order};
+    use super::{Degrees, Lobe, Loss, Order, PI};
     use crate::model::lobes;
     use crate::optics::SlopeDistribution::{self, Cauchy, Gauss};
     use crate::optics::{Facet, Geometry, reduced_slope_sq};
-    use std::f64::consts::PI;
 
     fn rho(distribution: SlopeDistribution, theta_i: f64, sigma: f64, q: f64) -> f64 {
         1.0 - PI * Loss::at(distribution, Degrees(theta_i), sigma, q).lobe.value()

@@ -10,7 +10,7 @@
 //! Angles become radians first, differences are taken where they stand, and nothing is done about cancellation, overflow or 0/0, but
 //! that square roots of what rounding makes negative are 0.
 
-use crate::model::{Diffuse, Model, Parameters};
+use crate::model::{Diffuse, Model, Parameters, lost_by_single_reflection};
 use crate::optics::{Geometry, SlopeDistribution};
 
 macro_rules! textbook {
@@ -65,6 +65,9 @@ macro_rules! textbook {
                 Diffuse::Absent => 0.0,
                 Diffuse::Lambert => kd / pi,
                 Diffuse::Minnaert => kd * $pow(cos_i * cos_r, c) / pi,
+                // An integral has no textbook form: that of the core.
+                Diffuse::Hyde if model.specular => ks * lost_by_single_reflection(model, parameters, geometry) as $real / pi,
+                Diffuse::Hyde => 0.0,
             };
             let volume = if model.volume {
                 kv * $exp(-theta_r * theta_r / (2.0 * sigma_v * sigma_v)) / ((2.0 * pi).sqrt() * sigma_v)
