@@ -99,9 +99,7 @@ pub(crate) fn lost_by_single_reflection(model: Model, parameters: &Parameters, g
 /// Where a loss is remembered: any mixture of the bits that tells neighbouring angles apart (Fibonacci hashing).
 fn slot([theta_i, sigma, q]: [u64; 3]) -> usize {
     let mixed = (theta_i ^ sigma.rotate_left(21) ^ q.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    #[expect(clippy::cast_possible_truncation, reason = "the remainder is below the number of slots")]
-    let slot = (mixed >> 32) as usize % REMEMBERED;
-    slot
+    (mixed >> 32) as usize % REMEMBERED
 }
 
 /// e^(−44) is less than f64 can add to 1.

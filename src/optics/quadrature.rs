@@ -16,9 +16,9 @@ type Node = (f64, f64);
 
 static RULE: LazyLock<[Node; NODES]> = LazyLock::new(rule::<NODES>);
 /// The same, for x as above.
-static ROUNDED: LazyLock<[Node; NODES]> = LazyLock::new(|| rounded(&*RULE));
+static ROUNDED: LazyLock<[Node; NODES]> = LazyLock::new(|| rounded(&RULE));
 static COARSE: LazyLock<[Node; NODES / 2]> = LazyLock::new(rule::<{ NODES / 2 }>);
-static COARSE_ROUNDED: LazyLock<[Node; NODES / 2]> = LazyLock::new(|| rounded(&*COARSE));
+static COARSE_ROUNDED: LazyLock<[Node; NODES / 2]> = LazyLock::new(|| rounded(&COARSE));
 
 /// How many nodes an interval has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
