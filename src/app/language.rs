@@ -1,0 +1,176 @@
+//! The language of the window, switchable while it runs.
+//!
+//! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
+//! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
+//! `tr!("{} rows", count)`. A text that comes out of a table goes in with a second pair of brackets: `tr!((parameter.help()))`.
+//! Names of parameters, models and files are the same in all languages.
+
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use tr::{PoTranslator, Translator};
+
+/// A language of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Language {
+    English,
+    Chinese,
+}
+
+impl Language {
+    pub const ALL: [Self; 2] = [Self::English, Self::Chinese];
+
+    /// Its name in itself.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::Chinese => "简体中文",
+        }
+    }
+
+    /// Its code, as lessons use it.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Chinese => "zh",
+        }
+    }
+
+    /// That of the environment; English unless it says Chinese.
+    pub fn of_environment() -> Self {
+        let said = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
+        if said.is_some_and(|value| value.starts_with("zh")) { Self::Chinese } else { Self::English }
+    }
+}
+
+const CHINESE: &str = include_str!("../../assets/locales/zh_CN.po");
+
+/// Looks texts up in the language that is set.
+struct Catalogue {
+    chinese: PoTranslator,
+}
+
+impl Translator for Catalogue {
+    fn translate<'a>(&'a self, string: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
+        match current() {
+            Language::English => Cow::Borrowed(string),
+            Language::Chinese => self.chinese.translate(string, context),
+        }
+    }
+
+    fn ntranslate<'a>(&'a self, n: u64, singular: &'a str, plural: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
+        match current() {
+            Language::English => Cow::Borrowed(if n == 1 { singular } else { plural }),
+            Language::Chinese => self.chinese.ntranslate(n, singular, plural, context),
+        }
+    }
+}
+
+/// Makes the catalogue known; without it, which a test rules out, all texts stay English.
+pub fn install() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        if let Ok(chinese) = PoTranslator::from_vec_u8(CHINESE.as_bytes().to_vec()) {
+            tr::set_translator!(Catalogue { chinese });
+        }
+    });
+}
+
+pub use switch::{current, set};
+
+/// One language for the whole program: jobs write sentences too.
+#[cfg(not(test))]
+mod switch {
+    use super::Language;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    static IS_CHINESE: AtomicBool = AtomicBool::new(false);
+
+    pub fn current() -> Language {
+        if IS_CHINESE.load(Ordering::Relaxed) { Language::Chinese } else { Language::English }
+    }
+
+    pub fn set(language: Language) {
+        IS_CHINESE.store(language == Language::Chinese, Ordering::Relaxed);
+    }
+}
+
+/// One language for each test: they run side by side.
+#[cfg(test)]
+mod switch {
+    use super::Language;
+    use std::cell::Cell;
+
+    thread_local! { static CURRENT: Cell<Language> = const { Cell::new(Language::English) }; }
+
+    pub fn current() -> Language {
+        CURRENT.get()
+    }
+
+    pub fn set(language: Language) {
+        CURRENT.set(language);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CHINESE, Language, install, set};
+    use tr::{PoTranslator, Translator as _, tr};
+
+    #[test]
+    fn texts_follow_the_language() {
+        install();
+        assert_eq!(tr!("File"), "File");
+        set(Language::Chinese);
+        assert_eq!(tr!("File"), "文件");
+        set(Language::English);
+        assert_eq!(tr!("File"), "File");
+    }
+
+    #[test]
+    fn every_text_of_the_window_is_translated() {
+        let catalogue = PoTranslator::from_vec_u8(CHINESE.as_bytes().to_vec()).expect("the catalogue is well-formed");
+        let missing: Vec<String> = texts().into_iter().filter(|text| catalogue.translate(text, None) == text.as_str()).collect();
+        assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
+    }
+
+    /// The literals inside `tr!("…")` in the sources of the window.
+    fn texts() -> Vec<String> {
+        let mut texts = Vec::new();
+        let mut folders = vec![std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app")];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).expect("a folder of sources") {
+                let path = entry.expect("an entry").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if !path.ends_with("language.rs") {
+                    literals(&std::fs::read_to_string(path).expect("a source file"), &mut texts);
+                }
+            }
+        }
+        texts.sort();
+        texts.dedup();
+        texts
+    }
+
+    fn literals(source: &str, texts: &mut Vec<String>) {
+        for after in source.split("tr!(").skip(1) {
+            let Some(literal) = after.trim_start().strip_prefix('"') else { continue };
+            let mut text = String::new();
+            let mut letters = literal.chars();
+            while let Some(letter) = letters.next() {
+                match letter {
+                    '"' => break,
+                    '\\' => match letters.next() {
+                        Some('n') => text.push('\n'),
+                        // A line that goes on: blanks at the beginning of the next one do not count.
+                        Some('\n') => letters = letters.as_str().trim_start().chars(),
+                        Some(other) => text.push(other),
+                        None => break,
+                    },
+                    other => text.push(other),
+                }
+            }
+            texts.push(text);
+        }
+    }
+}
