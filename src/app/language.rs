@@ -7,7 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use tr::{PoTranslator, Translator};
+use std::collections::HashMap;
+use tr::Translator;
 
 /// A language of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,50 +28,51 @@ impl Language {
         }
     }
 
-    /// Its code, as lessons use it.
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::Chinese => "zh",
-        }
-    }
-
     /// That of the environment; English unless it says Chinese.
     pub fn of_environment() -> Self {
-        let said = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
+        let said =
+            ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
         if said.is_some_and(|value| value.starts_with("zh")) { Self::Chinese } else { Self::English }
     }
 }
 
 const CHINESE: &str = include_str!("../../assets/locales/zh_CN.po");
 
-/// Looks texts up in the language that is set.
+/// Texts in Chinese under those in English.
 struct Catalogue {
-    chinese: PoTranslator,
+    chinese: HashMap<String, String>,
+}
+
+impl Catalogue {
+    /// From gettext's text form; none where that is damaged, which a test rules out.
+    fn from_po(text: &str) -> Option<Self> {
+        let file = rspolib::pofile(text).ok()?;
+        let chinese = file.entries.into_iter().filter_map(|entry| Some((entry.msgid, entry.msgstr.filter(|text| !text.is_empty())?)));
+        Some(Self { chinese: chinese.collect() })
+    }
 }
 
 impl Translator for Catalogue {
-    fn translate<'a>(&'a self, string: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
-        match current() {
-            Language::English => Cow::Borrowed(string),
-            Language::Chinese => self.chinese.translate(string, context),
-        }
+    fn translate<'a>(&'a self, text: &'a str, _context: Option<&'a str>) -> Cow<'a, str> {
+        let translated = match current() {
+            Language::English => None,
+            Language::Chinese => self.chinese.get(text),
+        };
+        Cow::Borrowed(translated.map_or(text, String::as_str))
     }
 
+    /// Chinese has no plural: the text is looked up under the English one of many.
     fn ntranslate<'a>(&'a self, n: u64, singular: &'a str, plural: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
-        match current() {
-            Language::English => Cow::Borrowed(if n == 1 { singular } else { plural }),
-            Language::Chinese => self.chinese.ntranslate(n, singular, plural, context),
-        }
+        self.translate(if n == 1 && current() == Language::English { singular } else { plural }, context)
     }
 }
 
-/// Makes the catalogue known; without it, which a test rules out, all texts stay English.
+/// Makes the catalogue known.
 pub fn install() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
-        if let Ok(chinese) = PoTranslator::from_vec_u8(CHINESE.as_bytes().to_vec()) {
-            tr::set_translator!(Catalogue { chinese });
+        if let Some(catalogue) = Catalogue::from_po(CHINESE) {
+            tr::set_translator!(catalogue);
         }
     });
 }
@@ -113,8 +115,8 @@ mod switch {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHINESE, Language, install, set};
-    use tr::{PoTranslator, Translator as _, tr};
+    use super::{CHINESE, Catalogue, Language, install, set};
+    use tr::tr;
 
     #[test]
     fn texts_follow_the_language() {
@@ -128,8 +130,8 @@ mod tests {
 
     #[test]
     fn every_text_of_the_window_is_translated() {
-        let catalogue = PoTranslator::from_vec_u8(CHINESE.as_bytes().to_vec()).expect("the catalogue is well-formed");
-        let missing: Vec<String> = texts().into_iter().filter(|text| catalogue.translate(text, None) == text.as_str()).collect();
+        let catalogue = Catalogue::from_po(CHINESE).expect("the catalogue is well-formed");
+        let missing: Vec<String> = texts().into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
     }
 
@@ -153,7 +155,12 @@ mod tests {
     }
 
     fn literals(source: &str, texts: &mut Vec<String>) {
-        for after in source.split("tr!(").skip(1) {
+        for (at, name) in source.match_indices("tr!(") {
+            // include_str! ends in the same letters.
+            if source[..at].ends_with('s') {
+                continue;
+            }
+            let after = &source[at + name.len()..];
             let Some(literal) = after.trim_start().strip_prefix('"') else { continue };
             let mut text = String::new();
             let mut letters = literal.chars();

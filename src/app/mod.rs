@@ -8,6 +8,7 @@ mod derived;
 mod document;
 mod frame_times;
 mod history;
+mod language;
 mod memo;
 mod panels;
 mod past_fits;

@@ -1,5 +1,6 @@
 //! What survives a restart.
 
+use super::language::Language;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
@@ -59,6 +60,7 @@ pub struct Settings {
     /// Whether the status line tells how long frames take.
     pub show_frame_times: bool,
     pub theme: Theme,
+    pub language: Language,
     /// Inner size of the window in points.
     pub window_size: [f32; 2],
     pub maximized: bool,
@@ -83,6 +85,7 @@ impl Default for Settings {
             refit_live: false,
             show_frame_times: false,
             theme: Theme::System,
+            language: Language::English,
             window_size: [1280.0, 800.0],
             maximized: false,
         }

@@ -1,5 +1,6 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
+use super::language::Language;
 use super::state::Settings;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,9 @@ pub fn load() -> (Settings, Option<String>) {
 
 pub fn load_from(path: &Path) -> (Settings, Option<String>) {
     let reason = match std::fs::read(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (Settings::default(), None),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return (Settings { language: Language::of_environment(), ..Settings::default() }, None);
+        }
         Err(error) => {
             return (
                 Settings::default(),

@@ -82,8 +82,9 @@ pub fn warning(dark: bool) -> Color32 {
     pick(dark, (160, 60, 0), (255, 170, 80))
 }
 
-/// Sets text sizes and colours of both themes.
+/// Sets fonts, text sizes and colours of both themes.
 pub fn install(ctx: &egui::Context) {
+    ctx.set_fonts(fonts());
     for theme in [egui::Theme::Light, egui::Theme::Dark] {
         ctx.style_mut_of(theme, |style| {
             style.spacing.slider_width = 100.0;
@@ -92,4 +93,18 @@ pub fn install(ctx: &egui::Context) {
             style.visuals.override_text_color = Some(pick(theme == egui::Theme::Dark, (30, 30, 30), (220, 220, 220)));
         });
     }
+}
+
+/// The default fonts, and behind them what they lack: arrows, marks, mathematical signs and Chinese.
+fn fonts() -> egui::FontDefinitions {
+    let mut fonts = egui::FontDefinitions::default();
+    for (name, data) in
+        [("symbols", &include_bytes!("../../assets/fonts/symbols.ttf")[..]), ("cjk", &include_bytes!("../../assets/fonts/cjk.ttf")[..])]
+    {
+        fonts.font_data.insert(name.to_owned(), std::sync::Arc::new(egui::FontData::from_static(data)));
+        for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
+            fonts.families.entry(family).or_default().push(name.to_owned());
+        }
+    }
+    fonts
 }

@@ -12,7 +12,7 @@ use super::problem::{problem, reason};
 use super::state::{Settings, Theme};
 use super::views::{self, Views};
 use super::worker::{Event, Worker};
-use super::{store, theme};
+use super::{language, store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters, Preset};
@@ -67,6 +67,8 @@ const SAVE_AFTER: Duration = Duration::from_millis(1500);
 impl Explorer {
     pub fn new(ctx: &egui::Context, settings: Settings) -> Self {
         theme::install(ctx);
+        language::install();
+        language::set(settings.language);
         set_theme(ctx, settings.theme);
         Self {
             saved: settings.clone(),
@@ -140,6 +142,7 @@ impl Explorer {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
             self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
         }
+        language::set(self.settings.language);
         self.listen_to_keys(ctx);
         while let Some(event) = self.worker.next() {
             self.receive(event);

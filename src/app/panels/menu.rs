@@ -2,9 +2,11 @@
 
 use crate::app::command::Command;
 use crate::app::document::EXAMPLES;
+use crate::app::language::Language;
 use crate::app::state::Theme;
 use crate::app::window::Explorer;
 use std::path::PathBuf;
+use tr::tr;
 
 pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     let Explorer { settings, commands, typed_path, history, .. } = explorer;
@@ -15,7 +17,7 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     // A click into the path field must not close the menu that it is in.
     let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
     egui::MenuBar::new().config(config).ui(ui, |ui| {
-        ui.menu_button("File", |ui| {
+        ui.menu_button(tr!("File"), |ui| {
             if ui.add(egui::Button::new("Open measurement…").shortcut_text("Ctrl+O")).clicked() {
                 push(ui, Command::ChooseMeasurement);
             }
@@ -40,7 +42,7 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
                 push(ui, Command::Quit);
             }
         });
-        ui.menu_button("Edit", |ui| {
+        ui.menu_button(tr!("Edit"), |ui| {
             for (name, possible, command) in [("Undo", history.can_undo(), Command::Undo), ("Redo", history.can_redo(), Command::Redo)] {
                 let keys = if command == Command::Undo { "Ctrl+Z" } else { "Ctrl+Shift+Z" };
                 if ui.add_enabled(possible, egui::Button::new(name).shortcut_text(keys)).clicked() {
@@ -48,7 +50,7 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
                 }
             }
         });
-        ui.menu_button("View", |ui| {
+        ui.menu_button(tr!("View"), |ui| {
             ui.checkbox(&mut settings.log_brdf, "Logarithmic BRDF");
             ui.checkbox(&mut settings.show_limit, "Fresnel limit");
             ui.checkbox(&mut settings.show_backscatter, "Backscatter side");
@@ -59,6 +61,11 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
                 if ui.radio(settings.theme == theme, theme.name()).clicked() {
                     push(ui, Command::SetTheme(theme));
                 }
+            }
+            ui.separator();
+            ui.label(tr!("Language"));
+            for language in Language::ALL {
+                ui.radio_value(&mut settings.language, language, language.name());
             }
         });
     });
