@@ -1,6 +1,7 @@
 //! What the user asked for while the window was drawn; carried out afterwards.
 
 use super::state::Theme;
+use pbrdf::model::Parameter;
 use std::path::PathBuf;
 
 /// An order from the window.
@@ -34,6 +35,13 @@ pub enum Command {
     Redo,
     /// Sliders and results as the earlier fit of that number left them, the newest first.
     ReturnTo(usize),
+    /// Hold a parameter around its fitted value, and fit the rest.
+    Profile(Parameter),
+    /// Deal the residuals of the fit out anew.
+    Bootstrap,
+    CancelScan,
+    /// Sliders and terms as the comparison's fit of that number has them.
+    UseRung(usize),
     /// Fit all models of the ladder.
     CompareModels,
     CancelComparison,

@@ -12,8 +12,10 @@ mod language;
 mod memo;
 mod panels;
 mod past_fits;
+mod plan;
 mod plots;
 mod problem;
+mod scans;
 mod state;
 mod store;
 #[cfg(test)]
@@ -21,6 +23,7 @@ mod tests;
 mod theme;
 mod views;
 mod window;
+mod words;
 mod worker;
 
 use std::path::PathBuf;

@@ -1,6 +1,7 @@
 //! What survives a restart.
 
 use super::language::Language;
+use super::plan::Plan;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
@@ -45,6 +46,8 @@ pub struct Settings {
     pub starts: Starts,
     /// Seed of the starts and of the bootstrap.
     pub seed: u64,
+    /// Angles that might be measured.
+    pub plan: Plan,
     /// Angle of incidence of the lobes, degrees.
     pub theta_i: f64,
     /// Relative azimuth of the lobes, degrees; 180 is the plane of incidence.
@@ -77,6 +80,7 @@ impl Default for Settings {
             choices: Choices::default(),
             starts: Starts::Automatic,
             seed: 1,
+            plan: Plan::default(),
             theta_i: 40.0,
             dphi: 180.0,
             log_brdf: false,
@@ -97,6 +101,7 @@ impl Settings {
     pub fn are_sound(&self) -> bool {
         self.parameters.validate(ParameterSet::ALL).is_ok()
             && self.bounds.iter().all(|&(parameter, low, high)| Bounds::default().set(parameter, low, high).is_ok())
+            && self.plan.is_sound()
             && self.choices.loss_scale.is_none_or(|scale| scale.is_finite() && scale > 0.0)
             && Geometry::new(self.theta_i, 0.0, self.dphi).is_ok()
             && self.window_size.iter().all(|side| (100.0..=20_000.0).contains(side))

@@ -9,13 +9,14 @@ use super::panels;
 use super::past_fits::{PastFit, PastFits};
 use super::plots;
 use super::problem::{problem, reason};
+use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Theme};
 use super::views::{self, Views};
-use super::worker::{Event, Worker};
+use super::worker::{Event, Rung, Worker};
 use super::{language, store, theme};
-use pbrdf::fit::{Choices, Eq17, FitReport};
+use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters, Preset};
+use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -26,6 +27,8 @@ pub enum Middle {
     #[default]
     Plots,
     Table,
+    Planner,
+    Comparison,
 }
 
 /// The window.
@@ -41,7 +44,9 @@ pub struct Explorer {
     /// The fits before it.
     pub past_fits: PastFits,
     /// The ladder of models on the open measurement.
-    pub comparison: Vec<(&'static Preset, FitReport)>,
+    pub comparison: Vec<Rung>,
+    /// What was asked about the fit that is shown.
+    pub scans: Scans,
     pub history: History,
     /// Whether the panel shows what the data would determine.
     pub outlook_is_shown: bool,
@@ -80,6 +85,7 @@ impl Explorer {
             last_fit: None,
             past_fits: PastFits::default(),
             comparison: Vec::new(),
+            scans: Scans::default(),
             history: History::default(),
             outlook_is_shown: false,
             refitted: None,
@@ -132,6 +138,7 @@ impl Explorer {
             self.settings.dphi = first.plane;
         }
         self.last_fit = None;
+        self.scans.forget();
         self.comparison.clear();
         self.view.reset();
         self.worker.abandon();
@@ -162,8 +169,10 @@ impl Explorer {
         let free = self.free();
         self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
         self.derived.refresh_ghost(&self.settings, &self.document, fitted);
-        if self.middle == Middle::Table {
-            views::table_refresh(self);
+        match self.middle {
+            Middle::Plots | Middle::Comparison => {}
+            Middle::Table => views::table_refresh(self),
+            Middle::Planner => views::planner_refresh(self),
         }
         self.remember_window(ctx);
         self.save_when_rested(ctx);
@@ -189,13 +198,19 @@ impl Explorer {
                     self.refitted = Some(report.parameters);
                 }
             }
-            Event::Compared(fits) => self.comparison = fits,
+            Event::Compared(rungs) => self.comparison = rungs,
+            Event::Profiled(profile) => {
+                let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
+                self.scans.profile = self.last_fit.as_ref().map(curve);
+            }
+            Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
             Event::Fitted { report, problem } => {
                 let before = self.settings.parameters;
                 self.settings.parameters = report.parameters;
                 self.refitted = Some(report.parameters);
                 let fit = PastFit { report: *report, problem, before, document: self.document.name.clone(), number: self.document.number };
-                self.last_fit = Some(self.past_fits.push(fit));
+                let fit = self.past_fits.push(fit);
+                self.show_fit(Some(fit));
             }
         }
     }
@@ -236,10 +251,11 @@ impl Explorer {
 
     fn compare_models(&mut self) -> Result<(), String> {
         let Self { settings, document, .. } = self;
-        let problems = PRESETS.iter().filter_map(|preset| {
+        let problems = PRESETS.iter().map(|preset| {
             let choices = Choices { dolp_only: preset.dolp_only, ..settings.choices };
             let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
-            Some((preset, problem(settings, &document.measurement, preset.model, free, choices).ok()?))
+            let problem = problem(settings, &document.measurement, preset.model, free, choices);
+            (preset, problem.map_err(|error| reason(&error, &document.measurement)))
         });
         let problems = problems.collect();
         self.comparison.clear();
@@ -281,6 +297,20 @@ impl Explorer {
                 }
             }
             Command::ReturnTo(index) => self.return_to(index),
+            Command::Profile(parameter) => {
+                self.scans.profile = None;
+                if let Some((problem, report)) = self.shown_fit() {
+                    self.worker.start_profile(problem, report, parameter)?;
+                }
+            }
+            Command::Bootstrap => {
+                self.scans.scatter = None;
+                if let Some((problem, report)) = self.shown_fit() {
+                    self.worker.start_bootstrap(problem, report, self.scans.replicates, self.settings.seed)?;
+                }
+            }
+            Command::CancelScan => self.worker.scan.iter().for_each(super::worker::Job::cancel),
+            Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
             Command::SetTheme(theme) => {
@@ -294,14 +324,28 @@ impl Explorer {
 
     /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
     pub fn free(&self) -> ParameterSet {
+        self.free_with(self.document.measurement.has_brdf()).without_all(self.settings.locked)
+    }
+
+    /// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
+    pub fn free_in_plan(&self) -> ParameterSet {
+        let (has_brdf, planned) = (self.document.measurement.has_brdf(), self.settings.plan.has_brdf());
+        let locked = match self.settings.locked {
+            locked if has_brdf == planned => locked,
+            locked if planned || self.settings.choices.eq17 == Eq17::Printed => locked.without(Parameter::Ks),
+            locked => locked.with(Parameter::Ks),
+        };
+        self.free_with(planned).without_all(locked)
+    }
+
+    fn free_with(&self, has_brdf: bool) -> ParameterSet {
         let model = self.settings.model;
-        let known = match self.settings.choices.eq17 {
-            _ if self.document.measurement.has_brdf() => model.parameters(),
+        match self.settings.choices.eq17 {
+            _ if has_brdf => model.parameters(),
             Eq17::Consistent => model.dolp_parameters(),
             // As printed, k_s is a gain of its own.
             Eq17::Printed => model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks))),
-        };
-        known.without_all(self.settings.locked)
+        }
     }
 
     /// Sliders, model and results as an earlier fit left them.
@@ -310,8 +354,34 @@ impl Explorer {
             self.settings.parameters = fit.report.parameters;
             self.settings.model = fit.report.model;
             self.refitted = Some(fit.report.parameters);
-            self.last_fit = Some(fit).filter(|fit| fit.number == self.document.number);
+            self.show_fit(Some(fit).filter(|fit| fit.number == self.document.number));
         }
+    }
+
+    /// Shows a fit; scans around another one end.
+    fn show_fit(&mut self, fit: Option<Rc<PastFit>>) {
+        self.last_fit = fit;
+        self.scans.forget();
+        self.worker.abandon_scan();
+    }
+
+    /// Sliders and terms of a model that was compared.
+    fn use_rung(&mut self, index: usize) {
+        if let Some(Rung { result: Ok(report), .. }) = self.comparison.get(index) {
+            self.settings.parameters = report.parameters;
+            self.settings.model = report.model;
+            self.refitted = Some(report.parameters);
+        }
+    }
+
+    /// The fit that is shown, with the problem that it solved.
+    fn shown_fit(&self) -> Option<(Problem, FitReport)> {
+        let fit = self.last_fit.as_ref()?;
+        let choices = fit.problem.choices();
+        let automatic = choices.loss != Loss::Linear && choices.loss_scale.is_none();
+        // An automatic scale belongs to the fit, not to its problem.
+        let problem = if automatic { fit.problem.with_loss_scale_of(&fit.report.parameters) } else { (*fit.problem).clone() };
+        Some((problem, fit.report.clone()))
     }
 
     fn start_fit(&mut self) -> Result<(), String> {
@@ -370,13 +440,20 @@ impl Explorer {
         egui::CentralPanel::default().show(ui, |ui| {
             panels::notice_ui(self, ui);
             ui.horizontal(|ui| {
-                for (middle, name) in [(Middle::Plots, "Plots"), (Middle::Table, "Data table")] {
+                for (middle, name) in [
+                    (Middle::Plots, "Plots"),
+                    (Middle::Table, "Data table"),
+                    (Middle::Planner, "Angle planner"),
+                    (Middle::Comparison, "Models"),
+                ] {
                     ui.selectable_value(&mut self.middle, middle, name);
                 }
             });
             match self.middle {
                 Middle::Plots => plots::plots_ui(self, ui),
                 Middle::Table => views::table_ui(self, ui),
+                Middle::Planner => views::planner_ui(self, ui),
+                Middle::Comparison => views::comparison_ui(self, ui),
             }
         });
     }

@@ -5,9 +5,9 @@
 
 use crate::open_file::open_file;
 use crate::write_file::write_file;
-use pbrdf::fit::{FitReport, Problem, Starts, TracePoint, Watch, fit};
+use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
-use pbrdf::model::Preset;
+use pbrdf::model::{Parameter, Preset};
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,19 @@ pub enum Event {
     /// A fit from the sliders while they move.
     Refitted(Box<FitReport>),
     /// The ladder of models.
-    Compared(Vec<(&'static Preset, FitReport)>),
+    Compared(Vec<Rung>),
+    Profiled(Profile),
+    /// How the parameters scatter over so many data sets.
+    Scattered {
+        replicates: usize,
+        scatter: Vec<Scatter>,
+    },
+}
+
+/// A model of the ladder with its fit, or why there is none.
+pub struct Rung {
+    pub preset: &'static Preset,
+    pub result: Result<Box<FitReport>, String>,
 }
 
 /// A job on its way.
@@ -73,6 +85,7 @@ pub struct Worker {
     pub refit: Option<Job<()>>,
     pub comparison: Option<Job<&'static str>>,
     pub save: Option<Job<()>>,
+    pub scan: Option<Job<()>>,
     dialog: Option<u64>,
 }
 
@@ -98,7 +111,19 @@ impl<P> Teller<P> {
 impl Worker {
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, receiver) = sync_channel(16);
-        Self { ctx: ctx.clone(), sender, receiver, jobs: 0, fit: None, load: None, refit: None, comparison: None, save: None, dialog: None }
+        Self {
+            ctx: ctx.clone(),
+            sender,
+            receiver,
+            jobs: 0,
+            fit: None,
+            load: None,
+            refit: None,
+            comparison: None,
+            save: None,
+            scan: None,
+            dialog: None,
+        }
     }
 
     /// Begins a job on a thread of its own name; none if the machine refuses a thread.
@@ -232,10 +257,15 @@ impl Worker {
         Ok(())
     }
 
-    /// Fits several models, one after the other.
-    pub fn start_comparison(&mut self, problems: Vec<(&'static Preset, Problem)>, starts: Starts, seed: u64) -> Result<(), String> {
+    /// Fits several models, one after the other; those without a problem go along with the reason.
+    pub fn start_comparison(
+        &mut self,
+        problems: Vec<(&'static Preset, Result<Problem, String>)>,
+        starts: Starts,
+        seed: u64,
+    ) -> Result<(), String> {
         let job = self.spawn("compare models", move |teller: &Teller<&'static str>, stop| {
-            let mut fits = Vec::new();
+            let mut rungs = Vec::new();
             for (preset, problem) in problems {
                 if stop.load(Ordering::Relaxed) {
                     break;
@@ -244,12 +274,40 @@ impl Worker {
                 let begun = Instant::now();
                 let watch =
                     Watch { clock: &|| begun.elapsed().as_secs_f64() * 1e3, cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
-                fits.push((preset, fit(&problem, starts, seed, watch)));
+                rungs.push(Rung { preset, result: problem.map(|problem| Box::new(fit(&problem, starts, seed, watch))) });
             }
-            Event::Compared(fits)
+            Event::Compared(rungs)
         })?;
         self.comparison = Some(job);
         Ok(())
+    }
+
+    /// Scans a parameter of a finished fit.
+    pub fn start_profile(&mut self, problem: Problem, report: FitReport, parameter: Parameter) -> Result<(), String> {
+        self.scan("profile", move |watch| Event::Profiled(profile(&problem, &report, parameter, watch)))
+    }
+
+    /// Fits the data of a finished fit again with its residuals dealt out anew.
+    pub fn start_bootstrap(&mut self, problem: Problem, report: FitReport, replicates: usize, seed: u64) -> Result<(), String> {
+        let run = move |watch: Watch<'_>| Event::Scattered { replicates, scatter: bootstrap(&problem, &report, replicates, seed, watch) };
+        self.scan("bootstrap", run)
+    }
+
+    fn scan(&mut self, name: &str, run: impl FnOnce(Watch<'_>) -> Event + Send + 'static) -> Result<(), String> {
+        if let Some(job) = self.scan.take() {
+            job.cancel();
+        }
+        let job =
+            self.spawn(name, move |_: &Teller<()>, stop| run(Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY }))?;
+        self.scan = Some(job);
+        Ok(())
+    }
+
+    /// Stops a scan whose fit is not shown any more.
+    pub fn abandon_scan(&mut self) {
+        if let Some(job) = self.scan.take() {
+            job.cancel();
+        }
     }
 
     /// Stops all work on the measurement that is being replaced; what it still sends is dropped by its number.
@@ -263,6 +321,7 @@ impl Worker {
         if let Some(job) = self.comparison.take() {
             job.cancel();
         }
+        self.abandon_scan();
     }
 
     /// The next result that still matters.
@@ -270,6 +329,7 @@ impl Worker {
         while let Ok((number, event)) = self.receiver.try_recv() {
             let matters = match event {
                 Event::Chosen(_) | Event::ChosenSave(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+                Event::Profiled(_) | Event::Scattered { .. } => self.scan.take_if(|job| job.number == number).is_some(),
                 Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
                 Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
@@ -286,7 +346,12 @@ impl Worker {
     /// Whether a job is on its way.
     #[cfg(test)]
     pub fn is_busy(&self) -> bool {
-        self.fit.is_some() || self.load.is_some() || self.save.is_some() || self.refit.is_some() || self.comparison.is_some()
+        self.fit.is_some()
+            || self.load.is_some()
+            || self.save.is_some()
+            || self.scan.is_some()
+            || self.refit.is_some()
+            || self.comparison.is_some()
     }
 }
 

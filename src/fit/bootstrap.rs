@@ -6,7 +6,7 @@
 use super::outcome::FitReport;
 use super::problem::Problem;
 use super::solver::{Effort, Watch, descend};
-use crate::model::Parameter;
+use crate::model::{Parameter, Parameters};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -23,6 +23,9 @@ pub struct Scatter {
     pub high: f64,
 }
 
+/// Data sets that are held at once.
+const AT_ONCE: usize = 64;
+
 /// Refits `replicates` data sets; those that were not reached before a cancel are left out.
 #[must_use]
 pub fn bootstrap(problem: &Problem, report: &FitReport, replicates: usize, seed: u64, watch: Watch<'_>) -> Vec<Scatter> {
@@ -34,20 +37,32 @@ pub fn bootstrap(problem: &Problem, report: &FitReport, replicates: usize, seed:
     let mut pick = |count: usize| (random.next_u64() % count as u64) as usize;
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
     let widen = (problem.len() as f64 / report.dof.max(1) as f64).sqrt();
-    let problems: Vec<Problem> = (0..replicates).map(|_| problem.with_start(report.parameters).resampled(widen, &mut pick)).collect();
+    let solution = problem.with_start(report.parameters);
     let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| descend(replicate, Effort::Full, watch).parameters);
-    #[cfg(feature = "threads")]
-    let fits: Vec<_> = {
-        use rayon::prelude::*;
-        problems.par_iter().filter_map(refit).collect()
-    };
-    #[cfg(not(feature = "threads"))]
-    let fits: Vec<_> = problems.iter().filter_map(refit).collect();
+    let mut fits = Vec::new();
+    let mut left = replicates;
+    // Data sets are drawn in their order, and no more of them are held than are being fitted.
+    while left > 0 && !(watch.cancelled)() {
+        let drawn: Vec<Problem> = (0..left.min(AT_ONCE)).map(|_| solution.resampled(widen, &mut pick)).collect();
+        left -= drawn.len();
+        fits.extend(refit_all(&drawn, &refit));
+    }
     if fits.is_empty() {
         return Vec::new();
     }
     let scatter = |&parameter: &Parameter| scatter(parameter, fits.iter().map(|fit| fit[parameter]).collect());
     problem.free().iter().map(scatter).collect()
+}
+
+/// Fits of those data sets, in their order; none of those that came after a cancel.
+fn refit_all(drawn: &[Problem], refit: &(dyn Fn(&Problem) -> Option<Parameters> + Sync)) -> Vec<Parameters> {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        drawn.par_iter().filter_map(refit).collect()
+    }
+    #[cfg(not(feature = "threads"))]
+    drawn.iter().filter_map(refit).collect()
 }
 
 fn scatter(parameter: Parameter, mut values: Vec<f64>) -> Scatter {

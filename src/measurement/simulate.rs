@@ -8,10 +8,12 @@ use crate::model::{Parameters, Pbrdf, Scene};
 use crate::optics::{Geometry, GeometryError};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Which quantities a simulation writes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Columns {
     /// DoLP alone.
     Dolp,

@@ -1,6 +1,6 @@
 //! The plots in the middle.
 
-mod axis;
+pub mod axis;
 mod dolp;
 mod error_bars;
 mod lobes;

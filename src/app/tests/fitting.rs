@@ -121,7 +121,7 @@ fn comparing_models_lists_the_ladder() {
     harness.get_by_label("Compare models").click();
     harness.step();
     wait(&mut harness);
-    let models: Vec<&str> = explorer(&mut harness).comparison.iter().map(|(preset, _)| preset.key).collect();
+    let models: Vec<&str> = explorer(&mut harness).comparison.iter().map(|rung| rung.preset.key).collect();
     assert_eq!(models.len(), pbrdf::model::PRESETS.len());
     harness.get_by_label("three-component");
 }

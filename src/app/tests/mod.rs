@@ -4,6 +4,8 @@ mod files;
 mod fitting;
 mod masks;
 mod options;
+mod planning;
+mod scans;
 mod sliders;
 
 use super::state::Settings;

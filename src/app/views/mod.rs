@@ -1,11 +1,16 @@
 //! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
 
+mod comparison;
+mod planner;
 mod table;
 
+pub use comparison::comparison_ui;
+pub use planner::{planner_refresh, planner_ui};
 pub use table::{table_refresh, table_ui};
 
 /// What the panes keep from frame to frame.
 #[derive(Default)]
 pub struct Views {
+    pub planner: planner::PlannerView,
     pub table: table::TableView,
 }

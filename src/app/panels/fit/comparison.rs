@@ -1,17 +1,11 @@
 //! The ladder of models on the open measurement.
 
 use crate::app::command::Command;
+use crate::app::worker::Rung;
 use egui::{Grid, Ui};
-use pbrdf::fit::FitReport;
-use pbrdf::model::Preset;
 
 /// The ladder of models on the open measurement: what each added term buys.
-pub fn comparison_ui(
-    comparison: &[(&'static Preset, FitReport)],
-    running: Option<Option<&'static str>>,
-    commands: &mut Vec<Command>,
-    ui: &mut Ui,
-) {
+pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>, commands: &mut Vec<Command>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         if ui
             .add_enabled(running.is_none(), egui::Button::new("Compare models"))
@@ -35,7 +29,8 @@ pub fn comparison_ui(
             ui.strong(heading);
         }
         ui.end_row();
-        for (preset, report) in comparison {
+        for Rung { preset, result } in comparison {
+            let Ok(report) = result else { continue };
             ui.label(preset.key).on_hover_text(format!("{}\n{}\n{}", preset.name, preset.citation, report.stop_reason.text()));
             ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
             ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));

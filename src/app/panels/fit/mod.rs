@@ -5,6 +5,7 @@ mod options;
 mod outlook;
 mod past;
 mod result;
+mod scans;
 
 use super::status::delta_e_text;
 use crate::app::command::Command;
@@ -16,7 +17,7 @@ use pbrdf::model::{Parameter, ParameterSet};
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let free = explorer.free();
-    let Explorer { worker, commands, derived, last_fit, past_fits, document, settings, comparison, outlook_is_shown, .. } = explorer;
+    let Explorer { worker, commands, derived, last_fit, past_fits, document, settings, comparison, scans, outlook_is_shown, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -57,7 +58,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 if fit.report.model != settings.model {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), "This fit is of another model than the sliders show.");
                 }
-                result::result_ui(fit, commands, ui);
+                result::result_ui(fit, scans.scatter.as_ref(), commands, ui);
+                scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
             }
             None => {
                 ui.label("Move the sliders until the curves are near the points, then press Fit.");

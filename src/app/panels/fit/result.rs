@@ -4,14 +4,16 @@ use crate::app::command::Command;
 use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
 use crate::app::past_fits::PastFit;
+use crate::app::scans::Bootstrap;
 use crate::app::theme;
+use crate::app::words;
 use egui::{Grid, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, StopReason, Weights};
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &PastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
     let report = &fit.report;
     ui.horizontal(|ui| {
         if ui.button("Use as sliders").on_hover_text("The fitted values to the sliders").clicked() {
@@ -46,9 +48,41 @@ pub fn result_ui(fit: &PastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
         }
     });
     ui.add_space(6.0);
-    Grid::new("fit result").num_columns(4).striped(true).min_col_width(44.0).show(ui, |ui| {
+    estimates_ui(report, bootstrap, ui);
+    ui.add_space(6.0);
+    minima_ui(report, ui);
+    correlations_ui(report, ui);
+    open_ui(report, ui);
+}
+
+/// What stays open, in words, the badly known included.
+fn open_ui(report: &FitReport, ui: &mut Ui) {
+    let is_loose = |estimate: &&Estimate| {
+        let error = estimate.std_error.filter(|_| estimate.free && estimate.at_bound.is_none());
+        error.is_some_and(|error| words::is_loose(estimate.parameter, estimate.value, error))
+    };
+    let loose: Vec<&str> = report.estimates.iter().filter(is_loose).map(|estimate| estimate.parameter.symbol()).collect();
+    if report.undetermined.is_empty() && loose.is_empty() {
+        return;
+    }
+    ui.add_space(6.0);
+    ui.strong("The data leave open:");
+    for direction in &report.undetermined {
+        ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+    }
+    if !loose.is_empty() {
+        ui.add(egui::Label::new(format!("• {}: known to no better than half its size", loose.join(", "))).wrap());
+    }
+}
+
+/// Values and their errors, one parameter a row.
+fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
+    Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
         for heading in ["", "start", "value", "± std. error"] {
             ui.strong(heading);
+        }
+        if let Some(bootstrap) = bootstrap {
+            ui.strong("± boot").on_hover_text(format!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates));
         }
         ui.end_row();
         for estimate in &report.estimates {
@@ -56,19 +90,14 @@ pub fn result_ui(fit: &PastFit, commands: &mut Vec<Command>, ui: &mut Ui) {
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
             ui.label(error_text(estimate, report));
+            let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
+            if let Some(scatter) = scatter {
+                let (low, high) = (significant(scatter.low), significant(scatter.high));
+                ui.label(format!("{:.1e}", scatter.std_error)).on_hover_text(format!("16th to 84th percentile: {low} … {high}"));
+            }
             ui.end_row();
         }
     });
-    ui.add_space(6.0);
-    minima_ui(report, ui);
-    correlations_ui(report, ui);
-    if !report.undetermined.is_empty() {
-        ui.add_space(6.0);
-        ui.strong("The data leave open:");
-        for direction in &report.undetermined {
-            ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
-        }
-    }
 }
 
 /// What fell, where that was not ΔE, named for what it is.

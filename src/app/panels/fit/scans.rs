@@ -1,0 +1,124 @@
+//! The honest interval of one parameter, and the bootstrap, on demand.
+
+use crate::app::command::Command;
+use crate::app::panels::parameters::significant;
+use crate::app::past_fits::PastFit;
+use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::scans::{ProfileCurve, Scans};
+use crate::app::theme;
+use egui::{Button, CollapsingHeader, ComboBox, DragValue, Ui};
+use egui_plot::{AxisHints, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
+use pbrdf::model::Parameter;
+
+/// Data sets that a bootstrap deals out at most.
+const MOST_REPLICATES: usize = 100_000;
+
+pub fn scans_ui(fit: &PastFit, scans: &mut Scans, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let free = fit.problem.free();
+    if free.is_empty() || fit.problem.is_empty() {
+        return;
+    }
+    CollapsingHeader::new("Profile and bootstrap").id_salt("scans").show(ui, |ui| {
+        profile_choice_ui(free, scans, running, commands, ui);
+        if let Some(profile) = &scans.profile {
+            profile_ui(profile, ui);
+        }
+        ui.horizontal(|ui| {
+            let help = "Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results";
+            if ui.add_enabled(!running, Button::new("Bootstrap")).on_hover_text(help).clicked() {
+                commands.push(Command::Bootstrap);
+            }
+            let label = ui.label("data sets");
+            ui.add(DragValue::new(&mut scans.replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id);
+        });
+        if running {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                if ui.button("Stop the scan").on_hover_text("Stop and keep what is there").clicked() {
+                    commands.push(Command::CancelScan);
+                }
+            });
+        }
+    });
+}
+
+fn profile_choice_ui(free: &[Parameter], scans: &mut Scans, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let chosen = scans.parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
+    ui.horizontal(|ui| {
+        let label = ui.label("Profile of");
+        let combo = ComboBox::from_id_salt("profile").width(60.0).selected_text(chosen.symbol()).show_ui(ui, |ui| {
+            for parameter in free {
+                if ui.selectable_label(*parameter == chosen, parameter.symbol()).clicked() {
+                    scans.parameter = Some(*parameter);
+                }
+            }
+        });
+        combo.response.labelled_by(label.id);
+        let help = "Hold it at values around the fitted one and fit the rest again: the interval that holds where errors are not \
+                    symmetric, or where the data leave directions open";
+        if ui.add_enabled(!running, Button::new("Scan")).on_hover_text(help).clicked() {
+            commands.push(Command::Profile(chosen));
+        }
+    });
+}
+
+const HEIGHT: f32 = 150.0;
+/// How many times the gain of one standard error the plot shows.
+const SHOWN: f64 = 10.0;
+
+fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
+    let dark = ui.visuals().dark_mode;
+    let name = if profile.is_chi2 { "Δχ²" } else { "ΔΣ²" };
+    ui.label(interval_text(profile)).on_hover_text("Where the sum of squares rises by as much as one standard error makes");
+    let highest = profile.points.iter().map(|point| point.y).fold(0.0, f64::max);
+    let top = if profile.limit > 0.0 { highest.clamp(2.0 * profile.limit, SHOWN * profile.limit) } else { highest };
+    let (Some(first), Some(last)) = (profile.points.first(), profile.points.last()) else { return };
+    if !(first.x < last.x && top > 0.0) {
+        return;
+    }
+    let x = axis(AxisHints::new_x(), ui, profile.parameter.symbol(), decimal).min_thickness(40.0);
+    let y = axis(AxisHints::new_y(), ui, name, decimal).min_thickness(58.0);
+    Plot::new("profile")
+        .height(HEIGHT)
+        .custom_x_axes(vec![x])
+        .custom_y_axes(vec![y])
+        .x_grid_spacer(|input| axis::marks(&input, 6.0, 0.0))
+        .y_grid_spacer(|input| axis::marks(&input, 3.0, 0.0))
+        .grid_color(theme::grid(dark))
+        .grid_fade(0.0)
+        .allow_drag([false, false])
+        .allow_zoom([false, false])
+        .allow_scroll([false, false])
+        .allow_boxed_zoom(false)
+        .show_x(false)
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { position, .. } => {
+                Some(format!("{} = {}\n{name} = {:.3e}", profile.parameter.symbol(), significant(position.x), position.y))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            plot.set_plot_bounds_x(first.x..=last.x);
+            plot.set_plot_bounds_y(-0.05 * top..=1.05 * top);
+            let color = theme::series(0, dark);
+            let muted = theme::muted(dark);
+            plot.hline(HLine::new("one standard error", profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
+            for end in profile.low.into_iter().chain(profile.high) {
+                plot.vline(VLine::new("interval", end).color(muted).style(LineStyle::dotted_dense()));
+            }
+            plot.vline(VLine::new("fit", profile.best).color(muted));
+            plot.line(Line::new("profile", PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
+            plot.points(Points::new("profile", PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
+        });
+}
+
+/// The interval in words, with its open ends named.
+pub fn interval_text(profile: &ProfileCurve) -> String {
+    let symbol = profile.parameter.symbol();
+    match (profile.low, profile.high) {
+        (Some(low), Some(high)) => format!("{symbol}: {} … {} (one standard error)", significant(low), significant(high)),
+        (Some(low), None) => format!("{symbol}: from {}, open above", significant(low)),
+        (None, Some(high)) => format!("{symbol}: up to {}, open below", significant(high)),
+        (None, None) => format!("{symbol}: open on both sides within the scan"),
+    }
+}

@@ -1,0 +1,205 @@
+//! Angles that might be measured, and what they would determine.
+
+use super::problem::problem;
+use super::state::Settings;
+use pbrdf::fit::{Choices, Loss, Uncertainty, Weights};
+use pbrdf::measurement::{Columns, Measurement, Quantity, Row};
+use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
+use pbrdf::optics::{Facet, Geometry};
+use serde::{Deserialize, Serialize};
+
+/// Angles from one to another in steps, in degrees; a single one where both ends are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    pub from: f64,
+    pub to: f64,
+    pub step: f64,
+}
+
+/// Slack of the last step, as a fraction of it: 0.1 + 0.1 + 0.1 is not 0.3.
+const SLACK: f64 = 1e-9;
+
+impl Span {
+    pub const fn new(from: f64, to: f64, step: f64) -> Self {
+        Self { from, to, step }
+    }
+
+    /// How many angles.
+    pub fn count(&self) -> usize {
+        let steps = ((self.to - self.from) / self.step + SLACK).floor();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, cut to a sane one")]
+        let steps = steps.clamp(0.0, 1e5) as usize;
+        steps + 1
+    }
+
+    fn angles(self) -> impl Iterator<Item = f64> {
+        #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
+        (0..self.count()).map(move |i| self.from + i as f64 * self.step)
+    }
+
+    fn is_sound(&self, range: std::ops::RangeInclusive<f64>) -> bool {
+        range.contains(&self.from) && range.contains(&self.to) && self.from <= self.to && self.step > 0.0 && self.step.is_finite()
+    }
+}
+
+/// A measurement that might be made: every θi with every θr.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Plan {
+    pub theta_i: Vec<Span>,
+    /// Negative on the backscatter side.
+    pub theta_r: Vec<Span>,
+    /// Degrees.
+    pub dphi: f64,
+    pub columns: Columns,
+    /// Standard deviation of DoLP.
+    pub noise: f64,
+    /// Standard deviation of the BRDF, relative to its value.
+    pub brdf_noise: f64,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            theta_i: vec![Span::new(10.0, 80.0, 10.0)],
+            theta_r: vec![Span::new(0.0, 85.0, 5.0)],
+            dphi: 180.0,
+            columns: Columns::Dolp,
+            noise: 0.005,
+            brdf_noise: 0.02,
+        }
+    }
+}
+
+/// Steepest angle that can be planned.
+pub const STEEPEST: f64 = 89.9;
+/// Points that can be planned with: more would make the sliders wait.
+pub const MOST_PLANNED: usize = 4000;
+
+impl Plan {
+    /// Whether its values mean something.
+    pub fn is_sound(&self) -> bool {
+        self.theta_i.iter().all(|span| span.is_sound(0.0..=STEEPEST))
+            && self.theta_r.iter().all(|span| span.is_sound(-STEEPEST..=STEEPEST))
+            && self.dphi.is_finite()
+            && [self.noise, self.brdf_noise].iter().all(|noise| noise.is_finite() && *noise > 0.0)
+    }
+
+    /// How many angles of incidence, and of view.
+    pub fn counts(&self) -> (usize, usize) {
+        let count = |spans: &[Span]| spans.iter().map(Span::count).sum();
+        (count(&self.theta_i), count(&self.theta_r))
+    }
+
+    /// Whether a BRDF would be measured.
+    pub fn has_brdf(&self) -> bool {
+        self.columns != Columns::Dolp
+    }
+
+    fn geometries(&self) -> Vec<Geometry> {
+        let theta_i = || self.theta_i.iter().flat_map(|span| span.angles());
+        let theta_r = || self.theta_r.iter().flat_map(|span| span.angles());
+        // A negative θr is the other side of the same plane.
+        let geometry = |i: f64, r: f64| Geometry::new(i, r.abs(), if r < 0.0 { self.dphi - 180.0 } else { self.dphi }).ok();
+        theta_i().flat_map(|i| theta_r().map(move |r| (i, r))).filter_map(|(i, r)| geometry(i, r)).collect()
+    }
+}
+
+/// What angles would determine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Points.
+    pub points: usize,
+    /// Standard error of each free parameter; none where it would stay open.
+    pub errors: Vec<(Parameter, Option<f64>)>,
+    /// What would stay open, in words.
+    pub open: Vec<String>,
+}
+
+impl Prediction {
+    /// Of the planned angles, at the sliders.
+    pub fn of_plan(settings: &Settings, free: ParameterSet) -> Result<Self, String> {
+        let (incidences, views) = settings.plan.counts();
+        if incidences * views > MOST_PLANNED {
+            return Err(format!("{incidences} × {views} angles are more than the {MOST_PLANNED} points that can be planned at once."));
+        }
+        Self::new(settings, free, settings.plan.geometries())
+    }
+
+    /// Of the angles of the open measurement, as if they were measured with the planned noise and columns.
+    pub fn of_measurement(settings: &Settings, free: ParameterSet, measurement: &Measurement) -> Result<Self, String> {
+        let used = measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
+        if used.clone().count() > MOST_PLANNED {
+            return Err(format!("The open measurement has more than {MOST_PLANNED} rows."));
+        }
+        Self::new(settings, free, used.collect())
+    }
+
+    fn new(settings: &Settings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
+        let surface = Pbrdf::new(settings.model, settings.parameters).map_err(|error| format!("{error}."))?;
+        if geometries.is_empty() {
+            return Err("There is no angle: add one of incidence and one of view.".to_owned());
+        }
+        let plan = &settings.plan;
+        let rows = geometries.into_iter().map(|geometry| {
+            let reflection = surface.reflection(&Facet::new(geometry));
+            let dolp = Quantity { value: reflection.dolp, sigma: Some(plan.noise) };
+            let brdf_sigma = plan.brdf_noise * reflection.brdf;
+            // No light, no relative error.
+            let brdf = (brdf_sigma > 0.0).then_some(Quantity { value: reflection.brdf, sigma: Some(brdf_sigma) });
+            Row { geometry, dolp: (plan.columns != Columns::Brdf).then_some(dolp), brdf: brdf.filter(|_| plan.has_brdf()), masked: false }
+        });
+        let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
+        let choices = Choices { weights: Weights::Sigma, loss: Loss::Linear, dolp_only: false, ..settings.choices };
+        let problem = problem(settings, &measurement, settings.model, free, choices).map_err(|error| format!("{error}."))?;
+        let uncertainty = Uncertainty::at(&problem, &settings.parameters, 0.0, ParameterSet::EMPTY);
+        Ok(Self {
+            points: measurement.rows.len(),
+            errors: free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
+            open: uncertainty.open.into_iter().map(|open| open.text).collect(),
+        })
+    }
+
+    /// Standard error of a parameter.
+    pub fn error_of(&self, parameter: Parameter) -> Option<f64> {
+        self.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Plan, Prediction, Span};
+    use crate::app::state::Settings;
+    use pbrdf::model::{Parameter, ParameterSet};
+
+    #[test]
+    fn spans_count_both_ends() {
+        assert_eq!(Span::new(20.0, 60.0, 5.0).count(), 9);
+        assert_eq!(Span::new(0.0, 0.3, 0.1).angles().count(), 4);
+        assert_eq!(Span::new(30.0, 30.0, 5.0).count(), 1);
+    }
+
+    #[test]
+    fn more_angles_and_less_noise_determine_more() {
+        let free = ParameterSet::ALL.without(Parameter::Ks);
+        let n_error = |plan: Plan| {
+            let settings = Settings { plan, ..Settings::default() };
+            Prediction::of_plan(&settings, free).expect("a prediction").error_of(Parameter::N).expect("n is determined")
+        };
+        let dense = n_error(Plan::default());
+        let quiet = n_error(Plan { noise: 0.0025, ..Plan::default() });
+        // Errors are proportional to the noise.
+        assert!((dense / quiet - 2.0).abs() < 1e-9, "{dense} {quiet}");
+        let few = Plan { theta_i: vec![Span::new(30.0, 50.0, 10.0)], theta_r: vec![Span::new(20.0, 60.0, 5.0)], ..Plan::default() };
+        assert!(n_error(few) > 5.0 * dense);
+    }
+
+    #[test]
+    fn a_plan_without_angles_is_a_sentence() {
+        let settings = Settings { plan: Plan { theta_r: Vec::new(), ..Plan::default() }, ..Settings::default() };
+        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("no angle")));
+        let spans = vec![Span::new(0.0, 80.0, 0.1)];
+        let settings = Settings { plan: Plan { theta_i: spans.clone(), theta_r: spans, ..Plan::default() }, ..Settings::default() };
+        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("more than")));
+    }
+}

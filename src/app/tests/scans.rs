@@ -1,0 +1,79 @@
+//! Profile and bootstrap of a finished fit.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::Parameter;
+
+/// A fit with k_d alone free: determined, and quick to scan.
+fn fitted() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    let locked = explorer(&mut harness).settings.model.parameters().without(Parameter::Kd).without(Parameter::K);
+    explorer(&mut harness).settings.locked = locked;
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    harness.get_by_label("Profile and bootstrap").click();
+    harness.run();
+    harness
+}
+
+#[test]
+fn a_profile_is_scanned_and_its_interval_told() {
+    let mut harness = fitted();
+    harness.get_by_label("Scan").click();
+    harness.step();
+    wait(&mut harness);
+    let fit = explorer(&mut harness).last_fit.clone().expect("a fit");
+    let error = fit.report.estimates.iter().find(|estimate| estimate.parameter == Parameter::K).and_then(|estimate| estimate.std_error);
+    let profile = explorer(&mut harness).scans.profile.as_ref().expect("a profile");
+    let (low, high) = (profile.low.expect("an end"), profile.high.expect("an end"));
+    assert_eq!(profile.parameter, Parameter::K);
+    // With two parameters on clean data the interval is nearly the symmetric one.
+    let half = 0.5 * (high - low) / error.expect("k is determined");
+    assert!((0.8..1.25).contains(&half), "{half}");
+    assert!(profile.points.iter().all(|point| point.y >= -1e-9 * fit.report.sum_of_squares));
+    harness.get_by_label_contains("(one standard error)");
+    // Another fit has another profile.
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).scans.profile.is_none());
+}
+
+#[test]
+fn a_bootstrap_stands_beside_the_standard_errors() {
+    let mut harness = fitted();
+    harness.get_by_label("Bootstrap").click();
+    harness.step();
+    wait(&mut harness);
+    let fit = explorer(&mut harness).last_fit.clone().expect("a fit");
+    let scatter = &explorer(&mut harness).scans.scatter.as_ref().expect("a bootstrap").scatter;
+    assert_eq!(scatter.len(), 2);
+    for scatter in scatter {
+        let estimate = fit.report.estimates.iter().find(|estimate| estimate.parameter == scatter.parameter).expect("an estimate");
+        let ratio = scatter.std_error / estimate.std_error.expect("determined");
+        // 200 data sets know their own scatter to 5 %, and 27 residuals theirs to 15 %.
+        assert!((0.6..1.6).contains(&ratio), "{ratio}");
+    }
+    harness.get_by_label("± boot");
+}
+
+#[test]
+fn a_scan_is_stopped_and_one_of_another_fit_is_dropped() {
+    let mut harness = fitted();
+    explorer(&mut harness).scans.replicates = 100_000;
+    harness.get_by_label("Bootstrap").click();
+    harness.step();
+    harness.step();
+    harness.get_by_label("Stop the scan").click();
+    harness.step();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).scans.scatter.is_some(), "what was there is kept");
+    explorer(&mut harness).commands.push(Command::Bootstrap);
+    harness.step();
+    let rows = (*explorer(&mut harness).document.measurement).clone();
+    explorer(&mut harness).take("another".to_owned(), rows);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).scans.scatter.is_none());
+}

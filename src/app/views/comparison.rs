@@ -1,0 +1,152 @@
+//! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
+
+use crate::app::command::Command;
+use crate::app::panels::significant;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use crate::app::worker::{Job, Rung};
+use egui::{CollapsingHeader, Grid, ScrollArea, Ui};
+use pbrdf::fit::FitReport;
+use pbrdf::model::Parameter;
+
+/// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
+const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
+
+pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { comparison, worker, commands, settings, .. } = explorer;
+    let running = worker.comparison.as_ref().map(Job::progress);
+    ui.horizontal(|ui| {
+        let compare = ui.add_enabled(running.is_none(), egui::Button::new("Fit all models"));
+        if compare.on_hover_text("Fit the whole ladder of models to this measurement, with the options and bounds of a fit").clicked() {
+            commands.push(Command::CompareModels);
+        }
+        if let Some(at) = running {
+            if ui.button("Stop comparing").clicked() {
+                commands.push(Command::CancelComparison);
+            }
+            ui.spinner();
+            ui.label(format!("Fitting: {}", at.unwrap_or("…")));
+        }
+    });
+    if comparison.is_empty() {
+        if running.is_none() {
+            ui.label("Nothing is compared yet.");
+        }
+        return;
+    }
+    ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+        for sentence in verdicts(comparison) {
+            ui.label(sentence);
+        }
+        models_ui(comparison, settings.model, commands, ui);
+        ui.add_space(6.0);
+        CollapsingHeader::new("Starts and where they led").show(ui, |ui| starts_ui(comparison, ui));
+    });
+}
+
+fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
+    ui.weak("A click on a model takes its terms and values to the sliders.");
+    Grid::new("models").striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+        for (heading, help) in [
+            ("model", ""),
+            ("ΔE", "Eq. (18)"),
+            ("χ²/dof", "Where standard deviations are used as weights"),
+            ("ΔAICc", "Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"),
+            ("starts", "How many reached the best minimum, of how many"),
+            ("evaluations", "Of the residuals, all starts together"),
+            ("time / ms", "All starts together"),
+        ] {
+            ui.strong(heading).on_hover_text(help);
+        }
+        for parameter in Parameter::ALL {
+            ui.strong(parameter.symbol()).on_hover_text(parameter.name());
+        }
+        ui.end_row();
+        for (index, rung) in comparison.iter().enumerate() {
+            let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
+            let help = format!("{}\n{}", rung.preset.name, rung.preset.citation);
+            if ui.selectable_label(is_current, rung.preset.key).on_hover_text(help).clicked() {
+                commands.push(Command::UseRung(index));
+            }
+            match &rung.result {
+                Ok(report) => model_ui(report, best, ui),
+                Err(reason) => {
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("skipped: {reason}"));
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
+    let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
+    #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
+    let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
+    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.text());
+    ui.monospace(number(reduced, |value| format!("{value:.3}")));
+    ui.monospace(number(report.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
+    let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
+    let reached = report.minima.first().map_or(0, |minimum| minimum.reached);
+    ui.monospace(format!("{reached} of {starts}"));
+    ui.monospace(report.evaluations.to_string());
+    ui.monospace(format!("{:.1}", report.elapsed_ms));
+    for parameter in Parameter::ALL {
+        let estimate = report.estimates.iter().find(|estimate| estimate.parameter == parameter);
+        let Some(estimate) = estimate else {
+            ui.label("");
+            continue;
+        };
+        let value = significant(estimate.value);
+        let text = match (estimate.free, estimate.at_bound, estimate.std_error) {
+            (false, ..) => format!("{value} fixed"),
+            (true, Some(_), _) => format!("{value} at bound"),
+            (true, None, Some(error)) => format!("{value} ± {error:.0e}"),
+            (true, None, None) => format!("{value} open"),
+        };
+        ui.monospace(text);
+    }
+}
+
+fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
+    Grid::new("starts").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+        for heading in ["model", "ΔE", "reached", "stop"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for rung in comparison {
+            let minima = rung.result.as_ref().map_or(&[][..], |report| &report.minima);
+            for (i, minimum) in minima.iter().take(MOST_MINIMA).enumerate() {
+                ui.label(if i == 0 { rung.preset.key } else { "" });
+                ui.monospace(format!("{:.6e}", minimum.objective));
+                ui.label(format!("{} ×", minimum.reached));
+                ui.label(minimum.stop_reason.text());
+                ui.end_row();
+            }
+        }
+    });
+}
+
+/// Minima of one model that are listed at most.
+const MOST_MINIMA: usize = 6;
+
+/// Differences of AICc below which two models describe the data alike (Burnham and Anderson, 2002, section 2.6).
+const ALIKE: f64 = 2.0;
+
+/// Gauss against Cauchy, in words.
+fn verdicts(comparison: &[Rung]) -> Vec<String> {
+    let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
+    let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
+        let (cauchy, gauss) = (report(cauchy)?, report(gauss)?);
+        let (on_cauchy, on_gauss) = (cauchy.objective?, gauss.objective?);
+        let words = match cauchy.aicc.zip(gauss.aicc).map(|(cauchy, gauss)| gauss - cauchy) {
+            None => String::new(),
+            Some(gain) if gain.abs() < ALIKE => "; by AICc the data do not tell them apart".to_owned(),
+            Some(gain) if gain > 0.0 => format!("; AICc prefers Cauchy by {gain:.1}"),
+            Some(gain) => format!("; AICc prefers Gauss by {:.1}", -gain),
+        };
+        Some(format!("Cauchy against Gauss ({terms}): ΔE {on_cauchy:.3e} against {on_gauss:.3e}{words}."))
+    };
+    PAIRS.iter().filter_map(verdict).collect()
+}

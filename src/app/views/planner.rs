@@ -1,0 +1,247 @@
+//! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
+
+use crate::app::document::Document;
+use crate::app::memo::Memo;
+use crate::app::panels::significant;
+use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
+use crate::app::state::Settings;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use crate::app::words::{is_loose, percent};
+use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
+use pbrdf::fit::Choices;
+use pbrdf::measurement::Columns;
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+
+/// What predictions depend on.
+type Key = (Parameters, Model, Choices, ParameterSet, Plan, u64);
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct PlannerView {
+    /// Of the open measurement's angles, and of the planned ones.
+    pub predictions: Memo<Key, [Result<Prediction, String>; 2]>,
+}
+
+pub fn planner_refresh(explorer: &mut Explorer) {
+    let free = explorer.free_in_plan();
+    let Explorer { settings, document, views, .. } = explorer;
+    let key = (settings.parameters, settings.model, settings.choices, free, settings.plan.clone(), document.generation);
+    views
+        .planner
+        .predictions
+        .refresh(key, |_| [Prediction::of_measurement(settings, free, &document.measurement), Prediction::of_plan(settings, free)]);
+}
+
+/// Width that angles and errors need side by side.
+const SIDE_BY_SIDE: f32 = 640.0;
+
+pub fn planner_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { settings, document, views, .. } = explorer;
+    ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+        if ui.available_width() > SIDE_BY_SIDE {
+            ui.horizontal_top(|ui| {
+                ui.vertical(|ui| angles_ui(&mut settings.plan, document, ui));
+                ui.separator();
+                ui.vertical(|ui| predictions_ui(settings, &views.planner, ui));
+            });
+        } else {
+            angles_ui(&mut settings.plan, document, ui);
+            ui.separator();
+            predictions_ui(settings, &views.planner, ui);
+        }
+    });
+}
+
+fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        ui.strong("Planned angles");
+        if ui.button("Dense").on_hover_text("θi from 10° to 80°, θr from 0° to 85°").clicked() {
+            let Plan { theta_i, theta_r, .. } = Plan::default();
+            *plan = Plan { theta_i, theta_r, ..plan.clone() };
+        }
+        if ui.button("As measured").on_hover_text("The angles of the open measurement, each for itself").clicked() {
+            as_measured(plan, document);
+        }
+    });
+    Grid::new("planned angles").num_columns(5).show(ui, |ui| {
+        for heading in ["", "from", "to", "step", ""] {
+            ui.weak(heading);
+        }
+        ui.end_row();
+        spans_ui(&mut plan.theta_i, "θi", 0.0, ui);
+        spans_ui(&mut plan.theta_r, "θr", -STEEPEST, ui);
+    });
+    Grid::new("planned noise").num_columns(2).show(ui, |ui| {
+        let help = "Relative azimuth φr − φi: 180° is the plane of incidence, with the backscatter side at negative θr";
+        number_ui(&mut plan.dphi, "Δφ", help, "°", 0.0..=360.0, 0.5, ui);
+        let label = ui.label("Measured");
+        let text = |columns| match columns {
+            Columns::Dolp => "DoLP",
+            Columns::Brdf => "BRDF",
+            Columns::Both => "DoLP and BRDF",
+        };
+        let combo = ComboBox::from_id_salt("planned columns").selected_text(text(plan.columns)).show_ui(ui, |ui| {
+            for columns in [Columns::Dolp, Columns::Brdf, Columns::Both] {
+                ui.selectable_value(&mut plan.columns, columns, text(columns));
+            }
+        });
+        combo.response.labelled_by(label.id);
+        ui.end_row();
+        if plan.columns != Columns::Brdf {
+            number_ui(&mut plan.noise, "Noise of DoLP", "Standard deviation of one value, absolute", "", 1e-6..=1.0, 1e-4, ui);
+        }
+        if plan.has_brdf() {
+            number_ui(&mut plan.brdf_noise, "Noise of BRDF", "Standard deviation of one value, relative to it", "", 1e-6..=10.0, 1e-3, ui);
+        }
+    });
+}
+
+/// A row with a name and a number.
+fn number_ui(value: &mut f64, name: &str, help: &str, suffix: &str, range: std::ops::RangeInclusive<f64>, speed: f64, ui: &mut Ui) {
+    let label = ui.label(name).on_hover_text(help);
+    ui.add(DragValue::new(value).range(range).speed(speed).max_decimals(6).suffix(suffix)).labelled_by(label.id).on_hover_text(help);
+    ui.end_row();
+}
+
+/// Rows of angles of one kind, with buttons to add and to remove.
+fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
+    let mut removed = None;
+    for (i, span) in spans.iter_mut().enumerate() {
+        ui.label(name);
+        let field = |ui: &mut Ui, value: &mut f64, range: std::ops::RangeInclusive<f64>, what: &str| {
+            let response = ui.add(DragValue::new(value).range(range).speed(0.5).max_decimals(3).suffix("°"));
+            response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} {} {what}", i + 1)));
+        };
+        field(ui, &mut span.from, least..=STEEPEST, "from");
+        // The other end follows.
+        span.to = span.to.max(span.from);
+        field(ui, &mut span.to, span.from..=STEEPEST, "to");
+        field(ui, &mut span.step, 0.1..=90.0, "step");
+        let remove = ui.button("remove");
+        remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove {name} {}", i + 1)));
+        if remove.clicked() {
+            removed = Some(i);
+        }
+        ui.end_row();
+    }
+    if let Some(i) = removed {
+        spans.remove(i);
+    }
+    ui.label("");
+    if ui.button(format!("add {name}")).clicked() {
+        let next = spans.last().map_or(45.0, |last| (last.to + last.step).min(STEEPEST));
+        spans.push(Span::new(next, next, spans.last().map_or(5.0, |last| last.step)));
+    }
+    ui.end_row();
+}
+
+/// Angles that are listed at most when a measurement's own are taken over.
+const MOST_SPANS: usize = 12;
+
+/// The angles of the open measurement, those an equal step apart in one row.
+fn as_measured(plan: &mut Plan, document: &Document) {
+    let used = || document.measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
+    let spans = |angles: &mut dyn Iterator<Item = f64>| {
+        let mut angles: Vec<f64> = angles.collect();
+        angles.sort_by(f64::total_cmp);
+        angles.dedup();
+        let mut spans: Vec<Span> = Vec::new();
+        for angle in angles {
+            match spans.last_mut() {
+                // The second angle sets the step.
+                Some(last) if last.from == last.to => (last.to, last.step) = (angle, angle - last.from),
+                Some(last) if (last.to + last.step - angle).abs() < 1e-6 * last.step => last.to = angle,
+                _ => spans.push(Span::new(angle, angle, 5.0)),
+            }
+        }
+        spans.truncate(MOST_SPANS);
+        spans
+    };
+    plan.theta_i = spans(&mut used().map(|geometry| geometry.theta_i().0));
+    let signed = |geometry: pbrdf::optics::Geometry| {
+        let forward = (90.0..=270.0).contains(&geometry.dphi().0.rem_euclid(360.0));
+        if forward { geometry.theta_r().0 } else { -geometry.theta_r().0 }
+    };
+    plan.theta_r = spans(&mut used().map(signed));
+    plan.dphi = document.series.first().map_or(180.0, |series| series.plane);
+}
+
+fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
+    let warning = theme::warning(ui.visuals().dark_mode);
+    let Some([now, planned]) = view.predictions.get() else {
+        ui.label("…");
+        return;
+    };
+    let (incidences, views) = settings.plan.counts();
+    ui.strong(format!("Predicted standard errors: {incidences} × {views} planned points"));
+    ui.weak("At the sliders as they stand; both columns with the noise on the left.");
+    for sentence in [now, planned].into_iter().filter_map(|prediction| prediction.as_ref().err()) {
+        ui.colored_label(warning, sentence);
+    }
+    let any = planned.as_ref().or(now.as_ref());
+    let Ok(any) = any else { return };
+    Grid::new("predicted errors").num_columns(5).striped(true).show(ui, |ui| {
+        for (heading, help) in [
+            ("", ""),
+            ("value", "The slider"),
+            ("± now", "With the angles of the open measurement"),
+            ("± planned", "With the angles on the left"),
+            ("now / planned", "How many times smaller the error becomes"),
+        ] {
+            ui.strong(heading).on_hover_text(help);
+        }
+        ui.end_row();
+        for (parameter, _) in &any.errors {
+            error_row_ui(settings, *parameter, now, planned, ui);
+        }
+    });
+    for (prediction, angles) in [(planned, "With the planned angles"), (now, "With the measured angles")] {
+        if let Ok(prediction) = prediction {
+            open_ui(&settings.parameters, prediction, angles, ui);
+        }
+    }
+}
+
+fn error_row_ui(
+    settings: &Settings,
+    parameter: Parameter,
+    now: &Result<Prediction, String>,
+    planned: &Result<Prediction, String>,
+    ui: &mut Ui,
+) {
+    let value = settings.parameters[parameter];
+    let error = |prediction: &Result<Prediction, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
+    let text = |prediction: &Result<Prediction, String>| match (prediction, error(prediction)) {
+        (Err(_), _) => "-".to_owned(),
+        (Ok(_), None) => "open".to_owned(),
+        (Ok(_), Some(error)) => format!("{error:.2e} ({})", percent(parameter, value, error)),
+    };
+    ui.label(parameter.symbol()).on_hover_text(parameter.name());
+    ui.monospace(significant(value));
+    ui.monospace(text(now));
+    ui.monospace(text(planned));
+    ui.monospace(error(now).zip(error(planned)).map_or_else(String::new, |(now, planned)| format!("{:.3}", now / planned)));
+    ui.end_row();
+}
+
+/// What stays open, in words.
+fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &mut Ui) {
+    let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
+    let loose: Vec<&str> = loose
+        .filter(|(parameter, error)| is_loose(*parameter, parameters[*parameter], *error))
+        .map(|(parameter, _)| parameter.symbol())
+        .collect();
+    if prediction.open.is_empty() && loose.is_empty() {
+        ui.add(egui::Label::new(format!("{angles} nothing stays open.")).wrap());
+        return;
+    }
+    ui.add_space(4.0);
+    ui.strong(format!("{angles} there stays open:"));
+    for text in &prediction.open {
+        ui.add(egui::Label::new(format!("• {text}")).wrap());
+    }
+    if !loose.is_empty() {
+        ui.add(egui::Label::new(format!("• {}: known to no better than half its size", loose.join(", "))).wrap());
+    }
+}
