@@ -140,19 +140,24 @@ def text(x):
     return nstr(x, 20, min_fixed=0, max_fixed=0) if abs(x) > mpf(10) ** -330 else "0.0"
 
 
-print("# 60-digit values and derivatives at the corners of the domain; made by make_corner_rows.py (mpmath), 2026-11-23")
-header = ["case", "distribution", *NAMES, "theta_i", "theta_r", "dphi", "brdf", "dolp", "specular", "diffuse", "volume"]
-header += ["dbrdf_d" + name for name in NAMES] + ["ddolp_d" + name for name in NAMES]
-print(",".join(header))
-for name, dist, case in cases():
-    values = [float(case[x]) for x in NAMES]
-    geometry = [float(case[x]) for x in ("ti", "tr", "dphi")]
-    p = [mpf(x) for x in values]
-    result = evaluate(dist, p, *geometry)
-    slopes = derivatives(dist, p, geometry)
-    dark = (p[3] == 0 or (p[0] == 1 and p[1] == 0)) and p[4] == 0 and p[5] == 0
-    if dark:
-        slopes[1] = [mpf(0)] * 9
-    row = [name, dist, *(repr(x) for x in values), *(repr(x) for x in geometry)]
-    row += [text(x) for x in result] + [text(x) for x in slopes[0]] + [text(x) for x in slopes[1]]
-    print(",".join(row))
+def main():
+    print("# 60-digit values and derivatives at the corners of the domain; made by make_corner_rows.py (mpmath), 2026-11-23")
+    header = ["case", "distribution", *NAMES, "theta_i", "theta_r", "dphi", "brdf", "dolp", "specular", "diffuse", "volume"]
+    header += ["dbrdf_d" + name for name in NAMES] + ["ddolp_d" + name for name in NAMES]
+    print(",".join(header))
+    for name, dist, case in cases():
+        values = [float(case[x]) for x in NAMES]
+        geometry = [float(case[x]) for x in ("ti", "tr", "dphi")]
+        p = [mpf(x) for x in values]
+        result = evaluate(dist, p, *geometry)
+        slopes = derivatives(dist, p, geometry)
+        dark = (p[3] == 0 or (p[0] == 1 and p[1] == 0)) and p[4] == 0 and p[5] == 0
+        if dark:
+            slopes[1] = [mpf(0)] * 9
+        row = [name, dist, *(repr(x) for x in values), *(repr(x) for x in geometry)]
+        row += [text(x) for x in result] + [text(x) for x in slopes[0]] + [text(x) for x in slopes[1]]
+        print(",".join(row))
+
+
+if __name__ == "__main__":
+    main()

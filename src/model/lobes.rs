@@ -6,7 +6,7 @@
 //!
 //! A lobe is kept as `factor · e^(−exponent)`, so that the ratio of two lobes is right even where both underflow.
 
-use crate::optics::{Facet, SlopeDistribution};
+use crate::optics::{Double, Facet, SlopeDistribution, two_sum};
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::ops::RangeInclusive;
 
@@ -15,7 +15,7 @@ const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
 
 /// Exponents end here: darker than this is equally dark, and the difference of two stays a number.
 const DARKEST: f64 = 1e300;
-/// Values of σ (and of q, upwards) whose squares and quotients are far from the ends of f64.
+/// Values whose squares and quotients are far from the ends of f64.
 const PLAIN: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// A radiance factor `factor · e^(−exponent)` in sr⁻¹.
@@ -25,39 +25,66 @@ pub struct Lobe {
     pub factor: f64,
     /// What stands in it, with the sign changed: large is dark.
     pub exponent: f64,
+    /// What the exponent leaves over where it is known to more digits than f64 has; 0 elsewhere.
+    pub exponent_rest: f64,
 }
 
 impl Lobe {
     /// No light.
-    pub const DARK: Self = Self { factor: 0.0, exponent: 0.0 };
+    pub const DARK: Self = Self::new(0.0, 0.0);
+
+    /// `factor · e^(−exponent)`.
+    #[must_use]
+    pub const fn new(factor: f64, exponent: f64) -> Self {
+        Self { factor, exponent, exponent_rest: 0.0 }
+    }
+
+    /// With an exponent of more digits.
+    pub(super) fn with_exponent(self, exponent: Double) -> Self {
+        Self { exponent: exponent.hi, exponent_rest: exponent.lo, ..self }
+    }
 
     /// Its value.
     #[must_use]
     pub fn value(self) -> f64 {
-        times_exp(self.factor, -self.exponent)
+        let value = times_exp(self.factor, -self.exponent);
+        // e^(−rest) = 1 − rest, the rest being a rounding.
+        value * (1.0 - self.exponent_rest)
     }
 
     /// This lobe divided by another one.
     #[must_use]
     pub fn over(self, other: Self) -> f64 {
-        self.over_times(other, 1.0)
+        self.over_times(other, [1.0; 2])
     }
 
-    /// This lobe divided by another one, times a gain: right also where the ratio alone leaves the range of f64.
+    /// This lobe divided by another one, times two gains: right also where the ratio or the product of the gains alone leaves the
+    /// range of f64.
     #[must_use]
-    pub fn over_times(self, other: Self, gain: f64) -> f64 {
-        if gain == 0.0 || self.factor == 0.0 {
+    pub fn over_times(self, other: Self, gains: [f64; 2]) -> f64 {
+        let [a, b] = gains;
+        if a == 0.0 || b == 0.0 || self.factor == 0.0 {
             return 0.0;
         }
-        let (ratio, x) = (self.factor / other.factor, other.exponent - self.exponent);
-        let factor = gain * ratio;
-        if factor != 0.0 && factor.is_finite() {
+        let (x, rest) = self.exponent_over(other);
+        let factor = a * b * (self.factor / other.factor);
+        let ratio = if factor != 0.0 && factor.is_finite() {
             times_exp(factor, x)
         } else {
-            let exponent = libm::log(gain.abs()) + libm::log(self.factor) - libm::log(other.factor) + x;
+            let exponent = libm::log(a.abs()) + libm::log(b.abs()) + libm::log(self.factor) - libm::log(other.factor) + x;
             // An infinite gain over an infinite lobe: what is left of a product that f64 holds no factor of.
-            if exponent.is_nan() { 0.0 } else { libm::exp(exponent).copysign(gain) }
+            if exponent.is_nan() { 0.0 } else { libm::exp(exponent).copysign(a * b) }
+        };
+        ratio * (1.0 + rest)
+    }
+
+    /// The exponent of the ratio, and what it leaves over.
+    fn exponent_over(self, other: Self) -> (f64, f64) {
+        if self.exponent_rest == 0.0 && other.exponent_rest == 0.0 {
+            return (other.exponent - self.exponent, 0.0);
         }
+        let difference = two_sum(other.exponent, -self.exponent);
+        (difference.hi, difference.lo + (other.exponent_rest - self.exponent_rest))
     }
 
     /// With another weight; a weight of 0 puts out even an infinite lobe.
@@ -95,23 +122,28 @@ pub(crate) fn specular(distribution: SlopeDistribution, w: f64, facet: &Facet, g
     let geometric = one_over_cos_sq * one_over_cos_sq * g_over_cosines / (8.0 * PI);
     let height = distribution.height(q);
     let exponent = distribution.exponent(w, q).min(DARKEST);
-    if PLAIN.contains(&sigma) && height < *PLAIN.end() {
-        Lobe { factor: height * geometric / sigma / sigma, exponent }
+    if is_plain(sigma) && is_plain(height.max(1.0)) {
+        Lobe::new(height * geometric / sigma / sigma, exponent)
     } else {
         // h/σ² alone would leave the range of f64.
-        Lobe { factor: geometric, exponent: exponent + 2.0 * libm::log(sigma) - libm::log(height) }
+        Lobe::new(geometric, exponent + 2.0 * libm::log(sigma) - libm::log(height))
     }
+}
+
+/// Whether squares and quotients of a value are far from the ends of f64.
+pub(super) fn is_plain(value: f64) -> bool {
+    PLAIN.contains(&value)
 }
 
 /// The Minnaert lobe; c = 0 is Lambert.
 pub(crate) fn diffuse(facet: &Facet, c: f64) -> Lobe {
-    Lobe { factor: FRAC_1_PI, exponent: -c * facet.ln_cosines }
+    Lobe::new(FRAC_1_PI, -c * facet.ln_cosines)
 }
 
 /// The volume lobe.
 pub(crate) fn volume(facet: &Facet, sigma_v: f64) -> Lobe {
     let reduced = facet.theta_r / sigma_v;
-    Lobe { factor: 1.0 / (SQRT_TWO_PI * sigma_v), exponent: (0.5 * reduced * reduced).min(DARKEST) }
+    Lobe::new(1.0 / (SQRT_TWO_PI * sigma_v), (0.5 * reduced * reduced).min(DARKEST))
 }
 
 #[cfg(test)]
@@ -120,14 +152,14 @@ mod tests {
 
     #[test]
     fn ratio_of_two_underflowing_lobes_is_kept() {
-        let a = Lobe { factor: 3.0, exponent: 1000.0 };
-        let b = Lobe { factor: 1.5, exponent: 1000.0 };
+        let a = Lobe::new(3.0, 1000.0);
+        let b = Lobe::new(1.5, 1000.0);
         assert_eq!((a.value(), b.value(), a.over(b)), (0.0, 0.0, 2.0));
     }
 
     #[test]
     fn a_huge_factor_brings_back_what_the_exponential_alone_would_lose() {
-        let lobe = Lobe { factor: 1e300, exponent: 800.0 };
+        let lobe = Lobe::new(1e300, 800.0);
         let expected = libm::exp10(300.0 - 800.0 * std::f64::consts::LOG10_E);
         // exp10 of such an argument is itself good to about 1e-13.
         assert!((lobe.value() / expected - 1.0).abs() < 1e-12);
@@ -135,6 +167,6 @@ mod tests {
 
     #[test]
     fn an_infinitely_dark_lobe_is_dark() {
-        assert_eq!(Lobe { factor: f64::INFINITY, exponent: f64::INFINITY }.value(), 0.0);
+        assert_eq!(Lobe::new(f64::INFINITY, f64::INFINITY).value(), 0.0);
     }
 }

@@ -5,6 +5,7 @@
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
 mod assignment;
+mod far_tail;
 mod finishes;
 mod gradient;
 mod ladder;

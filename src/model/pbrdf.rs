@@ -226,7 +226,7 @@ impl Pbrdf {
         let Self { model, parameters: p, .. } = self;
         let g_over_cosines = if model.masking { facet.g_over_cosines } else { facet.one_over_cosines };
         let w = if model.specular { crate::optics::reduced_slope_sq(facet.tan_alpha_sq, p.sigma) } else { 0.0 };
-        Lobes {
+        let mut lobes = Lobes {
             w,
             specular: if model.specular { lobes::specular(model.distribution, w, facet, g_over_cosines, p.sigma, p.q) } else { Lobe::DARK },
             diffuse: match model.diffuse {
@@ -237,7 +237,11 @@ impl Pbrdf {
                 Diffuse::Hyde => Lobe::DARK,
             },
             volume: if model.volume { lobes::volume(facet, p.sigma_v) } else { Lobe::DARK },
+        };
+        if lobes.are_far(p) {
+            self.sharpen(facet, &mut lobes);
         }
+        lobes
     }
 
     /// What the diffuse lobe is multiplied by: k_d, or k_s in Hyde's balance.

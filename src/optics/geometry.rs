@@ -167,6 +167,8 @@ pub struct Facet {
     pub theta_i: Degrees,
     /// θr in radians.
     pub theta_r: f64,
+    /// The directions themselves, for what needs more digits than f64 has.
+    pub geometry: Geometry,
 }
 
 impl Facet {
@@ -197,6 +199,7 @@ impl Facet {
             ln_cosines: ln_cos(sin_i, cos_i) + ln_cos(sin_r, cos_r),
             theta_i,
             theta_r: theta_r.radians(),
+            geometry,
         }
     }
 }

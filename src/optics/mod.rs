@@ -5,6 +5,7 @@
 //! basis [E_s, E_p] with s = k × n, p = k × s for a ray along k, so that S1 = I_s − I_p.
 
 mod angle;
+mod double;
 mod facets;
 mod fresnel;
 mod geometry;
@@ -13,8 +14,10 @@ mod metals;
 mod polarization;
 mod quadrature;
 mod refractive_index;
+mod sharp_facet;
 
 pub use angle::Degrees;
+pub(crate) use double::{Double, two_sum};
 pub use facets::SlopeDistribution;
 pub(crate) use facets::reduced_slope_sq;
 pub use fresnel::{Fresnel, FresnelGradient};
@@ -24,3 +27,4 @@ pub use metals::{Metal, MetalsError, MetalsErrorKind, OutsideRange, Sample, Sour
 pub use polarization::{Mueller, Stokes};
 pub(crate) use quadrature::Order;
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};
+pub(crate) use sharp_facet::SharpFacet;

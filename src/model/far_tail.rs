@@ -1,0 +1,90 @@
+//! Lobes far out in their tails.
+//!
+//! A lobe is `factor · e^(−x)`, and an error of one unit in the last place of x is an error of x units in the lobe: beyond x = 64 the
+//! digits of BRDF and DoLP begin to go. Mostly nothing is lost, since such a lobe is dark beside the others. Where it is not (all
+//! lobes that are there are dark, or their weights faint), x is formed in double-double arithmetic, and so are the logarithms of a σ whose
+//! square leaves the range of f64.
+
+use super::lobes::{Lobe, is_plain};
+use super::pbrdf::{Lobes, Pbrdf};
+use super::{Diffuse, Parameters};
+use crate::optics::{Double, Facet, SharpFacet, SlopeDistribution};
+use std::f64::consts::LN_2;
+
+/// Exponents up to here hold what the bar of 1e-13 asks for: 64 · 5 roundings.
+const FAR: f64 = 64.0;
+/// A lobe darker than another by e^120 does not show beside it, nor in the absolute: 1e-52.
+const INVISIBLE: f64 = 120.0;
+/// Exponents above this are darkness, to whatever digit.
+const DARKNESS: f64 = 1e200;
+/// Beyond this ln(1 + w) is ln w, which is formed without w: that could overflow.
+const LARGE: f64 = 1e40;
+
+/// −ln of a weighted lobe, to within its binary magnitude.
+fn darkness(lobe: Lobe, weight: f64) -> f64 {
+    let factor = lobe.factor.min(f64::MAX);
+    if weight > 0.0 && factor > 0.0 {
+        lobe.exponent - LN_2 * (f64::from(libm::ilogb(weight)) + f64::from(libm::ilogb(factor)))
+    } else {
+        f64::INFINITY
+    }
+}
+
+impl Lobes {
+    /// Whether an exponent is too large for its digits, or a σ too extreme for its square.
+    pub(super) fn are_far(&self, parameters: &Parameters) -> bool {
+        let Self { specular, diffuse, volume, .. } = self;
+        specular.exponent.max(diffuse.exponent.abs()).max(volume.exponent) > FAR || specular.exponent < -FAR || {
+            self.specular.factor > 0.0 && !is_plain(parameters.sigma)
+        }
+    }
+}
+
+impl Pbrdf {
+    /// Gives the exponents their digits back where they show.
+    #[cold]
+    pub(super) fn sharpen(&self, facet: &Facet, lobes: &mut Lobes) {
+        let p = self.parameters();
+        let model = self.model();
+        let all = [darkness(lobes.specular, p.ks), darkness(lobes.diffuse, p.kd), darkness(lobes.volume, p.kv)];
+        let brightest = all.into_iter().fold(f64::INFINITY, f64::min);
+        let present = all.iter().filter(|darkness| **darkness < f64::INFINITY).count();
+        // A far lobe shows if it is the only bright one, or if nothing beside it is brighter.
+        let shows = |darkness: f64, exponent: f64| {
+            exponent.abs() > FAR && exponent < DARKNESS && darkness - brightest < INVISIBLE && (present > 1 || darkness < INVISIBLE)
+        };
+        let exponents = [lobes.specular.exponent, lobes.diffuse.exponent, lobes.volume.exponent];
+        let is_extreme = model.specular && !is_plain(p.sigma);
+        if !is_extreme && !all.into_iter().zip(exponents).any(|(darkness, exponent)| shows(darkness, exponent)) {
+            return;
+        }
+        let sharp = SharpFacet::new(facet.geometry);
+        if model.specular
+            && lobes.specular.exponent < DARKNESS
+            && let Some(exponent) = specular_exponent(model.distribution, &sharp, lobes.w, p)
+        {
+            lobes.specular = lobes.specular.with_exponent(exponent);
+        }
+        if model.diffuse == Diffuse::Minnaert && lobes.diffuse.exponent.abs() < DARKNESS {
+            lobes.diffuse = lobes.diffuse.with_exponent(sharp.ln_cosines * -p.c);
+        }
+        if model.volume && lobes.volume.exponent < DARKNESS && p.sigma_v > 1.0 / DARKNESS {
+            let reduced = sharp.theta_r / p.sigma_v;
+            lobes.volume = lobes.volume.with_exponent(reduced * reduced * 0.5);
+        }
+    }
+}
+
+/// The exponent of the specular lobe as [`super::lobes::specular`] splits it; none where w overflows under a Gaussian.
+fn specular_exponent(distribution: SlopeDistribution, sharp: &SharpFacet, w: f64, p: &Parameters) -> Option<Double> {
+    let ln_sigma = || Double::from(p.sigma).ln();
+    let sharp_w = || sharp.tan_alpha_sq / p.sigma / p.sigma * 0.5;
+    let tail = match distribution {
+        SlopeDistribution::Gauss if w < DARKNESS => sharp_w(),
+        SlopeDistribution::Gauss => return None,
+        SlopeDistribution::Cauchy if w < LARGE => sharp_w().ln_1p() * p.q,
+        SlopeDistribution::Cauchy => (sharp.tan_alpha_sq.ln() - ln_sigma() * 2.0 - Double::from(2.0).ln()) * p.q,
+    };
+    let height = distribution.height(p.q);
+    Some(if is_plain(p.sigma) && is_plain(height.max(1.0)) { tail } else { tail + ln_sigma() * 2.0 - Double::from(height).ln() })
+}
