@@ -84,3 +84,9 @@ fn gradients_agree_with_sixty_digits() {
 fn gradients_agree_with_sixty_digits_in_the_corners() {
     gradients_agree("golden_corners.csv");
 }
+
+#[test]
+fn the_stability_gallery_agrees_with_sixty_digits() {
+    values_agree("stability_gallery.csv");
+    gradients_agree("stability_gallery.csv");
+}

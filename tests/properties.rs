@@ -33,7 +33,9 @@ fn in_box() -> impl Strategy<Value = Parameters> {
 fn in_domain() -> impl Strategy<Value = Parameters> {
     let size = || prop_oneof![4 => -3.0..3.0_f64, 1 => -320.0..308.0_f64].prop_map(|exponent| libm::exp10(exponent).max(5e-324));
     let weight = || prop_oneof![4 => size().boxed(), 1 => Just(0.0).boxed()];
-    (size(), weight(), size(), [weight(), weight(), weight()], size(), -1e3..1e3_f64, size()).prop_map(
+    let signed =
+        prop_oneof![4 => (-1e3..1e3_f64).boxed(), 1 => (size(), prop::bool::ANY).prop_map(|(c, up)| if up { c } else { -c }).boxed()];
+    (size(), weight(), size(), [weight(), weight(), weight()], size(), signed, size()).prop_map(
         |(n, k, sigma, [ks, kd, kv], q, c, sigma_v)| Parameters {
             n,
             k,

@@ -67,8 +67,10 @@ CASES = [
     ("k_d = k_v = 0", "both", dict(kd=0, kv=0)),
     ("specular term underflows", "gauss", dict(sigma=0.01, theta_i=10, theta_r=70)),
     ("specular term underflows, nothing else there", "gauss", dict(sigma=0.01, theta_i=10, theta_r=70, kd=0, kv=0)),
-    ("specular and volume term underflow together", "gauss", dict(sigma=0.0125, sigma_v=0.022, kd=0, theta_i=10, theta_r=60)),
-    ("specular and volume term underflow, far down", "gauss", dict(sigma=0.001, sigma_v=0.0022, kd=0, theta_i=10, theta_r=60)),
+    ("specular and volume term underflow, e^−1000", "gauss", dict(sigma=0.01043, sigma_v=0.02341, kd=0, theta_i=10, theta_r=60)),
+    ("specular and volume term underflow, e^−10000", "gauss", dict(sigma=0.0032973, sigma_v=0.0074045, kd=0, theta_i=10, theta_r=60)),
+    ("specular and volume term underflow, e^−1000000", "gauss", dict(sigma=0.00032973, sigma_v=0.000740479, kd=0, theta_i=10, theta_r=60)),
+    ("specular and volume term underflow, q = 10000", "cauchy", dict(sigma=0.7007954, sigma_v=0.016557, q=1e4, kd=0, theta_i=10, theta_r=60)),
     ("σ_v = 0.01 rad", "cauchy", dict(sigma_v=0.01)),
     ("σ_v = 0.001 rad, k_d = 0", "cauchy", dict(sigma_v=0.001, kd=0)),
     ("σ_v = 1000 rad", "cauchy", dict(sigma_v=1e3)),
@@ -76,7 +78,7 @@ CASES = [
     ("c = −1, both grazing", "cauchy", dict(c=-1, theta_i=EDGE, theta_r=EDGE)),
     ("c = 0", "cauchy", dict(c=0)),
     ("c = 0, both grazing", "cauchy", dict(c=0, theta_i=EDGE, theta_r=EDGE)),
-    ("faint depolarising terms, k_d = k_v = 1e-290", "gauss", dict(kd=1e-290, kv=1e-290, sigma=0.015)),
+    ("faint depolarising terms, k_d = k_v = 1e-218", "gauss", dict(kd=1e-218, kv=1e-218, sigma=0.014746, theta_i=10, theta_r=60)),
 ]
 
 

@@ -34,9 +34,8 @@ impl Lobes {
     /// Whether an exponent is too large for its digits, or a σ too extreme for its square.
     pub(super) fn are_far(&self, parameters: &Parameters) -> bool {
         let Self { specular, diffuse, volume, .. } = self;
-        specular.exponent.max(diffuse.exponent.abs()).max(volume.exponent) > FAR || specular.exponent < -FAR || {
-            self.specular.factor > 0.0 && !is_plain(parameters.sigma)
-        }
+        let largest = specular.exponent.abs().max(diffuse.exponent.abs()).max(volume.exponent);
+        largest > FAR || (specular.factor > 0.0 && !is_plain(parameters.sigma))
     }
 }
 

@@ -15,6 +15,8 @@ const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
 
 /// Exponents end here: darker than this is equally dark, and the difference of two stays a number.
 const DARKEST: f64 = 1e300;
+/// No finite factor brings e^(±1e4) back into the range of f64: there are no digits to mend.
+const BEYOND: f64 = 1e4;
 /// Values whose squares and quotients are far from the ends of f64.
 const PLAIN: RangeInclusive<f64> = 1e-100..=1e100;
 
@@ -39,9 +41,10 @@ impl Lobe {
         Self { factor, exponent, exponent_rest: 0.0 }
     }
 
-    /// With an exponent of more digits.
+    /// With an exponent of more digits, where these matter.
     pub(super) fn with_exponent(self, exponent: Double) -> Self {
-        Self { exponent: exponent.hi, exponent_rest: exponent.lo, ..self }
+        let exponent_rest = if exponent.hi.abs() < BEYOND { exponent.lo } else { 0.0 };
+        Self { exponent: exponent.hi, exponent_rest, ..self }
     }
 
     /// Its value.
@@ -84,7 +87,8 @@ impl Lobe {
             return (other.exponent - self.exponent, 0.0);
         }
         let difference = two_sum(other.exponent, -self.exponent);
-        (difference.hi, difference.lo + (other.exponent_rest - self.exponent_rest))
+        let rest = if difference.hi.abs() < BEYOND { difference.lo + (other.exponent_rest - self.exponent_rest) } else { 0.0 };
+        (difference.hi, rest)
     }
 
     /// With another weight; a weight of 0 puts out even an infinite lobe.
