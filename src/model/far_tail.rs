@@ -45,7 +45,7 @@ impl Pbrdf {
     pub(super) fn sharpen(&self, facet: &Facet, lobes: &mut Lobes) {
         let p = self.parameters();
         let model = self.model();
-        let all = [darkness(lobes.specular, p.ks), darkness(lobes.diffuse, p.kd), darkness(lobes.volume, p.kv)];
+        let all = [darkness(lobes.specular, p.ks), darkness(lobes.diffuse, self.diffuse_weight()), darkness(lobes.volume, p.kv)];
         let brightest = all.into_iter().fold(f64::INFINITY, f64::min);
         let present = all.iter().filter(|darkness| **darkness < f64::INFINITY).count();
         // A far lobe shows if it is the only bright one, or if nothing beside it is brighter.

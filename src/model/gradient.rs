@@ -171,7 +171,7 @@ impl Pbrdf {
         out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
 
         // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
-let gains = [-limit * share, 1.0 / total];
+        let gains = [-limit * share, 1.0 / total];
         let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gains);
         out[Parameter::Kv as usize] = darken(lobes.volume, 1.0);
         match self.model().diffuse {

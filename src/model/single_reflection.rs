@@ -84,7 +84,7 @@ impl Loss {
         }
         let [whole, by_sigma, by_q] = sums;
         if whole > 0.0 {
-            Self { lobe: Lobe { factor: FRAC_1_PI * whole, exponent }, by_sigma: by_sigma / whole, by_q: by_q / whole }
+            Self { lobe: Lobe::new(FRAC_1_PI * whole, exponent), by_sigma: by_sigma / whole, by_q: by_q / whole }
         } else {
             Self { lobe: Lobe::DARK, by_sigma: 0.0, by_q: 0.0 }
         }
@@ -208,7 +208,7 @@ mod tests {
         for (distribution, q) in [(Gauss, 2.0), (Cauchy, 1.4), (Cauchy, 6.0)] {
             for (theta_i, sigma) in [(0.0, 0.2), (40.0, 0.05), (70.0, 0.6), (88.0, 0.3)] {
                 let ln = |sigma: f64, q: f64| {
-                    let Lobe { factor, exponent } = Loss::at(distribution, Degrees(theta_i), sigma, q).lobe;
+                    let Lobe { factor, exponent, .. } = Loss::at(distribution, Degrees(theta_i), sigma, q).lobe;
                     libm::log(factor) - exponent
                 };
                 let loss = Loss::at(distribution, Degrees(theta_i), sigma, q);
