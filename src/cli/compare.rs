@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::problem::{NoProblem, problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
-use pbrdf::fit::{FitReport, ProblemError, fit};
+use pbrdf::fit::{FitReport, ProblemError, Standing, fit};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use pbrdf::report::fit_json;
@@ -93,11 +93,12 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
         for (_, report) in &fitted {
             let cell = report.estimates.iter().find(|estimate| estimate.parameter == parameter).map_or_else(
                 || "-".to_owned(),
-                |estimate| match (estimate.free, estimate.std_error, estimate.at_bound) {
-                    (false, ..) => format!("{:.5} fixed", estimate.value),
-                    (true, _, Some(_)) => format!("{:.5} at bound", estimate.value),
-                    (true, Some(error), None) => format!("{:.5} ± {error:.1e}", estimate.value),
-                    (true, None, None) => format!("{:.5} open", estimate.value),
+                |estimate| match estimate.standing() {
+                    Standing::Fixed => format!("{:.5} fixed", estimate.value),
+                    Standing::AtBound(_) => format!("{:.5} at bound", estimate.value),
+                    Standing::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
+                    Standing::NoFreedom => format!("{:.5} no d.o.f.", estimate.value),
+                    Standing::Open => format!("{:.5} open", estimate.value),
                 },
             );
             write!(out, " {cell:>22}")?;

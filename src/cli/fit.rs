@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::problem::{problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
-use pbrdf::fit::{Edge, FitReport, Profile, Scatter, bootstrap, fit, profile};
+use pbrdf::fit::{Edge, FitReport, Profile, Scatter, Standing, bootstrap, fit, profile};
 use pbrdf::measurement::{Measurement, append_columns, exact};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
@@ -92,13 +92,13 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     }
     writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± std.err.", "start")?;
     for estimate in &report.estimates {
-        let error = match (estimate.free, estimate.std_error, estimate.at_bound) {
-            (false, ..) => "fixed".to_owned(),
-            (true, _, Some(Edge::Lower)) => "at lower".to_owned(),
-            (true, _, Some(Edge::Upper)) => "at upper".to_owned(),
-            (true, Some(error), None) => format!("{error:.3e}"),
-            (true, None, None) if report.determined.contains(&estimate.parameter) => "no d.o.f.".to_owned(),
-            (true, None, None) => "open".to_owned(),
+        let error = match estimate.standing() {
+            Standing::Fixed => "fixed".to_owned(),
+            Standing::AtBound(Edge::Lower) => "at lower".to_owned(),
+            Standing::AtBound(Edge::Upper) => "at upper".to_owned(),
+            Standing::Determined(error) => format!("{error:.3e}"),
+            Standing::NoFreedom => "no d.o.f.".to_owned(),
+            Standing::Open => "open".to_owned(),
         };
         let unit = estimate.parameter.unit();
         writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;

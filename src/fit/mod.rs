@@ -3,21 +3,25 @@
 //! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitReport`]: a value with parameters, standard errors, what
 //! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Watch`]).
 
+mod band;
 mod bootstrap;
 mod bounds;
 mod choices;
 mod coordinates;
 mod outcome;
+mod plan;
 mod problem;
 mod profile;
 mod solver;
 mod starts;
 mod uncertainty;
 
+pub use band::Band;
 pub use bootstrap::{Scatter, bootstrap};
 pub use bounds::{Bounds, BoundsError};
 pub use choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
-pub use outcome::{Edge, Estimate, FitReport, Minimum, fit};
+pub use outcome::{Edge, Estimate, FitReport, Minimum, Standing, fit};
+pub use plan::{Plan, PlanError, PlannedNoise, Prediction};
 pub use problem::{Problem, ProblemError, free_by_default};
 pub use profile::{Profile, ProfilePoint, profile};
 pub use solver::{Descent, Effort, StopReason, TracePoint, Watch, descend};

@@ -1,5 +1,6 @@
 //! The result of a fit: values, uncertainties, what is open, and how it came about.
 
+use super::band::Band;
 use super::choices::{Loss, Weights};
 use super::problem::Problem;
 use super::solver::{Descent, StopReason, TracePoint, Watch};
@@ -32,6 +33,37 @@ pub struct Estimate {
     pub std_error: Option<f64>,
     /// The bound it rests on.
     pub at_bound: Option<Edge>,
+    /// Whether the data determine it: only a degree of freedom may be missing for a standard error.
+    pub determined: bool,
+}
+
+/// How an estimate stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Standing {
+    /// The fit did not touch it.
+    Fixed,
+    /// It rests on a bound, and has no standard error there.
+    AtBound(Edge),
+    /// The data determine it, with this standard error in its own unit.
+    Determined(f64),
+    /// The data determine it, but no degree of freedom is left to tell a standard error from.
+    NoFreedom,
+    /// The data leave it open.
+    Open,
+}
+
+impl Estimate {
+    /// How it stands; a bound comes before all else that is said of a free parameter.
+    #[must_use]
+    pub fn standing(&self) -> Standing {
+        match (self.free, self.at_bound, self.std_error) {
+            (false, ..) => Standing::Fixed,
+            (true, Some(edge), _) => Standing::AtBound(edge),
+            (true, None, Some(error)) => Standing::Determined(error),
+            (true, None, None) if self.determined => Standing::NoFreedom,
+            (true, None, None) => Standing::Open,
+        }
+    }
 }
 
 /// The end of one start, for the list of minima.
@@ -82,6 +114,8 @@ pub struct FitReport {
     pub determined: Vec<Parameter>,
     /// Their correlations.
     pub correlations: DMatrix<f64>,
+    /// Standard errors of the fitted curves at any geometry.
+    pub band: Band,
     /// Where the starts led.
     pub minima: Vec<Minimum>,
     /// The improvements on the way of the winning start.
@@ -138,6 +172,7 @@ impl FitReport {
             free: problem.free().contains(&parameter),
             std_error: uncertainty.standard_error(parameter),
             at_bound: edges.iter().find(|(other, _)| *other == parameter).map(|(_, edge)| *edge),
+            determined: uncertainty.determined.contains(&parameter),
         });
         let objective = (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten();
         let in_data_units = sum_of_squares * problem.sum_of_squares_scale();
@@ -159,8 +194,9 @@ impl FitReport {
             evaluations,
             elapsed_ms,
             correlations: uncertainty.correlations(),
-            determined: uncertainty.determined,
-            undetermined: uncertainty.open,
+            determined: uncertainty.determined.clone(),
+            undetermined: uncertainty.open.clone(),
+            band: Band::new(problem, &parameters, uncertainty),
             minima,
             trace,
             parameters,

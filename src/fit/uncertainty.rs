@@ -7,7 +7,7 @@
 use super::choices::Weights;
 use super::problem::Problem;
 use crate::model::{Parameter, ParameterSet, Parameters};
-use nalgebra::{DMatrix, SVD};
+use nalgebra::{DMatrix, DVector, SVD};
 use serde::Serialize;
 
 /// Singular values below this fraction of the largest count as 0.
@@ -44,6 +44,14 @@ pub struct Uncertainty {
     pub covariance: DMatrix<f64>,
     /// What is left open.
     pub open: Vec<OpenDirection>,
+    /// The parameters that took part: the free ones that do not rest on a bound.
+    pub(super) analysed: Vec<Parameter>,
+    /// Pseudo-inverse covariance of all of those.
+    spread: DMatrix<f64>,
+    /// The open directions as orthonormal rows, in units of the scales.
+    null_space: DMatrix<f64>,
+    /// The size that a change of each is measured by.
+    scales: Vec<f64>,
 }
 
 impl Uncertainty {
@@ -76,11 +84,11 @@ impl Uncertainty {
         let share = |j: usize| left.iter().map(|&i| v_t[(i, j)] * v_t[(i, j)]).sum::<f64>().sqrt();
         let kept: Vec<usize> = (0..columns).filter(|&j| share(j) < UNDETERMINED_SHARE).collect();
         let variance = variance_of_unit_weight(&problem, sum_of_squares, counted.len());
-        let covariance = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
-            let (a, b) = (kept[a], kept[b]);
+        let spread = DMatrix::from_fn(columns, columns, |a, b| {
             let sum: f64 = counted.iter().map(|&i| v_t[(i, a)] * v_t[(i, b)] / (svd.singular_values[i] * svd.singular_values[i])).sum();
             variance * scales[a] * scales[b] * sum
         });
+        let covariance = DMatrix::from_fn(kept.len(), kept.len(), |a, b| spread[(kept[a], kept[b])]);
         let smallest = counted.iter().map(|&i| svd.singular_values[i]).fold(f64::INFINITY, f64::min);
         let null_space = DMatrix::from_fn(left.len(), columns, |i, j| v_t[(left[i], j)]);
         Self {
@@ -88,14 +96,43 @@ impl Uncertainty {
             condition: (!counted.is_empty()).then(|| largest / smallest),
             determined: kept.iter().map(|&j| free[j]).collect(),
             covariance,
-            open: describe(null_space, free, problem.knows_only_ratios()),
+            open: describe(null_space.clone(), free, problem.knows_only_ratios()),
+            analysed: free.to_vec(),
+            spread,
+            null_space,
+            scales,
         }
     }
 
     /// Nothing is determined.
     fn nothing(free: &[Parameter]) -> Self {
         let open = free.iter().map(|&parameter| OpenDirection { text: no_effect(parameter), direction: vec![(parameter, 1.0)] });
-        Self { rank: 0, condition: None, determined: Vec::new(), covariance: DMatrix::zeros(0, 0), open: open.collect() }
+        let count = free.len();
+        Self {
+            rank: 0,
+            condition: None,
+            determined: Vec::new(),
+            covariance: DMatrix::zeros(0, 0),
+            open: open.collect(),
+            analysed: free.to_vec(),
+            spread: DMatrix::zeros(count, count),
+            null_space: DMatrix::identity(count, count),
+            scales: vec![1.0; count],
+        }
+    }
+
+    /// Standard error of a prediction with that gradient (in the order of [`Parameter::ALL`]), `√(gᵀ C g)`; none where the gradient has a share in an open
+    /// direction, or where the covariance is unknown.
+    #[must_use]
+    pub fn error_of_prediction(&self, gradient: &[f64; 9]) -> Option<f64> {
+        let g = DVector::from_iterator(self.analysed.len(), self.analysed.iter().map(|&parameter| gradient[parameter as usize]));
+        let scaled = DVector::from_iterator(g.len(), g.iter().zip(&self.scales).map(|(slope, scale)| slope * scale));
+        let is_open = (&self.null_space * &scaled).norm() > UNDETERMINED_SHARE * scaled.norm();
+        // Rounding may leave a variance of 0 an ulp below it.
+        let variance = g.dot(&(&self.spread * &g)).max(0.0);
+        // f64::max drops a NaN: an unknown covariance must not become certainty.
+        let is_known = self.spread.iter().all(|element| element.is_finite());
+        (!is_open && is_known).then(|| variance.sqrt()).filter(|error| error.is_finite())
     }
 
     /// Standard error of a parameter, in its own unit; none if it is fixed, at a bound, undetermined, or no degree of freedom is left.

@@ -47,8 +47,8 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Makes the measurement, row after row of θr for each θi.
-    pub fn run(&self) -> Result<Measurement, GeometryError> {
+    /// Where is measured, row after row of θr for each θi.
+    pub fn geometries(&self) -> Result<Vec<Geometry>, GeometryError> {
         let mut geometries = Vec::with_capacity(self.theta_i.len() * self.theta_r.len());
         for &theta_i in &self.theta_i {
             for &theta_r in &self.theta_r {
@@ -56,6 +56,12 @@ impl Simulation {
                 geometries.push(if in_plane { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, self.dphi) }?);
             }
         }
+        Ok(geometries)
+    }
+
+    /// Makes the measurement, in the order of the geometries.
+    pub fn run(&self) -> Result<Measurement, GeometryError> {
+        let geometries = self.geometries()?;
         let mut deviates = Deviates::new(self.seed);
         let scene = Scene::new(geometries.iter().copied());
         let rows = geometries.iter().zip(scene.reflections(&self.surface)).map(|(&geometry, reflection)| {

@@ -8,7 +8,7 @@ use crate::app::scans::Bootstrap;
 use crate::app::theme;
 use crate::app::words;
 use egui::{Grid, Ui};
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, StopReason, Weights};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
@@ -89,7 +89,7 @@ fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.label(estimate.parameter.symbol()).on_hover_text(estimate.parameter.name());
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate, report));
+            ui.label(error_text(estimate));
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
@@ -189,14 +189,13 @@ fn short_correlation(r: f64) -> String {
     if r.is_nan() { "-".to_owned() } else { format!("{r:.2}").replace("0.", ".") }
 }
 
-fn error_text(estimate: &Estimate, report: &FitReport) -> String {
-    let unit = estimate.parameter.unit();
-    match (estimate.free, estimate.at_bound, estimate.std_error) {
-        (false, ..) => "fixed".to_owned(),
-        (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
-        (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
-        (true, None, Some(error)) => format!("{error:.1e} {unit}").trim_end().to_owned(),
-        (true, None, None) if report.determined.contains(&estimate.parameter) => "no d.o.f.".to_owned(),
-        (true, None, None) => "open".to_owned(),
+fn error_text(estimate: &Estimate) -> String {
+    match estimate.standing() {
+        Standing::Fixed => "fixed".to_owned(),
+        Standing::AtBound(Edge::Lower) => "at lower bound".to_owned(),
+        Standing::AtBound(Edge::Upper) => "at upper bound".to_owned(),
+        Standing::Determined(error) => format!("{error:.1e} {}", estimate.parameter.unit()).trim_end().to_owned(),
+        Standing::NoFreedom => "no d.o.f.".to_owned(),
+        Standing::Open => "open".to_owned(),
     }
 }
