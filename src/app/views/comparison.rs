@@ -6,7 +6,7 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::worker::{Job, Rung};
 use egui::{CollapsingHeader, Grid, ScrollArea, Ui};
-use pbrdf::fit::FitReport;
+use pbrdf::fit::{FitReport, Standing};
 use pbrdf::model::Parameter;
 
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
@@ -99,11 +99,12 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
             continue;
         };
         let value = significant(estimate.value);
-        let text = match (estimate.free, estimate.at_bound, estimate.std_error) {
-            (false, ..) => format!("{value} fixed"),
-            (true, Some(_), _) => format!("{value} at bound"),
-            (true, None, Some(error)) => format!("{value} ± {error:.0e}"),
-            (true, None, None) => format!("{value} open"),
+        let text = match estimate.standing() {
+            Standing::Fixed => format!("{value} fixed"),
+            Standing::AtBound(_) => format!("{value} at bound"),
+            Standing::Determined(error) => format!("{value} ± {error:.0e}"),
+            Standing::NoFreedom => format!("{value} no d.o.f."),
+            Standing::Open => format!("{value} open"),
         };
         ui.monospace(text);
     }
