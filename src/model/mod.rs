@@ -5,6 +5,7 @@
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
 mod assignment;
+mod batch;
 mod far_tail;
 mod finishes;
 mod gradient;
@@ -17,6 +18,7 @@ mod scene;
 mod single_reflection;
 
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
+pub use batch::{Batch, DolpGradients, Instructions, Radiances};
 pub use finishes::{FINISHES, Finish};
 pub use gradient::{Gradient, Wanted};
 pub use ladder::{PRESETS, Preset};

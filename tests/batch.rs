@@ -1,0 +1,226 @@
+//! The batch kernel against 60-digit arithmetic and against the scalar form.
+#![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
+
+mod common;
+
+use common::{Row, gradient_error, relative_error, table};
+use pbrdf::model::{Batch, Diffuse, DolpGradients, Instructions, Model, Parameter, Parameters, Pbrdf, Radiances, Wanted};
+use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
+
+/// Bar on the relative error of BRDF and DoLP against 60 digits.
+const VALUE: f64 = 1e-13;
+/// Bar on the gradient, in the measure of [`gradient_error`].
+const GRADIENT: f64 = 1e-12;
+
+const WIDTHS: [Instructions; 3] = [Instructions::Widest, Instructions::Avx2, Instructions::Portable];
+
+/// sin²β/|N² − sin²β|, at least 1: how much an index at its critical angle magnifies a rounding of sin²β.
+fn critical_angle_factor(row: &Row) -> f64 {
+    let s = Facet::new(row.geometry()).sin_beta_sq;
+    let (n, k) = (row.number("n"), row.number("k"));
+    (s / libm::hypot((n - k) * (n + k) - s, 2.0 * n * k)).max(1.0)
+}
+
+fn values_agree(name: &str, instructions: Instructions) {
+    let mut worst = (0.0, 0.0);
+    let (mut dolp, mut brdf, mut radiances) = (Vec::new(), Vec::new(), Radiances::default());
+    for row in table(name) {
+        let batch = Batch::new([row.geometry()]).with_instructions(instructions);
+        let surface = row.surface();
+        batch.dolp(&surface, &mut dolp);
+        batch.brdf(&surface, &mut brdf);
+        batch.radiances(&surface, &mut radiances);
+        assert_eq!(radiances.brdf, brdf);
+        let bar = VALUE * critical_angle_factor(&row);
+        for (column, value) in [("brdf", brdf[0]), ("dolp", dolp[0]), ("dolp", radiances.dolp[0]), ("specular", radiances.specular[0])] {
+            let error = relative_error(value, row.number(column));
+            assert!(error <= bar, "{name} line {} ({}): {column} = {value:e}, relative error {error:.1e}", row.line, row.text("case"));
+            match column {
+                "brdf" => worst.0 = f64::max(worst.0, error),
+                "dolp" => worst.1 = f64::max(worst.1, error),
+                _ => {}
+            }
+        }
+    }
+    println!("{name}, {}: worst relative error {:.1e} in BRDF, {:.1e} in DoLP", instructions.name(), worst.0, worst.1);
+}
+
+fn gradients_agree(name: &str, instructions: Instructions) {
+    let mut worst: f64 = 0.0;
+    let mut gradients = DolpGradients::default();
+    for row in table(name) {
+        let batch = Batch::new([row.geometry()]).with_instructions(instructions);
+        batch.dolp_gradients(&row.surface(), &mut gradients);
+        let values = std::array::from_fn(|j| gradients.by[j][0]);
+        let references = Parameter::ALL.map(|parameter| row.number(&format!("ddolp_d{}", parameter.key())));
+        let error = gradient_error(&values, &references, &row.parameters());
+        let bar = GRADIENT * critical_angle_factor(&row);
+        assert!(error <= bar, "{name} line {} ({}): error {error:.1e}\n{values:?}\n{references:?}", row.line, row.text("case"));
+        worst = worst.max(error);
+    }
+    println!("{name}, {}: worst gradient error {worst:.1e}", instructions.name());
+}
+
+#[test]
+fn values_agree_with_sixty_digits() {
+    for instructions in WIDTHS {
+        values_agree("golden.csv", instructions);
+        values_agree("golden_corners.csv", instructions);
+    }
+}
+
+#[test]
+fn gradients_agree_with_sixty_digits() {
+    for instructions in WIDTHS {
+        gradients_agree("golden_jacobian.csv", instructions);
+        gradients_agree("golden_corners.csv", instructions);
+    }
+}
+
+/// A number below 1 for each i, spread evenly (golden ratio and its like).
+fn spread(i: usize, step: f64) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a small number")]
+    let i = i as f64;
+    (i * step).fract()
+}
+
+/// Geometries over the hemisphere, with the awkward ones among them: normal, retro, grazing, in plane.
+fn geometries(count: usize) -> Vec<Geometry> {
+    (0..count)
+        .map(|i| {
+            let (theta_i, theta_r, dphi) = match i % 11 {
+                0 => (0.0, 0.0, 0.0),
+                1 => (45.0, 45.0, 180.0),
+                2 => (45.0, 45.0, 0.0),
+                3 => (90.0 - 1e-6, 90.0 - 1e-6, 180.0),
+                4 => (90.0 - 1e-6, 90.0 - 1e-6, 0.0),
+                5 => (60.0, 1e-9, 90.0),
+                _ => (90.0 * spread(i, 0.618_034), 90.0 * spread(i, 0.754_878), 360.0 * spread(i, 0.569_84)),
+            };
+            Geometry::new(theta_i, theta_r, dphi).expect("angles in range")
+        })
+        .collect()
+}
+
+/// Surfaces over the box, its edges among them, and some far outside it.
+fn surfaces() -> Vec<Pbrdf> {
+    let mut surfaces = Vec::new();
+    for i in 0..240 {
+        let mut parameters = Parameters::default();
+        for (j, parameter) in Parameter::ALL.into_iter().enumerate() {
+            let (low, high) = (*parameter.range().start(), *parameter.range().end());
+            parameters[parameter] = match (i + 3 * j) % 10 {
+                0 => low,
+                1 => high,
+                _ => low + (high - low) * spread(i * 9 + j, 0.618_034),
+            };
+        }
+        match i % 24 {
+            5 => parameters.n = 1e12,
+            6 => (parameters.n, parameters.k) = (0.0, 1e-40),
+            7 => (parameters.n, parameters.k) = (1.0, 0.0),
+            8 => parameters.ks = 0.0,
+            9 => parameters.sigma = 1e-200,
+            10 => parameters.kd = 1e300,
+            11 => (parameters.n, parameters.k) = (1.0 + 1e-9, 0.0),
+            12 => parameters.q = 1e4,
+            13 => parameters.sigma_v = 1e-6,
+            14 => parameters.c = 40.0,
+            15 => parameters.c = -40.0,
+            _ => {}
+        }
+        let distribution = SlopeDistribution::ALL[i % 2];
+        let diffuse = [Diffuse::Minnaert, Diffuse::Lambert, Diffuse::Absent, Diffuse::Hyde][i / 2 % 4];
+        let model = Model { masking: i / 12 % 2 == 0, diffuse, volume: i / 6 % 2 == 0, ..Model::full(distribution) };
+        surfaces.push(Pbrdf::new(model, parameters).expect("inside the domain"));
+    }
+    let lobes_only = Model { specular: false, ..Model::full(SlopeDistribution::Gauss) };
+    surfaces.push(Pbrdf::new(lobes_only, Parameters::default()).expect("inside the domain"));
+    surfaces
+}
+
+/// Both forms are within 1e-13 of the truth, wherever they are above [`common::NEGLIGIBLE`].
+const APART: f64 = 2.0 * VALUE;
+
+#[test]
+fn agrees_with_the_scalar_form_everywhere() {
+    let batch = Batch::new(geometries(203));
+    let (mut dolp, mut radiances) = (Vec::new(), Radiances::default());
+    for surface in surfaces() {
+        batch.dolp(&surface, &mut dolp);
+        batch.radiances(&surface, &mut radiances);
+        for (i, facet) in batch.facets().iter().enumerate() {
+            let expected = surface.reflection(facet);
+            for (value, reference) in [
+                (dolp[i], expected.dolp),
+                (radiances.dolp[i], expected.dolp),
+                (radiances.brdf[i], expected.brdf),
+                (radiances.specular[i], expected.specular),
+            ] {
+                let same = value == reference || relative_error(value, reference) <= APART;
+                assert!(same, "{value:e} is not {reference:e} at {facet:?} of {surface:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn gradients_agree_with_the_scalar_form_everywhere() {
+    let batch = Batch::new(geometries(101));
+    let mut gradients = DolpGradients::default();
+    for surface in surfaces() {
+        batch.dolp_gradients(&surface, &mut gradients);
+        for (i, facet) in batch.facets().iter().enumerate() {
+            let (_, expected) = surface.reflection_and_gradient(facet, Wanted::ALL);
+            let values: [f64; 9] = std::array::from_fn(|j| gradients.by[j][i]);
+            let error = gradient_error(&values, &expected.dolp, surface.parameters());
+            assert!(error <= 2.0 * GRADIENT, "{error:e}: {values:?} is not {:?} at {facet:?} of {surface:?}", expected.dolp);
+            let infinite = |derivative: &f64| derivative.is_infinite();
+            assert_eq!(values.map(|d| infinite(&d)), expected.dolp.map(|d| infinite(&d)));
+        }
+    }
+}
+
+#[test]
+fn every_length_has_every_point_in_its_place() {
+    let all = geometries(67);
+    let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
+    let mut whole = Vec::new();
+    Batch::new(all.iter().copied()).dolp(&surface, &mut whole);
+    for count in 0..all.len() {
+        for instructions in WIDTHS {
+            let batch = Batch::new(all[..count].iter().copied()).with_instructions(instructions);
+            // A column that was longer before.
+            let mut dolp = vec![f64::NAN; 99];
+            batch.dolp(&surface, &mut dolp);
+            assert_eq!(dolp.len(), count);
+            let mut shifted = Vec::new();
+            Batch::new(all[count / 2..count].iter().copied()).with_instructions(instructions).dolp(&surface, &mut shifted);
+            assert_eq!(dolp[count / 2..], shifted, "a point's value depends on its place");
+            assert!(dolp.iter().zip(&whole).all(|(a, b)| a == b || relative_error(*a, *b) < VALUE));
+        }
+    }
+}
+
+#[test]
+fn threads_and_widths_do_not_change_a_bit() {
+    let batch = Batch::new(geometries(50_001));
+    let alone = batch.clone().single_threaded();
+    let narrow = batch.clone().with_instructions(Instructions::Avx2);
+    let has_fma = Instructions::Avx2.name() == "AVX2";
+    for surface in surfaces().iter().step_by(17) {
+        let mut results = [(); 3].map(|()| (Radiances::default(), DolpGradients::default()));
+        for (batch, (radiances, gradients)) in [&batch, &alone, &narrow].into_iter().zip(&mut results) {
+            batch.radiances(surface, radiances);
+            batch.dolp_gradients(surface, gradients);
+        }
+        let bits = |x: &[f64]| x.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        for (radiances, gradients) in &results[1..if has_fma { 3 } else { 2 }] {
+            assert_eq!(bits(&radiances.dolp), bits(&results[0].0.dolp));
+            assert_eq!(bits(&radiances.brdf), bits(&results[0].0.brdf));
+            for j in 0..9 {
+                assert_eq!(bits(&gradients.by[j]), bits(&results[0].1.by[j]));
+            }
+        }
+    }
+}
