@@ -1,126 +1,134 @@
-//! The coordinates that the solver walks in: no bounds, and few curved valleys.
+//! The pBRDF's residuals as a least squares problem, and the coordinates in which its valleys are straight.
 //!
-//! Each free parameter p in [a, b] becomes an angle φ with `p = a + (b − a) sin²φ`: smooth, onto the closed box, and a step
-//! too long folds back instead of running away.
-//!
-//! The height of the specular lobe goes as h(q)/σ² (h = 1 for Gauss, q − 1 for Cauchy). DoLP sees k_d and k_v only over that
-//! height, so that changing σ or q alone throws them off, and a descent in plain coordinates creeps along the curved valley in which they
-//! make up for it. There the coordinate of k_d and k_v is `z = φ/g`, `g = √h(q)/σ` over its value at the start: near the
-//! lower bound, where `k ∝ φ²`, z holds k/g² fixed while σ and q move. With a measured BRDF it is k_s that makes up for
-//! them, the other way round: `z = φ g`.
+//! The height of the specular lobe goes as `h(q)/σ²` (h = 1 for Gauss, q − 1 for Cauchy). DoLP sees k_d and k_v only over that
+//! height, so that changing σ or q alone throws them off, and a descent creeps along the curved valley in which they make up for it. In
+//! the straightened coordinates `k_d σ²/h` and `k_v σ²/h` stay when σ or q move. With a measured BRDF it is k_s that makes up for them, and
+//! `k_s h/σ²` stays. Sizes are walked by factors: the coordinate of p is `ln(p − origin)`.
 
+use super::least_squares::LeastSquares;
 use super::problem::Problem;
 use crate::model::{Parameter, Parameters};
 use crate::optics::SlopeDistribution;
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::FRAC_PI_2;
 
-/// The fraction of the box that a start keeps from an edge, where the slope by φ vanishes.
-const START_MARGIN: f64 = 1e-3;
+/// Below this objective the relative misfit is 1e-13: rounding, not physics.
+const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
-/// Solver coordinates of a problem's free parameters.
-pub(super) struct Coordinates<'a> {
-    problem: &'a Problem,
-    /// For each free parameter the power of g in φ = z gᵖ: 0 for those that go their own way.
-    powers: Vec<i32>,
-    /// √h(q)/σ at the start.
-    start_height: f64,
+/// From where a parameter is walked by factors; none where by steps.
+fn origin(parameter: Parameter) -> Option<f64> {
+    match parameter {
+        // n and k may be 0, which has no logarithm.
+        Parameter::N => Some(-0.05),
+        Parameter::K => Some(-0.5),
+        Parameter::Sigma | Parameter::SigmaV => Some(0.0),
+        Parameter::Q => Some(1.0),
+        Parameter::Ks | Parameter::Kd | Parameter::Kv | Parameter::C => None,
+    }
 }
 
-impl<'a> Coordinates<'a> {
-    /// Each parameter goes its own way.
-    pub(super) fn plain(problem: &'a Problem) -> Self {
-        Self { problem, powers: vec![0; problem.free().len()], start_height: 1.0 }
+impl Problem {
+    /// All nine parameters, given the free ones.
+    pub(super) fn parameters_at(&self, x: &DVector<f64>) -> Parameters {
+        let mut parameters = *self.start();
+        for (&parameter, value) in self.free().iter().zip(x.iter()) {
+            parameters[parameter] = *value;
+        }
+        parameters
     }
 
-    /// The weights follow σ and q.
-    pub(super) fn valley(problem: &'a Problem) -> Self {
-        let power = |parameter: &Parameter| match parameter {
-            _ if !problem.model().specular => 0,
-            Parameter::Kd | Parameter::Kv if problem.knows_only_ratios() => 1,
-            Parameter::Ks if !problem.knows_only_ratios() => -1,
+    /// σ²/h.
+    fn flatness(&self, parameters: &Parameters) -> f64 {
+        parameters.sigma * parameters.sigma / self.model().distribution.height(parameters.q)
+    }
+
+    /// The power of σ²/h that a weight goes with: 0 for what goes its own way.
+    fn power(&self, parameter: Parameter) -> i32 {
+        match parameter {
+            _ if !self.model().specular => 0,
+            Parameter::Kd | Parameter::Kv if self.knows_only_ratios() => 1,
+            Parameter::Ks if !self.knows_only_ratios() => -1,
             _ => 0,
-        };
-        let mut coordinates = Self { powers: problem.free().iter().map(power).collect(), ..Self::plain(problem) };
-        coordinates.start_height = coordinates.height(problem.start());
-        coordinates
-    }
-
-    /// g: √h(q)/σ over its value at the start.
-    fn height(&self, parameters: &Parameters) -> f64 {
-        let h = self.problem.model().distribution.height(parameters.q);
-        h.sqrt() / parameters.sigma / self.start_height
-    }
-
-    fn box_of(&self, j: usize) -> (f64, f64) {
-        let (low, high) = self.problem.bounds().of(self.problem.free()[j]);
-        (low, high - low)
-    }
-
-    /// The coordinates of the start, a little inside the box: there g = 1, and z = φ.
-    pub(super) fn start(&self) -> DVector<f64> {
-        let free = self.problem.free();
-        DVector::from_fn(free.len(), |j, _| {
-            let (low, width) = self.box_of(j);
-            let fraction = ((self.problem.start()[free[j]] - low) / width).clamp(START_MARGIN, 1.0 - START_MARGIN);
-            FRAC_PI_2 - libm::acos(fraction.sqrt())
-        })
-    }
-
-    /// φ of each free parameter, given z and g.
-    fn angle(&self, j: usize, z: f64, g: f64) -> f64 {
-        match self.powers[j] {
-            0 => z,
-            power if power > 0 => z * g,
-            _ => z / g,
         }
     }
+}
 
-    /// The parameters at those coordinates.
-    pub(super) fn parameters(&self, z: &DVector<f64>) -> Parameters {
-        let mut parameters = *self.problem.start();
-        let mut set = |own_way: bool, g: f64| {
-            for (j, &parameter) in self.problem.free().iter().enumerate() {
-                if (self.powers[j] == 0) == own_way {
-                    let (low, width) = self.box_of(j);
-                    let sin = libm::sin(self.angle(j, z[j], g));
-                    parameters[parameter] = self.problem.bounds().clamp(parameter, low + width * sin * sin);
-                }
-            }
-            parameters
-        };
-        // σ and q first: g follows from them.
-        let g = self.height(&set(true, 1.0));
-        set(false, g)
+impl LeastSquares for Problem {
+    fn residual_count(&self) -> usize {
+        self.len()
     }
 
-    /// Turns the derivatives by the parameters into those by the coordinates.
-    pub(super) fn chain(&self, z: &DVector<f64>, parameters: &Parameters, jacobian: &mut DMatrix<f64>) {
-        let g = self.height(parameters);
-        let free = self.problem.free();
-        let phi: Vec<f64> = (0..free.len()).map(|j| self.angle(j, z[j], g)).collect();
-        for (j, phi) in phi.iter().enumerate() {
-            // dp/dφ
-            jacobian.column_mut(j).scale_mut(self.box_of(j).1 * libm::sin(2.0 * phi));
-        }
-        for (i, &parameter) in free.iter().enumerate() {
-            // ∂ln g/∂σ and ∂ln g/∂q
+    fn start(&self) -> DVector<f64> {
+        DVector::from_iterator(self.free().len(), self.free().iter().map(|&parameter| Self::start(self)[parameter]))
+    }
+
+    fn bounds_of(&self, unknown: usize) -> (f64, f64) {
+        self.bounds().of(self.free()[unknown])
+    }
+
+    fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool {
+        self.residuals(&self.parameters_at(x), out)
+    }
+
+    fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool {
+        self.jacobian(&self.parameters_at(x), out)
+    }
+
+    fn objective_at(&self, sum_of_squares: f64, x: &DVector<f64>) -> f64 {
+        if self.minimises_delta_e() { sum_of_squares } else { self.objective(sum_of_squares, &self.parameters_at(x)) }
+    }
+
+    fn negligible(&self) -> f64 {
+        ROUNDING_OBJECTIVE
+    }
+
+    fn straighten(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
+        for &i in moving {
+            let parameter = self.free()[i];
+            let Some(origin) = origin(parameter) else { continue };
+            jacobian.column_mut(i).scale_mut(x[i] - origin);
+            // ∂ln(σ²/h) by the coordinate.
             let slope = match parameter {
-                Parameter::Sigma => -1.0 / parameters.sigma,
-                Parameter::Q if self.problem.model().distribution == SlopeDistribution::Cauchy => 0.5 / (parameters.q - 1.0),
+                Parameter::Sigma => 2.0,
+                Parameter::Q if self.model().distribution == SlopeDistribution::Cauchy => -1.0,
                 _ => continue,
             };
-            let along = slope * self.box_of(i).1 * libm::sin(2.0 * phi[i]);
-            for (j, phi) in phi.iter().enumerate().filter(|(j, _)| self.powers[*j] != 0) {
-                let moved = jacobian.column(j) * (along * phi * f64::from(self.powers[j]));
-                let mut column = jacobian.column_mut(i);
-                column += moved;
+            for &j in moving {
+                let power = self.power(self.free()[j]);
+                if power != 0 && x[j] != 0.0 {
+                    let along = -slope * f64::from(power) * x[j];
+                    let weight = jacobian.column(j).clone_owned();
+                    jacobian.column_mut(i).axpy(along, &weight, 1.0);
+                }
             }
         }
-        for j in 0..free.len() {
-            // dφ/dz
-            jacobian.column_mut(j).scale_mut(self.angle(j, 1.0, g));
+    }
+
+    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+        let (low, high) = self.bounds_of(unknown);
+        match origin(self.free()[unknown]) {
+            Some(origin) => {
+                let size = x[unknown] - origin;
+                (libm::log((low - origin) / size), libm::log((high - origin) / size))
+            }
+            None => (low - x[unknown], high - x[unknown]),
         }
-        // A power of 0 has angle(1) = 1: its column stays.
+    }
+
+    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+        out.copy_from(x);
+        for (&j, step) in moving.iter().zip(step) {
+            out[j] = match origin(self.free()[j]) {
+                Some(origin) => origin + (x[j] - origin) * libm::exp(*step),
+                None => x[j] + step,
+            };
+        }
+        let flatter = self.flatness(&self.parameters_at(out)) / self.flatness(&self.parameters_at(x));
+        for &j in moving {
+            match self.power(self.free()[j]) {
+                0 => {}
+                power if power > 0 => out[j] /= flatter,
+                _ => out[j] *= flatter,
+            }
+        }
     }
 }

@@ -1,17 +1,16 @@
-//! Levenberg–Marquardt in a box, from one start.
+//! From one start to a minimum.
 //!
-//! The solver is the crate `levenberg-marquardt` (MINPACK's lmder), in the coordinates of [`super::coordinates`]. Where the
-//! minimum lies on an edge of the box the slope by a coordinate vanishes there and convergence would be slow: a parameter that has
-//! come to rest at an edge with the gradient pointing outwards is put on it and the rest fitted again.
+//! Two ways lead there. [`super::walk`] is fast, bends with valleys and ends exactly on edges of the box, but may run into an edge before it
+//! sees the minimum behind. The crate `levenberg-marquardt` ([`super::approach`]) never quite reaches an edge and comes by; it makes the approach
+//! where a walk alone has failed, and where a start is one of many.
 
-use super::coordinates::Coordinates;
+use super::approach::approach;
+use super::least_squares::LeastSquares;
 use super::problem::Problem;
-use crate::model::{Parameter, ParameterSet, Parameters};
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+use super::walk::{Limits, Walk};
+use crate::model::Parameters;
+use nalgebra::DVector;
 use serde::Serialize;
-use std::cell::RefCell;
 
 /// Why a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -94,134 +93,114 @@ pub struct Descent {
     pub trace: Vec<TracePoint>,
 }
 
-/// Below this objective the relative misfit is 1e-13: rounding, not physics.
-const ROUNDING_OBJECTIVE: f64 = 1e-26;
-/// A parameter this near an edge, as a fraction of the box, is at it.
-const AT_EDGE: f64 = 1e-5;
-/// First step bound of MINPACK: 100 by default, which overshoots from far starts.
-const STEP_BOUND: f64 = 1.0;
-/// Evaluations allowed per free parameter and one.
-const PATIENCE: usize = 100;
-
-/// Relative fall of the objective in a step below which the approach has done its part.
-const APPROACH: f64 = 1e-5;
+/// The same for any least squares problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The best unknowns seen.
+    pub x: DVector<f64>,
+    /// Sum of squares there; infinite if none was finite.
+    pub sum_of_squares: f64,
+    /// Why it ended.
+    pub stop_reason: StopReason,
+    /// Residual evaluations.
+    pub evaluations: usize,
+    /// The improvements on the way.
+    pub trace: Vec<TracePoint>,
+}
 
 /// How far a descent is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effort {
-    /// To the minimum.
+    /// To the minimum, whatever it takes.
     Full,
+    /// From far to where another start is worth more.
+    Reach,
     /// From near a minimum to the minimum.
     Finish,
-    /// For one evaluation per free parameter and one.
+    /// For a few steps.
     Few,
 }
 
-/// The two parts of a descent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Path {
-    /// From anywhere, in plain coordinates, until progress is slow.
-    Plain(Effort),
-    /// To the end, in coordinates that straighten valleys.
-    Valley,
-}
+/// Steps of a walk to the minimum.
+const STEPS: usize = 2000;
+/// Evaluations of it, per unknown and one; and of one among many.
+const PATIENCE: usize = 400;
+const SHORT_PATIENCE: usize = 50;
+/// Evaluations of the approach, per unknown and one.
+const APPROACH_PATIENCE: usize = 30;
+/// The same for a glance at where a start leads.
+const GLANCE: usize = 1;
 
 /// Fits from the problem's start.
 #[must_use]
 pub fn descend(problem: &Problem, effort: Effort, watch: Watch<'_>) -> Descent {
-    let mut log = Log::new(problem, watch);
-    if problem.is_empty() {
-        return log.into_descent(StopReason::NoData);
-    }
-    let all: ParameterSet = problem.free().iter().copied().collect();
-    log.evaluate(problem, problem.start());
-    // Far from the minimum the plain coordinates are the safer ones; near it the others cut the valleys short.
-    let mut stop = run(problem, Path::Plain(effort), &mut log);
-    if effort == Effort::Few {
-        return log.into_descent(stop);
-    }
-    if matches!(stop, StopReason::Converged | StopReason::EvaluationLimit) {
-        stop = run(&problem.with_start(log.best), Path::Valley, &mut log);
-    }
-    let mut at_edge = ParameterSet::EMPTY;
-    while !matches!(stop, StopReason::Cancelled | StopReason::Numerical) {
-        let found = edges(problem, &log.best, all);
-        if found.without_all(at_edge).is_empty() {
-            break;
-        }
-        at_edge = at_edge.union(found);
-        let mut snapped = log.best;
-        for parameter in at_edge {
-            let (low, high) = problem.bounds().of(parameter);
-            snapped[parameter] = if snapped[parameter] - low < high - snapped[parameter] { low } else { high };
-        }
-        stop = run(&problem.with_free(all.without_all(at_edge)).with_start(snapped), Path::Valley, &mut log);
-    }
-    if log.sum_of_squares < ROUNDING_OBJECTIVE && stop != StopReason::Cancelled {
-        stop = StopReason::ResidualsZero;
-    }
-    log.into_descent(stop)
+    let Solution { x, sum_of_squares, stop_reason, evaluations, trace } = minimise(problem, effort, watch);
+    Descent { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace }
 }
 
-/// The free parameters that rest at an edge while the objective still falls towards it.
-fn edges(problem: &Problem, parameters: &Parameters, free: ParameterSet) -> ParameterSet {
-    let near = |parameter: Parameter| {
-        let (low, high) = problem.bounds().of(parameter);
-        let fraction = (parameters[parameter] - low) / (high - low);
-        if fraction < AT_EDGE {
-            Some(1.0)
-        } else if fraction > 1.0 - AT_EDGE {
-            Some(-1.0)
-        } else {
-            None
-        }
-    };
-    let candidates: ParameterSet = free.into_iter().filter(|&parameter| near(parameter).is_some()).collect();
-    if candidates.is_empty() {
-        return candidates;
+/// Minimises a sum of squares from its start.
+#[must_use]
+pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, watch: Watch<'_>) -> Solution {
+    let start = problem.start();
+    let mut log = Log::new(&start, watch);
+    if problem.residual_count() == 0 {
+        return log.into_solution(StopReason::NoData);
     }
-    let part = problem.with_free(candidates);
-    let Some((residuals, jacobian)) = part.linearised(parameters) else { return ParameterSet::EMPTY };
-    let gradient = jacobian.tr_mul(&residuals);
-    let outwards =
-        |(&parameter, slope): (&Parameter, &f64)| near(parameter).is_some_and(|inward| slope * inward >= 0.0).then_some(parameter);
-    part.free().iter().zip(gradient.iter()).filter_map(outwards).collect()
+    let n = start.len();
+    if n == 0 {
+        log.evaluate(problem, &start, &mut DVector::zeros(problem.residual_count()));
+        return log.into_solution(StopReason::Converged);
+    }
+    let stop = match effort {
+        Effort::Few => approach(problem, &start, GLANCE, &mut log).1,
+        Effort::Reach => reach(problem, &start, SHORT_PATIENCE * (n + 1), &mut log),
+        Effort::Finish => Walk::new(problem, &start).run(limits(PATIENCE * (n + 1)), &mut log),
+        Effort::Full => go_all_the_way(problem, &start, limits(PATIENCE * (n + 1)), &mut log),
+    };
+    log.into_solution(stop)
 }
 
-/// One run of the solver crate; the best point goes to the log.
-fn run(problem: &Problem, path: Path, log: &mut Log<'_>) -> StopReason {
-    let free = problem.free();
-    if free.is_empty() {
-        log.evaluate(problem, problem.start());
-        return StopReason::Converged;
+const fn limits(evaluations: usize) -> Limits {
+    Limits { steps: STEPS, evaluations, sharpen: true }
+}
+
+/// By the crate until it becomes slow, then on foot.
+fn reach<P: LeastSquares>(problem: &P, start: &DVector<f64>, evaluations: usize, log: &mut Log<'_>) -> StopReason {
+    let (from, stop) = approach(problem, start, APPROACH_PATIENCE, log);
+    if stop == StopReason::Cancelled {
+        return stop;
     }
-    let coordinates = match path {
-        Path::Plain(_) => Coordinates::plain(problem),
-        Path::Valley => Coordinates::valley(problem),
-    };
-    let adapter = Adapter { problem, z: coordinates.start(), coordinates, log: RefCell::new(log) };
-    let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND);
-    let solver = match path {
-        Path::Plain(Effort::Few) => solver.with_ftol(APPROACH).with_patience(1),
-        Path::Plain(Effort::Full) => solver.with_ftol(APPROACH).with_patience(PATIENCE),
-        Path::Plain(Effort::Finish) | Path::Valley => solver.with_patience(PATIENCE),
-    };
-    let (_, report) = solver.minimize(adapter);
-    match report.termination {
-        TerminationReason::Converged { .. } | TerminationReason::Orthogonal | TerminationReason::NoParameters => StopReason::Converged,
-        TerminationReason::ResidualsZero => StopReason::ResidualsZero,
-        TerminationReason::NoImprovementPossible(_) => StopReason::NoImprovement,
-        TerminationReason::LostPatience => StopReason::EvaluationLimit,
-        TerminationReason::User(_) => StopReason::Cancelled,
-        TerminationReason::NoResiduals => StopReason::NoData,
-        TerminationReason::Numerical(_) | TerminationReason::WrongDimensions(_) => StopReason::Numerical,
+    Walk::new(problem, &from).run(Limits { steps: STEPS, evaluations, sharpen: false }, log)
+}
+
+/// On foot from the start, which is fastest. Where that ends nowhere or on an edge of the box, which a walk runs into before it sees the
+/// minimum behind, the crate shows another way.
+fn go_all_the_way<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, log: &mut Log<'_>) -> StopReason {
+    let stop = Walk::new(problem, start).run(limits, log);
+    if matches!(stop, StopReason::ResidualsZero | StopReason::Cancelled) || (stop == StopReason::Converged && is_inside(problem, &log.best))
+    {
+        return stop;
     }
+    let (from, other) = approach(problem, start, APPROACH_PATIENCE, log);
+    if other == StopReason::Cancelled {
+        return other;
+    }
+    let before = log.sum_of_squares;
+    let other = Walk::new(problem, &from).run(limits, log);
+    if log.sum_of_squares < before || other == StopReason::Cancelled { other } else { stop }
+}
+
+fn is_inside<P: LeastSquares>(problem: &P, x: &DVector<f64>) -> bool {
+    x.iter().enumerate().all(|(j, &value)| {
+        let (low, high) = problem.bounds_of(j);
+        value > low && value < high
+    })
 }
 
 /// What is kept while solvers come and go: the solver crate itself returns rejected points.
-struct Log<'a> {
+pub(super) struct Log<'a> {
     watch: Watch<'a>,
-    best: Parameters,
+    best: DVector<f64>,
     sum_of_squares: f64,
     evaluations: usize,
     trace: Vec<TracePoint>,
@@ -244,69 +223,50 @@ impl Descent {
 }
 
 impl<'a> Log<'a> {
-    fn new(problem: &Problem, watch: Watch<'a>) -> Self {
-        Self { watch, best: *problem.start(), sum_of_squares: f64::INFINITY, evaluations: 0, trace: Vec::new() }
+    fn new(start: &DVector<f64>, watch: Watch<'a>) -> Self {
+        Self { watch, best: start.clone(), sum_of_squares: f64::INFINITY, evaluations: 0, trace: Vec::new() }
     }
 
-    /// Residuals at those parameters, remembered if they are the best.
-    fn evaluate(&mut self, problem: &Problem, parameters: &Parameters) -> DVector<f64> {
-        let mut residuals = DVector::zeros(problem.len());
-        let finite = problem.residuals(parameters, &mut residuals);
+    pub(super) fn evaluations(&self) -> usize {
+        self.evaluations
+    }
+
+    pub(super) fn is_cancelled(&self) -> bool {
+        (self.watch.cancelled)()
+    }
+
+    /// Writes the residuals at x and returns the sum of their squares, infinite if one is not finite; the best point is remembered.
+    pub(super) fn evaluate<P: LeastSquares>(&mut self, problem: &P, x: &DVector<f64>, residuals: &mut DVector<f64>) -> f64 {
         self.evaluations += 1;
+        if !problem.residuals_at(x, residuals) {
+            return f64::INFINITY;
+        }
         let sum_of_squares = residuals.norm_squared();
-        if !finite {
-            residuals.fill(f64::NAN);
-        } else if sum_of_squares < self.sum_of_squares {
+        if !sum_of_squares.is_finite() {
+            return f64::INFINITY;
+        }
+        if sum_of_squares < self.sum_of_squares {
             self.sum_of_squares = sum_of_squares;
-            self.best = *parameters;
-            let objective = problem.objective(sum_of_squares, parameters);
+            self.best.copy_from(x);
+            let objective = problem.objective_at(sum_of_squares, x);
             let point = TracePoint { elapsed_ms: (self.watch.clock)(), evaluations: self.evaluations, objective };
             self.trace.push(point);
             (self.watch.progress)(point);
         }
-        residuals
+        sum_of_squares
     }
 
-    fn into_descent(self, stop_reason: StopReason) -> Descent {
-        let Self { best, sum_of_squares, evaluations, trace, .. } = self;
-        Descent { parameters: best, sum_of_squares, stop_reason, evaluations, trace }
-    }
-}
-
-/// The problem in the solver's coordinates.
-struct Adapter<'a, 'w> {
-    problem: &'a Problem,
-    coordinates: Coordinates<'a>,
-    z: DVector<f64>,
-    log: RefCell<&'a mut Log<'w>>,
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, z: &DVector<f64>) {
-        self.z.copy_from(z);
-    }
-
-    fn params(&self) -> DVector<f64> {
-        self.z.clone()
-    }
-
-    fn residuals(&self) -> Option<DVector<f64>> {
-        let mut log = self.log.borrow_mut();
-        if (log.watch.cancelled)() {
-            return None;
+    /// Takes a point that was evaluated for the result, if it is the best one but for that fraction.
+    pub(super) fn settle(&mut self, x: &DVector<f64>, sum_of_squares: f64, fraction: f64) {
+        if sum_of_squares > self.sum_of_squares * (1.0 + fraction) {
+            return;
         }
-        Some(log.evaluate(self.problem, &self.coordinates.parameters(&self.z)))
+        self.best.copy_from(x);
+        self.sum_of_squares = sum_of_squares;
     }
 
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let mut jacobian = DMatrix::zeros(self.problem.len(), self.problem.free().len());
-        let parameters = self.coordinates.parameters(&self.z);
-        self.problem.jacobian(&parameters, &mut jacobian);
-        self.coordinates.chain(&self.z, &parameters, &mut jacobian);
-        Some(jacobian)
+    fn into_solution(self, stop_reason: StopReason) -> Solution {
+        let Self { best, sum_of_squares, evaluations, trace, .. } = self;
+        Solution { x: best, sum_of_squares, stop_reason, evaluations, trace }
     }
 }

@@ -47,19 +47,19 @@ pub struct Search {
 }
 
 /// Starts of a round.
-const ROUND: usize = 6;
+const ROUND: usize = 12;
 /// Automatic search ends after so many starts at the latest.
-const MOST_STARTS: usize = 48;
+const MOST_STARTS: usize = 96;
 /// It ends when the best minimum was reached so often…
 const REACHED_ENOUGH: usize = 3;
 /// …and so many rounds brought nothing better.
 const QUIET_ROUNDS: usize = 2;
 /// Above so many starts each is first followed for a few steps only, and the best distinct ones to the end.
-const ALL_THE_WAY: usize = 64;
+const ALL_THE_WAY: usize = 128;
 /// How many of those.
 const POLISHED: usize = 16;
 /// Automatic search makes at least so many starts.
-const LEAST_STARTS: usize = 24;
+const LEAST_STARTS: usize = 36;
 /// Minima that are gone on with at the end, how often at most, and the relative gain that is worth another time.
 const FINISHED: usize = 4;
 const FINISHES: usize = 12;
@@ -96,7 +96,7 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         let round = candidates.take(ROUND.min(most - done));
         done += round.len();
         let before = search.best();
-        for descent in run_all(problem, &round, Effort::Full, watch) {
+        for descent in run_all(problem, &round, Effort::Reach, watch) {
             search.add(descent);
         }
         let improved = search.best() < before - SAME_ABSOLUTE && search.best() < before * (1.0 - SAME);

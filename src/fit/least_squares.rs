@@ -1,0 +1,52 @@
+//! What the solver solves: a sum of squared residuals of some unknowns in a box.
+
+use nalgebra::{DMatrix, DVector};
+
+/// A sum of squares to be minimised over a box, `Σ rᵢ(x)²` with low ≤ x ≤ high.
+///
+/// A problem may know that its sum of squares has curved valleys. It then offers *straightened* coordinates: the three methods
+/// with a default describe, around a point x, a step in them. They concern the unknowns that are moving alone; the others rest, most of them on
+/// an edge of the box.
+pub trait LeastSquares {
+    /// Number of residuals.
+    fn residual_count(&self) -> usize;
+
+    /// Where to begin; its length is the number of unknowns.
+    fn start(&self) -> DVector<f64>;
+
+    /// Lower and upper bound of an unknown; infinite where there is none.
+    fn bounds_of(&self, unknown: usize) -> (f64, f64);
+
+    /// Writes the residuals; false where one is not a finite number.
+    fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool;
+
+    /// Writes the derivatives of the residuals (rows) by the unknowns (columns); false where one is not a finite number.
+    fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool;
+
+    /// What a trace tells of a sum of squares: by default the sum itself.
+    fn objective_at(&self, sum_of_squares: f64, _x: &DVector<f64>) -> f64 {
+        sum_of_squares
+    }
+
+    /// A sum of squares at which residuals are rounding alone.
+    fn negligible(&self) -> f64 {
+        0.0
+    }
+
+    /// Turns the derivatives by the moving unknowns into those by their straightened coordinates at x.
+    fn straighten(&self, _x: &DVector<f64>, _moving: &[usize], _jacobian: &mut DMatrix<f64>) {}
+
+    /// The least and largest step of a moving unknown's straightened coordinate at x that stay in the box.
+    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+        let (low, high) = self.bounds_of(unknown);
+        (low - x[unknown], high - x[unknown])
+    }
+
+    /// Writes the point that a step of the straightened coordinates leads to from x.
+    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+        out.copy_from(x);
+        for (&unknown, step) in moving.iter().zip(step) {
+            out[unknown] += step;
+        }
+    }
+}
