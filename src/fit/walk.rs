@@ -271,7 +271,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
                 break;
             }
             self.try_step(log);
-            if !(self.there.sum_of_squares <= smallest * (1.0 + ROUNDING)) {
+            if self.there.sum_of_squares > smallest * (1.0 + ROUNDING) {
                 break;
             }
             std::mem::swap(&mut self.here, &mut self.there);
