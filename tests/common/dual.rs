@@ -1,5 +1,7 @@
 //! Numbers that carry their derivatives by up to nine unknowns: a model written once gives its gradient too.
 
+#![allow(clippy::suspicious_arithmetic_impl, reason = "the rules of differentiation mix the operations")]
+
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its derivatives.
