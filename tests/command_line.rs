@@ -5,55 +5,10 @@
 mod common;
 
 use common::asset;
+use common::program::{Folder, answer, refusal, run, text};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
-        .args(arguments)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .env_remove("WAYLAND_SOCKET")
-        .output()
-        .expect("the program was built beside this test")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// The standard output of a command that must succeed.
-fn answer(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout)
-}
-
-/// The sentence of a command that must be refused with exit code 2 and an empty standard output.
-fn refusal(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), String::new()), "{arguments:?}");
-    text(&output.stderr)
-}
-
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().expect("a folder for temporary files"))
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn file(&self, name: &str, contents: impl AsRef<[u8]>) -> String {
-        let path = self.path(name);
-        std::fs::write(&path, contents).expect("a writable folder for temporary files");
-        path.display().to_string()
-    }
-}
+use std::path::Path;
+use std::process::Command;
 
 fn example(name: &str) -> String {
     asset(&format!("examples/{name}")).display().to_string()
@@ -263,7 +218,7 @@ fn what_is_said_of_a_parameter_that_the_model_lacks_is_ignored_with_a_notice() {
 
 #[test]
 fn what_is_not_there_yet_is_refused_and_not_ignored() {
-    for arguments in [vec!["report", "cost"], vec!["import", "x.dat"], vec!["export", "mitsuba", "-o", "x"]] {
+    for arguments in [vec!["report", "cost"], vec!["export", "mitsuba", "-o", "x"]] {
         assert!(refusal(&arguments).contains("not there yet"), "{arguments:?}");
     }
 }
@@ -340,32 +295,5 @@ fn the_same_seed_finds_the_same_fit_on_any_number_of_threads() {
     let (one, two) = (fit("1"), fit("3"));
     for key in ["parameters", "starts", "evaluations", "objective"] {
         assert_eq!(one[key], two[key], "{key}");
-    }
-}
-
-#[test]
-fn metals_lists_names_sources_and_values() {
-    let table = answer(&["metals"]);
-    for name in ["Cu", "stainless-steel", "brass", "refractiveindex.info"] {
-        assert!(table.contains(name), "{name}");
-    }
-    let at = answer(&["metals", "--wavelength", "100"]);
-    assert!(at.contains("outside the tabulated range"));
-    let copper = answer(&["metals", "copper", "--wavelength", "650"]);
-    // The value that the database's page of Hagemann gives at 650 nm.
-    assert!(copper.contains("n = 0.2184  k = 3.6370") && copper.contains("Phys. Rev. B 6, 4370"), "{copper}");
-    let json: Value = serde_json::from_str(&answer(&["metals", "Ag", "--wavelength", "250", "--json"])).expect("JSON");
-    assert_eq!(json["wavelength_nm"].as_f64(), Some(250.0));
-    let rows = json["rows"].as_array().expect("rows");
-    let row = |source: &str| rows.iter().find(|row| row["source"] == source).expect("a source of silver");
-    assert!(row("Johnson")["n"].is_f64() && row("Jiang")["n"].is_null() && row("Jiang")["from_nm"].as_f64() == Some(300.0));
-    for (arguments, expected) in [
-        (vec!["metals", "unobtainium"], "not among the tabulated metals"),
-        (vec!["metals", "Al", "--wavelength", "100"], "No source of aluminium has 100 nm"),
-        (vec!["metals", "Al", "--wavelength", "100", "--json"], "No source of aluminium has 100 nm"),
-        (vec!["metals", "--wavelength", "0"], "not above 0"),
-    ] {
-        let message = refusal(&arguments);
-        assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }

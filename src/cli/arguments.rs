@@ -35,9 +35,8 @@ pub enum Task {
     Plan(Plan),
     /// Report on error against run time, on numerical stability, or on the cost of each term.
     Report(Report),
-    /// Not there yet.
-    #[command(hide = true)]
-    Import(Later),
+    /// Turn a foreign file into a measurement.
+    Import(Import),
     /// Not there yet.
     #[command(hide = true)]
     Export(Later),
@@ -202,6 +201,25 @@ pub struct Angles {
     #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
     pub dphi: f64,
 }
+
+/// `import`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true, after_help = IMPORT_HELP)]
+pub struct Import {
+    /// Woollam ellipsometry text.
+    pub input: PathBuf,
+    /// Vacuum wavelength in nm; the nearest one of the file is taken, with a notice.
+    #[arg(long, value_name = "NM", value_parser = values::positive)]
+    pub wavelength: Option<f64>,
+    /// File to write; standard output without.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+}
+
+/// What `import` understands.
+const IMPORT_HELP: &str = "\
+Woollam text (WVASE, its short form, CompleteEASE): psi at several angles becomes specular DoLP = |cos 2 psi| at theta_r = theta_i,
+with dolp_sigma where the file states sigma_psi. Depolarisation rows are named in the metadata and not applied.";
 
 /// `metals`.
 #[derive(Debug, Args)]

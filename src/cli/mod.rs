@@ -8,6 +8,7 @@ mod compare;
 mod evaluate;
 mod failure;
 mod fit;
+mod import;
 mod input;
 mod interrupt;
 mod metals;
@@ -39,7 +40,7 @@ pub fn run() -> ExitCode {
         Some(Task::Compare(task)) => compare::run(&task),
         Some(Task::Plan(task)) => plan::run(&task),
         Some(Task::Report(task)) => report::run(&task),
-        Some(Task::Import(_)) => Err(Failure::not_yet("import")),
+        Some(Task::Import(task)) => import::run(&task),
         Some(Task::Export(_)) => Err(Failure::not_yet("export")),
         Some(Task::Metals(task)) => metals::run(&task),
         None => window(arguments.file),

@@ -1,4 +1,4 @@
-//! Floor 3: measurements, read, written and simulated.
+//! Floor 3: measurements, read, written, simulated and imported.
 //!
 //! The file format is documented at [`read()`]. Readers take any `impl Read`: opening files, and naming them in messages, is left
 //! to whoever calls.
@@ -6,11 +6,15 @@
 mod read;
 mod simulate;
 mod table;
+mod wavelength;
+mod woollam;
 mod write;
 
 pub use read::read;
 pub use simulate::{Columns, Simulation};
 pub use table::{Column, Progress, ReadError, ReadErrorKind, Record, Table};
+pub use wavelength::{WavelengthError, choose_wavelength};
+pub use woollam::{Depolarisation, Ellipsometry, PsiDelta, SpecularDolp, is_woollam, read_woollam};
 pub use write::{append_columns, exact, write};
 
 use crate::optics::Geometry;

@@ -120,6 +120,28 @@ pub enum ReadErrorKind {
         /// Δφ of the row in degrees.
         dphi: f64,
     },
+    /// Nothing but white space, where a header is not what is missing.
+    #[error("the file is empty")]
+    EmptyText,
+    /// A line that is not of the kind its place asks for.
+    #[error("found {found:?}, expected {expected}")]
+    Unexpected {
+        /// What stands there.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// A row with too few or too many numbers.
+    #[error("the row has {found} numbers; expected {expected}")]
+    Numbers {
+        /// How many.
+        found: usize,
+        /// How many there should be.
+        expected: &'static str,
+    },
+    /// Ellipsometry without a row of ψ and Δ.
+    #[error("there is no row of psi and delta")]
+    NoPsi,
     /// A NUL byte.
     #[error("found a NUL byte; expected plain text (UTF-8)")]
     Nul,

@@ -2,6 +2,9 @@
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its own part of this module")]
 
+#[cfg(feature = "cli")]
+pub mod program;
+
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use std::collections::HashMap;
