@@ -1,7 +1,13 @@
-//! What the user asked for while the window was drawn; carried out afterwards.
+//! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
+use super::document::EXAMPLES;
+use super::language::Language;
+use super::panes::{PANES, Pane};
 use super::state::Theme;
-use pbrdf::model::Parameter;
+use super::window::Explorer;
+use egui::{Key, KeyboardShortcut, Modifiers};
+use pbrdf::model::{PRESETS, Parameter, Preset};
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// An order from the window.
@@ -19,6 +25,7 @@ pub enum Command {
     OpenExample(usize),
     /// Stop reading.
     CancelLoading,
+    ForgetRecent,
     StartFit,
     CancelFit,
     /// Fitted values to the sliders.
@@ -42,9 +49,244 @@ pub enum Command {
     CancelScan,
     /// Sliders and terms as the comparison's fit of that number has them.
     UseRung(usize),
+    /// Sliders to the clipboard, as text.
+    CopyParameters,
+    /// Ask for what is on the clipboard.
+    RequestPaste,
+    /// Text to the sliders.
+    PasteParameters(String),
+    ResetParameters,
+    /// The terms of that preset, by its key.
+    UseModel(&'static str),
     /// Fit all models of the ladder.
     CompareModels,
     CancelComparison,
+    Toggle(Switch),
+    /// A pane to the screen, or off it.
+    TogglePane(Pane),
+    ClosePane(Pane),
+    ResetLayout,
     SetTheme(Theme),
+    SetLanguage(Language),
+    OpenPalette,
     Quit,
+}
+
+/// What is either on or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Switch {
+    LogBrdf,
+    Limit,
+    Backscatter,
+    RefitLive,
+    FrameTimes,
+}
+
+impl Switch {
+    /// Where it is kept.
+    pub fn of(self, explorer: &mut Explorer) -> &mut bool {
+        match self {
+            Self::LogBrdf => &mut explorer.settings.log_brdf,
+            Self::Limit => &mut explorer.settings.show_limit,
+            Self::Backscatter => &mut explorer.settings.show_backscatter,
+            Self::RefitLive => &mut explorer.settings.refit_live,
+            Self::FrameTimes => &mut explorer.window.show_frame_times,
+        }
+    }
+}
+
+/// The menu that a command stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Menu {
+    File,
+    Example,
+    Recent,
+    Edit,
+    Fit,
+    Pane,
+    View,
+    Theme,
+    Language,
+    Help,
+    /// The palette alone.
+    None,
+}
+
+/// Whether a command can be carried out now, and for a switch where it stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    Impossible,
+    Possible,
+    Off,
+    On,
+}
+
+/// A command as menus and the palette show it.
+#[derive(Debug, Clone)]
+pub struct Item {
+    pub command: Command,
+    pub menu: Menu,
+    pub text: Cow<'static, str>,
+    pub tooltip: Cow<'static, str>,
+    pub shortcut: Option<KeyboardShortcut>,
+    pub status: Status,
+}
+
+struct Entry {
+    command: Command,
+    menu: Menu,
+    text: &'static str,
+    tooltip: &'static str,
+    shortcut: Option<KeyboardShortcut>,
+    status: fn(&Explorer) -> Status,
+}
+
+const fn ctrl(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
+}
+
+const fn ctrl_shift(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key))
+}
+
+const fn plain(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::NONE, key))
+}
+
+fn always(_: &Explorer) -> Status {
+    Status::Possible
+}
+
+fn only_if(possible: bool) -> Status {
+    if possible { Status::Possible } else { Status::Impossible }
+}
+
+fn switch(on: bool) -> Status {
+    if on { Status::On } else { Status::Off }
+}
+
+/// One row: what it orders, where it stands, what it is called, what it does, its keys, and whether it is possible.
+const fn row(
+    command: Command,
+    menu: Menu,
+    text: &'static str,
+    tooltip: &'static str,
+    shortcut: Option<KeyboardShortcut>,
+    status: fn(&Explorer) -> Status,
+) -> Entry {
+    Entry { command, menu, text, tooltip, shortcut, status }
+}
+
+/// Commands that are always the same; those of examples, recent files, panes, models and themes follow from their own tables.
+#[rustfmt::skip]
+static ENTRIES: &[Entry] = &[
+    row(Command::ChooseMeasurement, Menu::File, "Open measurement…", "A table of DoLP or BRDF against angles", ctrl(Key::O), always),
+    row(Command::ChooseSave, Menu::File, "Save measurement as…", "The table with its masks, as CSV", ctrl(Key::S), always),
+    row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
+    row(Command::ForgetRecent, Menu::Recent, "Forget recent files", "Empty this list; the files stay", None,
+        |e| only_if(!e.window.recent.is_empty())),
+    row(Command::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
+    row(Command::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
+        |e| only_if(e.history.can_undo())),
+    row(Command::Redo, Menu::Edit, "Redo", "Forth again", ctrl_shift(Key::Z), |e| only_if(e.history.can_redo())),
+    row(Command::CopyParameters, Menu::Edit, "Copy parameters", "All nine as text: n=2, k=3, …", ctrl_shift(Key::C), always),
+    row(Command::RequestPaste, Menu::Edit, "Paste parameters", "From text such as n=2.07, k=2.9; those that it does not name stay",
+        ctrl_shift(Key::V), always),
+    row(Command::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
+    row(Command::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
+        plain(Key::F5), |e| only_if(e.worker.fit.is_none())),
+    row(Command::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.worker.fit.is_some())),
+    row(Command::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |e| only_if(e.last_fit.is_some())),
+    row(Command::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
+        |e| only_if(e.last_fit.is_some())),
+    row(Command::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
+        |e| only_if(e.past_fits.len() > 1)),
+    row(Command::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
+        |e| only_if(e.worker.comparison.is_none())),
+    row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
+        |e| only_if(e.worker.comparison.is_some())),
+    row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
+        |e| only_if(e.last_fit.is_some() && e.worker.scan.is_none())),
+    row(Command::CancelScan, Menu::Fit, "Stop profile or bootstrap", "What is done so far is shown", None,
+        |e| only_if(e.worker.scan.is_some())),
+    row(Command::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
+        "Fixed parameters follow their sliders, the others are fitted again at once", None, |e| switch(e.settings.refit_live)),
+    row(Command::ResetLayout, Menu::View, "Reset layout", "All panes where they were at first", None, always),
+    row(Command::Toggle(Switch::LogBrdf), Menu::View, "Logarithmic lobes", "BRDF against a logarithmic axis", ctrl(Key::L),
+        |e| switch(e.settings.log_brdf)),
+    row(Command::Toggle(Switch::Limit), Menu::View, "Show Fresnel limit", "DoLP without any depolarising term", None,
+        |e| switch(e.settings.show_limit)),
+    row(Command::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
+        ctrl(Key::B), |e| switch(e.settings.show_backscatter)),
+    row(Command::Toggle(Switch::FrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
+        |e| switch(e.window.show_frame_times)),
+    row(Command::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
+    row(Command::DismissNotice, Menu::None, "Dismiss notice", "Away with the sentence above the plots", None,
+        |e| only_if(e.notice.is_some())),
+];
+
+/// Every command that there is at the moment.
+pub fn items(explorer: &Explorer) -> Vec<Item> {
+    let fixed = ENTRIES.iter().map(|entry| Item {
+        command: entry.command.clone(),
+        menu: entry.menu,
+        text: entry.text.into(),
+        tooltip: entry.tooltip.into(),
+        shortcut: entry.shortcut,
+        status: (entry.status)(explorer),
+    });
+    let plain = |command, menu, text: Cow<'static, str>, tooltip: Cow<'static, str>, status| Item {
+        command,
+        menu,
+        text,
+        tooltip,
+        shortcut: None,
+        status,
+    };
+    let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
+        plain(Command::OpenExample(i), Menu::Example, example.name.into(), "A bundled measurement, simulated".into(), Status::Possible)
+    });
+    let recent = explorer.window.recent.iter().map(|path| {
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        plain(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
+    });
+    let on_screen = explorer.panes.on_screen();
+    let panes = PANES.iter().map(|entry| Item {
+        shortcut: entry.shortcut.and_then(ctrl),
+        ..plain(
+            Command::TogglePane(entry.pane),
+            Menu::Pane,
+            entry.title.into(),
+            entry.tooltip.into(),
+            switch(on_screen.contains(&entry.pane)),
+        )
+    });
+    let current = Preset::of(explorer.settings.model).map(|preset| preset.key);
+    let models = PRESETS.iter().map(|preset| {
+        let text = format!("Model: {}", preset.name);
+        plain(Command::UseModel(preset.key), Menu::None, text.into(), preset.citation.into(), switch(current == Some(preset.key)))
+    });
+    let themes = Theme::ALL.into_iter().map(|theme| {
+        let tooltip = "Colours of the window".into();
+        plain(Command::SetTheme(theme), Menu::Theme, theme.name().into(), tooltip, switch(explorer.window.theme == theme))
+    });
+    let languages = Language::ALL.into_iter().map(|language| {
+        let tooltip = "Language of the window".into();
+        plain(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
+    });
+    fixed.chain(examples).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
+}
+
+/// The command whose keys are pressed, if it is possible now.
+pub fn pressed(explorer: &Explorer, ctx: &egui::Context) -> Option<Command> {
+    let any_key = ctx.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Key { pressed: true, .. })));
+    if !any_key {
+        return None;
+    }
+    let mut items = items(explorer);
+    // The longer shortcut first: egui takes the shorter one for a part of it.
+    items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
+    let hit = |item: &Item| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));
+    let item = items.iter().find(|item| hit(item))?;
+    (item.status != Status::Impossible).then(|| item.command.clone())
 }

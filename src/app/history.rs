@@ -1,25 +1,30 @@
-//! Undo and redo of the sliders: one step for a drag, a typed value, a fit.
+//! Undo and redo: one step for a drag, a typed value, a switch, a fit.
 
-use super::document::Mask;
-use pbrdf::model::{Model, Parameters};
-
-/// What one step brings back.
-pub type Step = (Parameters, Model, Mask, u64);
-
-/// Steps back and forth.
-#[derive(Debug, Default)]
-pub struct History {
-    past: Vec<Step>,
-    current: Option<Step>,
-    future: Vec<Step>,
+/// Steps back and forth between values of whatever the user sets.
+#[derive(Debug)]
+pub struct History<S> {
+    past: Vec<S>,
+    current: Option<S>,
+    future: Vec<S>,
 }
 
 /// Steps that are kept.
 const LONGEST: usize = 200;
 
-impl History {
-    /// Takes down where the sliders have come to rest, if that is somewhere new.
-    pub fn rest(&mut self, at: Step) {
+impl<S> Default for History<S> {
+    fn default() -> Self {
+        Self { past: Vec::new(), current: None, future: Vec::new() }
+    }
+}
+
+impl<S: PartialEq + Clone> History<S> {
+    /// Where things are at rest.
+    pub fn current(&self) -> Option<&S> {
+        self.current.as_ref()
+    }
+
+    /// Takes down where things have come to rest, if that is somewhere new.
+    pub fn rest(&mut self, at: S) {
         if self.current.as_ref() == Some(&at) {
             return;
         }
@@ -32,15 +37,20 @@ impl History {
         }
     }
 
+    /// Goes on from here as if it had always been so: nothing to undo.
+    pub fn replace(&mut self, at: S) {
+        self.current = Some(at);
+    }
+
     /// One step back, if there is one.
-    pub fn undo(&mut self) -> Option<Step> {
+    pub fn undo(&mut self) -> Option<S> {
         let before = self.past.pop()?;
         self.future.extend(self.current.replace(before.clone()));
         Some(before)
     }
 
     /// One step forth, if there is one.
-    pub fn redo(&mut self) -> Option<Step> {
+    pub fn redo(&mut self) -> Option<S> {
         let after = self.future.pop()?;
         self.past.extend(self.current.replace(after.clone()));
         Some(after)

@@ -34,6 +34,11 @@ impl<K: PartialEq, V> Memo<K, V> {
     pub fn key(&self) -> Option<&K> {
         self.made.as_ref().map(|(key, _)| key)
     }
+
+    /// Lets go of the value, where nobody looks at it any more.
+    pub fn clear(&mut self) {
+        self.made = None;
+    }
 }
 
 #[cfg(test)]

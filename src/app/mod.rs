@@ -4,13 +4,20 @@
 //! model is evaluated in a paint closure and no fit runs on this thread.
 
 mod command;
+mod curves;
 mod derived;
 mod document;
 mod frame_times;
 mod history;
 mod language;
+#[allow(dead_code, reason = "for panes whose contents take longer than a frame")]
+mod latest_job;
+mod layout;
 mod memo;
+mod palette;
 mod panels;
+mod panes;
+mod parameter_text;
 mod past_fits;
 mod plan;
 mod plots;
@@ -37,14 +44,15 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     if !display_is_named() {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
-    let (settings, notice) = store::load();
+    let (stored, notice) = store::load();
     let mut viewport = egui::ViewportBuilder::default().with_title(TITLE).with_app_id(store::APP).with_min_inner_size([1024.0, 640.0]);
-    viewport = viewport.with_inner_size(settings.window_size).with_maximized(settings.maximized);
+    viewport = viewport.with_inner_size(stored.window.size).with_maximized(stored.window.maximized);
     let options = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..eframe::NativeOptions::default() };
     let create: eframe::AppCreator<'_> = Box::new(|context| {
         STARTED.store(true, Ordering::Relaxed);
-        let mut explorer = Explorer::new(&context.egui_ctx, settings);
+        let mut explorer = Explorer::new(&context.egui_ctx, stored);
         explorer.settings_file = store::path();
+        explorer.worker.ask = worker::ask_desktop;
         if let Some(notice) = notice {
             explorer.say(notice);
         }

@@ -1,11 +1,13 @@
-//! What survives a restart.
+//! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
 use super::language::Language;
+use super::layout::Layout;
 use super::plan::Plan;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
 /// Light or dark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,7 +30,7 @@ impl Theme {
     }
 }
 
-/// The settings of the last session: sliders, switches, window.
+/// What the user sets: sliders, switches, views. Each change of it is a step of undo.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -60,13 +62,6 @@ pub struct Settings {
     pub show_backscatter: bool,
     /// Whether what is free is fitted again whenever a slider moves.
     pub refit_live: bool,
-    /// Whether the status line tells how long frames take.
-    pub show_frame_times: bool,
-    pub theme: Theme,
-    pub language: Language,
-    /// Inner size of the window in points.
-    pub window_size: [f32; 2],
-    pub maximized: bool,
 }
 
 impl Default for Settings {
@@ -87,11 +82,6 @@ impl Default for Settings {
             show_limit: true,
             show_backscatter: false,
             refit_live: false,
-            show_frame_times: false,
-            theme: Theme::System,
-            language: Language::English,
-            window_size: [1280.0, 800.0],
-            maximized: false,
         }
     }
 }
@@ -104,7 +94,6 @@ impl Settings {
             && self.plan.is_sound()
             && self.choices.loss_scale.is_none_or(|scale| scale.is_finite() && scale > 0.0)
             && Geometry::new(self.theta_i, 0.0, self.dphi).is_ok()
-            && self.window_size.iter().all(|side| (100.0..=20_000.0).contains(side))
     }
 
     /// Lower and upper bound of a parameter in fits.
@@ -132,5 +121,74 @@ impl Settings {
     /// Back to the slider's range.
     pub fn reset_bounds(&mut self, parameter: Parameter) {
         self.bounds.retain(|(other, ..)| *other != parameter);
+    }
+}
+
+/// How the window stands; no part of undo.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct WindowSettings {
+    pub theme: Theme,
+    pub language: Language,
+    /// Inner size in points.
+    pub size: [f32; 2],
+    pub maximized: bool,
+    /// Whether the status line tells how long frames take.
+    pub show_frame_times: bool,
+    /// Where the panes lie.
+    #[serde(deserialize_with = "Layout::lenient")]
+    pub layout: Layout,
+    /// Measurements opened lately, the newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+/// Recent files that are kept.
+const MOST_RECENT: usize = 8;
+
+impl Default for WindowSettings {
+    fn default() -> Self {
+        Self {
+            theme: Theme::System,
+            language: Language::English,
+            size: [1280.0, 800.0],
+            maximized: false,
+            show_frame_times: false,
+            layout: Layout::default(),
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl WindowSettings {
+    /// Whether a window can have this size.
+    pub fn are_sound(&self) -> bool {
+        self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
+    }
+
+    /// Puts a file in front of the recent ones.
+    pub fn remember(&mut self, path: &Path) {
+        self.forget(path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(MOST_RECENT);
+    }
+
+    /// Takes a file that is gone from the recent ones.
+    pub fn forget(&mut self, path: &Path) {
+        self.recent.retain(|other| other != path);
+    }
+}
+
+/// The settings file.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Stored {
+    pub settings: Settings,
+    pub window: WindowSettings,
+}
+
+impl Stored {
+    /// Whether the values mean something.
+    pub fn are_sound(&self) -> bool {
+        self.settings.are_sound() && self.window.are_sound()
     }
 }

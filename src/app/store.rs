@@ -1,7 +1,7 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
 use super::language::Language;
-use super::state::Settings;
+use super::state::{Stored, WindowSettings};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -14,22 +14,20 @@ pub fn path() -> Option<PathBuf> {
 }
 
 /// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
-pub fn load() -> (Settings, Option<String>) {
-    path().map_or_else(|| (Settings::default(), None), |path| load_from(&path))
+pub fn load() -> (Stored, Option<String>) {
+    path().map_or_else(|| (Stored::default(), None), |path| load_from(&path))
 }
 
-pub fn load_from(path: &Path) -> (Settings, Option<String>) {
+pub fn load_from(path: &Path) -> (Stored, Option<String>) {
     let reason = match std::fs::read(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return (Settings { language: Language::of_environment(), ..Settings::default() }, None);
+            let window = WindowSettings { language: Language::of_environment(), ..WindowSettings::default() };
+            return (Stored { window, ..Stored::default() }, None);
         }
         Err(error) => {
-            return (
-                Settings::default(),
-                Some(format!("The settings of the last session cannot be read ({error}); the defaults are used.")),
-            );
+            return (Stored::default(), Some(format!("The settings of the last session cannot be read ({error}); the defaults are used.")));
         }
-        Ok(bytes) => match serde_json::from_slice::<Settings>(&bytes) {
+        Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
             Ok(settings) if settings.are_sound() => return (settings, None),
             Ok(_) => "a value is outside its range".to_owned(),
             Err(error) => error.to_string(),
@@ -40,11 +38,11 @@ pub fn load_from(path: &Path) -> (Settings, Option<String>) {
         Ok(()) => format!("it is kept as {}", aside.display()),
         Err(error) => format!("it could not be set aside ({error})"),
     };
-    (Settings::default(), Some(format!("The settings file {} is damaged ({reason}); {kept}, and the defaults are used.", path.display())))
+    (Stored::default(), Some(format!("The settings file {} is damaged ({reason}); {kept}, and the defaults are used.", path.display())))
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.
-pub fn save(path: &Path, settings: &Settings) -> std::io::Result<()> {
+pub fn save(path: &Path, settings: &Stored) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
     let mut file = tempfile::NamedTempFile::new_in(folder)?;

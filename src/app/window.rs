@@ -1,19 +1,21 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
-use super::command::Command;
+use super::command::{self, Command};
 use super::derived::Derived;
-use super::document::{Document, EXAMPLES};
+use super::document::{Document, EXAMPLES, Mask};
 use super::frame_times::FrameTimes;
 use super::history::History;
-use super::panels;
+use super::latest_job::Background;
+use super::layout::Layout;
+use super::palette::{Palette, palette_ui};
+use super::panes::{Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
-use super::plots;
 use super::problem::{problem, reason};
 use super::scans::{Bootstrap, ProfileCurve, Scans};
-use super::state::{Settings, Theme};
-use super::views::{self, Views};
+use super::state::{Settings, Stored, Theme, WindowSettings};
+use super::views::Views;
 use super::worker::{Event, Rung, Worker};
-use super::{language, store, theme};
+use super::{language, panels, parameter_text, store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters};
@@ -21,19 +23,19 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-/// What the middle shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Middle {
-    #[default]
-    Plots,
-    Table,
-    Planner,
-    Comparison,
+/// What a step of undo brings back: everything the user sets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    pub settings: Settings,
+    /// Of the measurement of that number.
+    pub mask: Mask,
+    pub number: u64,
 }
 
 /// The window.
 pub struct Explorer {
     pub settings: Settings,
+    pub window: WindowSettings,
     /// Where the settings go; nowhere in tests.
     pub settings_file: Option<PathBuf>,
     pub document: Document,
@@ -47,22 +49,25 @@ pub struct Explorer {
     pub comparison: Vec<Rung>,
     /// What was asked about the fit that is shown.
     pub scans: Scans,
-    pub history: History,
+    pub history: History<Setup>,
     /// Whether the panel shows what the data would determine.
     pub outlook_is_shown: bool,
     /// Where the last refit left the sliders: what differs from it was moved since.
     refitted: Option<Parameters>,
     pub notice: Option<String>,
-    pub view: plots::View,
     pub views: Views,
-    /// What the middle shows.
-    pub middle: Middle,
+    pub panes: Panes,
+    pub palette: Palette,
+    /// Where panes make what takes longer than a frame.
+    pub background: Background,
+    /// Whether a button of the mouse is down: axes then grow and do not shrink.
+    pub dragging: bool,
     /// A path typed by hand, where there is no file dialog.
     pub typed_path: String,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
     generation: u64,
-    saved: Settings,
+    saved: Stored,
     changed_at: Option<Instant>,
 }
 
@@ -70,14 +75,18 @@ pub struct Explorer {
 const SAVE_AFTER: Duration = Duration::from_millis(1500);
 
 impl Explorer {
-    pub fn new(ctx: &egui::Context, settings: Settings) -> Self {
+    pub fn new(ctx: &egui::Context, stored: Stored) -> Self {
         theme::install(ctx);
         language::install();
-        language::set(settings.language);
-        set_theme(ctx, settings.theme);
+        language::set(stored.window.language);
+        set_theme(ctx, stored.window.theme);
+        let saved = stored.clone();
+        let Stored { settings, window } = stored;
         Self {
-            saved: settings.clone(),
+            saved,
+            panes: Panes::new(&window.layout),
             settings,
+            window,
             settings_file: None,
             document: Document::new(String::new(), Measurement::default(), 0),
             derived: Derived::default(),
@@ -90,9 +99,10 @@ impl Explorer {
             outlook_is_shown: false,
             refitted: None,
             notice: None,
-            view: plots::View::default(),
             views: Views::default(),
-            middle: Middle::default(),
+            palette: Palette::default(),
+            background: Background::new(ctx),
+            dragging: false,
             typed_path: String::new(),
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
@@ -140,7 +150,9 @@ impl Explorer {
         self.last_fit = None;
         self.scans.forget();
         self.comparison.clear();
-        self.view.reset();
+        self.views = Views::default();
+        // What is set because of the new measurement is no step of its own.
+        self.history.replace(self.setup());
         self.worker.abandon();
     }
 
@@ -149,7 +161,7 @@ impl Explorer {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
             self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
         }
-        language::set(self.settings.language);
+        language::set(self.window.language);
         self.listen_to_keys(ctx);
         while let Some(event) = self.worker.next() {
             self.receive(event);
@@ -159,23 +171,30 @@ impl Explorer {
                 self.say(sentence);
             }
         }
-        let dragging = ctx.input(|input| input.pointer.any_down());
+        self.dragging = ctx.input(|input| input.pointer.any_down());
         self.refit_if_moved();
-        if !dragging && self.worker.refit.is_none() {
-            self.history.rest((self.settings.parameters, self.settings.model, self.document.mask().clone(), self.document.number));
+        if !self.dragging && self.worker.refit.is_none() {
+            self.history.rest(self.setup());
         }
-        self.derived.refresh(&self.settings, &self.document, dragging);
-        let fitted = self.last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
-        let free = self.free();
-        self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
-        self.derived.refresh_ghost(&self.settings, &self.document, fitted);
-        match self.middle {
-            Middle::Plots | Middle::Comparison => {}
-            Middle::Table => views::table_refresh(self),
-            Middle::Planner => views::planner_refresh(self),
-        }
+        self.refresh();
         self.remember_window(ctx);
         self.save_when_rested(ctx);
+    }
+
+    /// Everything the user has set.
+    fn setup(&self) -> Setup {
+        Setup { settings: self.settings.clone(), mask: self.document.mask().clone(), number: self.document.number }
+    }
+
+    /// Makes anew what is on screen and has other inputs than before.
+    fn refresh(&mut self) {
+        self.derived.refresh_status(&self.settings, &self.document);
+        let free = self.free();
+        self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
+        self.panes.settle();
+        for pane in self.panes.on_screen() {
+            (pane.entry().refresh)(self);
+        }
     }
 
     fn receive(&mut self, event: Event) {
@@ -184,11 +203,15 @@ impl Explorer {
             Event::ChosenSave(path) => self.commands.extend(path.map(Command::SaveMeasurement)),
             Event::Saved(Ok(path)) => self.say(format!("The measurement is saved to {}.", path.display())),
             Event::Saved(Err(sentence)) => self.say(sentence),
-            Event::Loaded { name, result: Ok(measurement) } => {
+            Event::Loaded { name, path, result: Ok(measurement) } => {
                 self.notice = None;
+                path.iter().for_each(|path| self.window.remember(path));
                 self.take(name, measurement);
             }
-            Event::Loaded { result: Err(sentence), .. } => self.say(sentence),
+            Event::Loaded { path, result: Err(sentence), .. } => {
+                path.iter().for_each(|path| self.window.forget(path));
+                self.say(sentence);
+            }
             Event::Refitted(report) => {
                 // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
                 for parameter in self.free() {
@@ -216,18 +239,14 @@ impl Explorer {
     }
 
     fn listen_to_keys(&mut self, ctx: &egui::Context) {
-        if ctx.egui_wants_keyboard_input() {
+        // Keys belong to the field that is being typed into.
+        if ctx.text_edit_focused() {
             return;
         }
-        let redo = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
-        let undo = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, egui::Key::Z);
-        let open = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, egui::Key::O);
-        // The longer shortcut first: the shorter one is part of it.
-        for (shortcut, command) in [(redo, Command::Redo), (undo, Command::Undo), (open, Command::ChooseMeasurement)] {
-            if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
-                self.commands.push(command);
-            }
-        }
+        self.commands.extend(command::pressed(self, ctx));
+        let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };
+        let pasted = ctx.input(|input| input.events.iter().find_map(text));
+        self.commands.extend(pasted.map(Command::PasteParameters));
     }
 
     /// Fits what is free again after a slider was moved, one fit at a time.
@@ -287,14 +306,23 @@ impl Explorer {
             Command::DismissNotice => self.notice = None,
             Command::Undo | Command::Redo => {
                 let step = if command == Command::Undo { self.history.undo() } else { self.history.redo() };
-                if let Some((parameters, model, mask, number)) = step {
-                    (self.settings.parameters, self.settings.model) = (parameters, model);
-                    self.refitted = Some(parameters);
+                if let Some(Setup { settings, mask, number }) = step {
+                    self.settings = settings;
+                    self.refitted = Some(self.settings.parameters);
                     // The rows of another measurement are other rows.
                     if number == self.document.number {
                         self.document.restore_mask(&mask);
                     }
+                    self.history.replace(self.setup());
                 }
+            }
+            Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.settings.parameters)),
+            Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+            Command::PasteParameters(text) => self.settings.parameters = parameter_text::read(&text, self.settings.parameters)?,
+            Command::ResetParameters => self.settings.parameters = Parameters::default(),
+            Command::UseModel(key) => {
+                let preset = PRESETS.iter().find(|preset| preset.key == key);
+                self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
             }
             Command::ReturnTo(index) => self.return_to(index),
             Command::Profile(parameter) => {
@@ -313,8 +341,19 @@ impl Explorer {
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
+            Command::Toggle(switch) => {
+                let on = switch.of(self);
+                *on = !*on;
+            }
+            Command::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
+            Command::TogglePane(pane) => self.panes.show(pane),
+            Command::ClosePane(pane) => self.panes.close(pane),
+            Command::ResetLayout => self.panes = Panes::new(&Layout::default()),
+            Command::ForgetRecent => self.window.recent.clear(),
+            Command::OpenPalette => self.palette.open(),
+            Command::SetLanguage(language) => self.window.language = language,
             Command::SetTheme(theme) => {
-                self.settings.theme = theme;
+                self.window.theme = theme;
                 set_theme(ctx, theme);
             }
             Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
@@ -396,14 +435,18 @@ impl Explorer {
 
     fn remember_window(&mut self, ctx: &egui::Context) {
         let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
-        self.settings.maximized = maximized.unwrap_or(false);
-        if let Some(size) = size.filter(|_| !self.settings.maximized) {
-            self.settings.window_size = [size.x.round(), size.y.round()];
+        self.window.maximized = maximized.unwrap_or(false);
+        if let Some(size) = size.filter(|_| !self.window.maximized) {
+            self.window.size = [size.x.round(), size.y.round()];
+        }
+        // While all panes are closed, the arrangement before that is kept.
+        if let Some(layout) = self.panes.layout() {
+            self.window.layout = layout;
         }
     }
 
     fn save_when_rested(&mut self, ctx: &egui::Context) {
-        if self.settings == self.saved {
+        if !self.is_changed() {
             self.changed_at = None;
             return;
         }
@@ -415,12 +458,16 @@ impl Explorer {
         }
     }
 
+    fn is_changed(&self) -> bool {
+        self.settings != self.saved.settings || self.window != self.saved.window
+    }
+
     /// Writes the settings now.
     pub fn save(&mut self) {
         self.changed_at = None;
-        self.saved = self.settings.clone();
+        self.saved = Stored { settings: self.settings.clone(), window: self.window.clone() };
         if let Some(path) = &self.settings_file
-            && let Err(error) = store::save(path, &self.settings)
+            && let Err(error) = store::save(path, &self.saved)
         {
             let sentence = format!("The settings cannot be saved to {}: {error}.", path.display());
             self.settings_file = None;
@@ -437,25 +484,12 @@ impl Explorer {
             .default_size(if ui.ctx().content_rect().width() < 1200.0 { 270.0 } else { 320.0 })
             .min_size(250.0)
             .show(ui, |ui| panels::fit_ui(self, ui));
-        egui::CentralPanel::default().show(ui, |ui| {
+        egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
             panels::notice_ui(self, ui);
-            ui.horizontal(|ui| {
-                for (middle, name) in [
-                    (Middle::Plots, "Plots"),
-                    (Middle::Table, "Data table"),
-                    (Middle::Planner, "Angle planner"),
-                    (Middle::Comparison, "Models"),
-                ] {
-                    ui.selectable_value(&mut self.middle, middle, name);
-                }
-            });
-            match self.middle {
-                Middle::Plots => plots::plots_ui(self, ui),
-                Middle::Table => views::table_ui(self, ui),
-                Middle::Planner => views::planner_ui(self, ui),
-                Middle::Comparison => views::comparison_ui(self, ui),
-            }
+            panels::fault_ui(self, ui);
+            panes_ui(self, ui);
         });
+        palette_ui(self, ui);
     }
 }
 
@@ -480,7 +514,7 @@ impl eframe::App for Explorer {
     }
 
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
-        if self.settings != self.saved {
+        if self.is_changed() {
             self.save();
         }
     }

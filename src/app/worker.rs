@@ -27,6 +27,8 @@ pub enum Event {
     /// A measurement was read, or why not.
     Loaded {
         name: String,
+        /// The file it came from, if it did.
+        path: Option<PathBuf>,
         result: Result<Measurement, String>,
     },
     Fitted {
@@ -87,6 +89,28 @@ pub struct Worker {
     pub save: Option<Job<()>>,
     pub scan: Option<Job<()>>,
     dialog: Option<u64>,
+    /// Asks for a path; no dialog where there is nobody to answer it.
+    pub ask: fn(Question) -> Option<PathBuf>,
+}
+
+/// What a dialog asks for.
+pub enum Question {
+    /// The measurement to open.
+    Open,
+    /// Where to save the measurement, with a name to begin with.
+    Save(String),
+}
+
+/// Asks in a dialog of the desktop, and waits for the answer.
+pub fn ask_desktop(question: Question) -> Option<PathBuf> {
+    let dialog = rfd::FileDialog::new();
+    match question {
+        Question::Open => {
+            let dialog = dialog.set_title("Open measurement").add_filter("Tables", &["csv", "tsv", "txt"]);
+            dialog.add_filter("All files", &["*"]).pick_file()
+        }
+        Question::Save(name) => dialog.set_title("Save measurement as").add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
+    }
 }
 
 /// What a job tells its progress to.
@@ -123,6 +147,7 @@ impl Worker {
             save: None,
             scan: None,
             dialog: None,
+            ask: |_| None,
         }
     }
 
@@ -152,13 +177,8 @@ impl Worker {
     /// Asks the desktop for a file.
     pub fn choose(&mut self) -> Result<(), String> {
         if self.dialog.is_none() {
-            let job: Job<()> = self.spawn("choose file", |_, _| {
-                let dialog = rfd::FileDialog::new()
-                    .set_title("Open measurement")
-                    .add_filter("Tables", &["csv", "tsv", "txt"])
-                    .add_filter("All files", &["*"]);
-                Event::Chosen(dialog.pick_file())
-            })?;
+            let ask = self.ask;
+            let job: Job<()> = self.spawn("choose file", move |_, _| Event::Chosen(ask(Question::Open)))?;
             self.dialog = Some(job.number);
         }
         Ok(())
@@ -167,10 +187,8 @@ impl Worker {
     /// Asks the desktop where to save, with a name to begin with.
     pub fn choose_save(&mut self, name: String) -> Result<(), String> {
         if self.dialog.is_none() {
-            let job: Job<()> = self.spawn("choose where to save", |_, _| {
-                let dialog = rfd::FileDialog::new().set_title("Save measurement as").add_filter("CSV", &["csv"]).set_file_name(name);
-                Event::ChosenSave(dialog.save_file())
-            })?;
+            let ask = self.ask;
+            let job: Job<()> = self.spawn("choose where to save", move |_, _| Event::ChosenSave(ask(Question::Save(name))))?;
             self.dialog = Some(job.number);
         }
         Ok(())
@@ -195,7 +213,7 @@ impl Worker {
     /// Reads a file.
     pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-        self.read(name, move || {
+        self.read(name, Some(path.clone()), move || {
             let file = open_file(&path).map_err(|reason| format!("{}: {reason}.", path.display()))?;
             Ok((path, file))
         })
@@ -204,12 +222,13 @@ impl Worker {
     /// Reads a text that is at hand.
     pub fn open_text(&mut self, name: String, text: &'static str) -> Result<(), String> {
         let path = PathBuf::from(&name);
-        self.read(name, move || Ok((path, text.as_bytes())))
+        self.read(name, None, move || Ok((path, text.as_bytes())))
     }
 
     fn read<R: Read>(
         &mut self,
         name: String,
+        path: Option<PathBuf>,
         source: impl FnOnce() -> Result<(PathBuf, R), String> + Send + 'static,
     ) -> Result<(), String> {
         if let Some(job) = self.load.take() {
@@ -220,9 +239,8 @@ impl Worker {
                 teller.tell(done);
                 if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let result =
-                source().and_then(|(path, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&path, &error)));
-            Event::Loaded { name, result }
+            let result = source().and_then(|(at, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&at, &error)));
+            Event::Loaded { name, path, result }
         })?;
         self.load = Some(job);
         Ok(())

@@ -1,72 +1,75 @@
-//! The menu bar.
+//! The menu bar: the table of commands, sorted into menus.
 
-use crate::app::command::Command;
-use crate::app::document::EXAMPLES;
-use crate::app::language::Language;
-use crate::app::state::Theme;
+use crate::app::command::{self, Command, Item, Menu, Status};
 use crate::app::window::Explorer;
+use egui::Ui;
 use std::path::PathBuf;
 use tr::tr;
 
-pub fn menu_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Explorer { settings, commands, typed_path, history, .. } = explorer;
-    let mut push = |ui: &mut egui::Ui, command| {
-        commands.push(command);
-        ui.close();
-    };
+pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
     // A click into the path field must not close the menu that it is in.
     let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
     egui::MenuBar::new().config(config).ui(ui, |ui| {
-        ui.menu_button(tr!("File"), |ui| {
-            if ui.add(egui::Button::new("Open measurement…").shortcut_text("Ctrl+O")).clicked() {
-                push(ui, Command::ChooseMeasurement);
-            }
-            if ui.add(egui::Button::new("Save measurement as…").shortcut_text("Ctrl+S")).clicked() {
-                push(ui, Command::ChooseSave);
-            }
-            ui.menu_button("Examples", |ui| {
-                for (index, example) in EXAMPLES.iter().enumerate() {
-                    if ui.button(example.name).clicked() {
-                        push(ui, Command::OpenExample(index));
-                    }
-                }
+        ui.menu_button(tr!("File"), |ui| file_ui(explorer, ui));
+        for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
+            ui.menu_button(name, |ui| {
+                let items = command::items(explorer);
+                items_ui(&items, menu, &mut explorer.commands, ui);
             });
-            ui.separator();
-            let label = ui.label("Or type a path and press Enter:");
-            let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
-            if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
-                push(ui, Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
-            }
-            ui.separator();
-            if ui.button("Quit").clicked() {
-                push(ui, Command::Quit);
-            }
-        });
-        ui.menu_button(tr!("Edit"), |ui| {
-            for (name, possible, command) in [("Undo", history.can_undo(), Command::Undo), ("Redo", history.can_redo(), Command::Redo)] {
-                let keys = if command == Command::Undo { "Ctrl+Z" } else { "Ctrl+Shift+Z" };
-                if ui.add_enabled(possible, egui::Button::new(name).shortcut_text(keys)).clicked() {
-                    push(ui, command);
-                }
-            }
-        });
-        ui.menu_button(tr!("View"), |ui| {
-            ui.checkbox(&mut settings.log_brdf, "Logarithmic BRDF");
-            ui.checkbox(&mut settings.show_limit, "Fresnel limit");
-            ui.checkbox(&mut settings.show_backscatter, "Backscatter side");
-            ui.checkbox(&mut settings.show_frame_times, "Frame times");
-            ui.separator();
-            ui.label("Theme");
-            for theme in Theme::ALL {
-                if ui.radio(settings.theme == theme, theme.name()).clicked() {
-                    push(ui, Command::SetTheme(theme));
-                }
-            }
-            ui.separator();
-            ui.label(tr!("Language"));
-            for language in Language::ALL {
-                ui.radio_value(&mut settings.language, language, language.name());
-            }
+        }
+        ui.menu_button(tr!("View"), |ui| view_ui(explorer, ui));
+        ui.menu_button(tr!("Help"), |ui| {
+            let items = command::items(explorer);
+            items_ui(&items, Menu::Help, &mut explorer.commands, ui);
         });
     });
+}
+
+fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let items = command::items(explorer);
+    let Explorer { commands, typed_path, window, .. } = explorer;
+    ui.menu_button("Examples", |ui| items_ui(&items, Menu::Example, commands, ui));
+    ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
+        ui.menu_button("Recent", |ui| items_ui(&items, Menu::Recent, commands, ui));
+    });
+    let label = ui.label("Or type a path and press Enter:");
+    let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
+    if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
+        commands.push(Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
+        ui.close();
+    }
+    ui.separator();
+    items_ui(&items, Menu::File, commands, ui);
+}
+
+fn view_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let items = command::items(explorer);
+    ui.weak("Panes");
+    items_ui(&items, Menu::Pane, &mut explorer.commands, ui);
+    ui.separator();
+    items_ui(&items, Menu::View, &mut explorer.commands, ui);
+    ui.separator();
+    ui.menu_button(tr!("Theme"), |ui| items_ui(&items, Menu::Theme, &mut explorer.commands, ui));
+    ui.menu_button(tr!("Language"), |ui| items_ui(&items, Menu::Language, &mut explorer.commands, ui));
+}
+
+/// The commands of a menu, with their keys; those that are on have a tick.
+fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui) {
+    for item in items.iter().filter(|item| item.menu == menu) {
+        let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
+        let clicked = match item.status {
+            Status::Off | Status::On => {
+                let button = egui::Button::selectable(item.status == Status::On, item.text.as_ref()).shortcut_text(keys);
+                let response = ui.add(button);
+                response
+                    .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, item.status == Status::On, item.text.as_ref()));
+                response
+            }
+            status => ui.add_enabled(status == Status::Possible, egui::Button::new(item.text.as_ref()).shortcut_text(keys)),
+        };
+        if clicked.on_hover_text(item.tooltip.as_ref()).clicked() {
+            commands.push(item.command.clone());
+            ui.close();
+        }
+    }
 }

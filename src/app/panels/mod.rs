@@ -8,4 +8,4 @@ mod status;
 pub use fit::fit_ui;
 pub use menu::menu_ui;
 pub use parameters::{parameters_ui, significant};
-pub use status::{notice_ui, status_ui};
+pub use status::{fault_ui, notice_ui, status_ui};

@@ -6,9 +6,9 @@ use crate::app::window::Explorer;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Explorer { derived, document, worker, commands, settings, frame_times, .. } = explorer;
+    let Explorer { derived, document, worker, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
-        ui.strong(delta_e_text(derived.delta_e)).on_hover_text(
+        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(
             "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.",
         );
         ui.separator();
@@ -21,12 +21,12 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             }
             ui.separator();
         }
-        if settings.show_frame_times {
+        if window.show_frame_times {
             ui.label(frame_times.text());
             ui.separator();
         }
         ui.add(egui::Label::new(document.description()).truncate());
-        if let Some(left_out) = &derived.left_out {
+        if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out.as_ref()) {
             ui.separator();
             ui.label(left_out);
         }
@@ -50,4 +50,11 @@ pub fn notice_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             ui.add(egui::Label::new(notice.as_str()).wrap());
         });
     });
+}
+
+/// Why there is no curve.
+pub fn fault_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
+    if let Some(fault) = explorer.derived.fault() {
+        ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
+    }
 }

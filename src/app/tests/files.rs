@@ -3,7 +3,7 @@
 use super::{explorer, harness, harness_with, wait};
 use crate::app::command::Command;
 use crate::app::document::EXAMPLES;
-use crate::app::state::{Settings, Theme};
+use crate::app::state::{Settings, Stored, Theme, WindowSettings};
 use crate::app::store;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Parameter, Parameters};
@@ -99,7 +99,7 @@ fn every_example_opens_and_says_that_it_is_simulated() {
         let explorer = explorer(&mut harness);
         assert_eq!((explorer.document.name.as_str(), &explorer.notice), (example.name, &None));
         assert!(explorer.document.description().contains("simulated"));
-        assert!(explorer.derived.delta_e.is_some());
+        assert!(explorer.derived.delta_e().is_some());
     }
 }
 
@@ -125,12 +125,10 @@ fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
 fn settings_survive_a_restart() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("new").join("settings.json");
-    let settings = Settings {
-        parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() },
-        theme: Theme::Dark,
-        log_brdf: true,
-        ..Settings::default()
-    };
+    let settings = Settings { parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() }, log_brdf: true, ..Settings::default() };
+    let mut window = WindowSettings { theme: Theme::Dark, ..WindowSettings::default() };
+    window.remember(&path);
+    let settings = Stored { settings, window };
     store::save(&path, &settings).expect("a writable folder");
     assert_eq!(store::load_from(&path), (settings, None));
 }
@@ -138,10 +136,18 @@ fn settings_survive_a_restart() {
 #[test]
 fn damaged_settings_are_set_aside() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
-    for damage in ["", "{", "{\"theta_i\": \"x\"}", "{\"theta_i\": 95}", "{\"parameters\": {\"q\": 0.5}}", "\u{0}\u{1}"] {
+    for damage in [
+        "",
+        "{",
+        "{\"settings\": {\"theta_i\": \"x\"}}",
+        "{\"settings\": {\"theta_i\": 95}}",
+        "{\"settings\": {\"parameters\": {\"q\": 0.5}}}",
+        "{\"window\": {\"size\": [0, 0]}}",
+        "\u{0}\u{1}",
+    ] {
         let path = file(&folder, "settings.json", damage);
         let (settings, notice) = store::load_from(&path);
-        assert_eq!(settings, Settings::default());
+        assert_eq!(settings, Stored::default());
         assert!(notice.expect("a notice").contains("damaged"), "{damage:?}");
         assert!(!path.exists());
         assert_eq!(std::fs::read_to_string(folder.path().join("settings.damaged.json")).expect("what was damaged is kept"), damage);
@@ -151,7 +157,9 @@ fn damaged_settings_are_set_aside() {
 #[test]
 fn the_window_fits_its_contents_in_both_themes() {
     for theme in [Theme::Light, Theme::Dark] {
-        let mut harness = harness_with(Settings { theme, log_brdf: true, show_backscatter: true, ..Settings::default() });
-        assert!(explorer(&mut harness).derived.fault.is_none());
+        let mut harness = harness_with(Settings { log_brdf: true, show_backscatter: true, ..Settings::default() });
+        explorer(&mut harness).commands.push(Command::SetTheme(theme));
+        harness.run();
+        assert!(explorer(&mut harness).derived.fault().is_none());
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
-use crate::app::window::{Explorer, Middle};
+use crate::app::panes::Pane;
+use crate::app::window::Explorer;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -26,14 +27,14 @@ fn masked(harness: &mut Harness<'static, Option<Explorer>>) -> Vec<usize> {
 #[test]
 fn a_row_is_masked_in_the_table_and_counts_no_more() {
     let mut harness = table();
-    let before = explorer(&mut harness).derived.delta_e;
+    let before = explorer(&mut harness).derived.delta_e();
     harness.get_by_label("Mask row 3").click();
     harness.run();
     assert_eq!(masked(&mut harness), [2]);
     let explorer = explorer(&mut harness);
-    assert_ne!(explorer.derived.delta_e, before);
-    assert_eq!(explorer.derived.residuals.iter().map(Vec::len).sum::<usize>(), 26);
-    assert_eq!(explorer.derived.marks.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
+    assert_ne!(explorer.derived.delta_e(), before);
+    assert_eq!(explorer.views.dolp.residuals.of_series.get().into_iter().flatten().map(Vec::len).sum::<usize>(), 26);
+    assert_eq!(explorer.derived.marks.get().expect("marks").series.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
     assert!(explorer.document.description().contains("27 rows, 1 masked"));
 }
 
@@ -74,7 +75,7 @@ fn a_measurement_with_everything_masked_is_no_disaster() {
     let mut harness = table();
     explorer(&mut harness).commands.push(Command::Mask { rows: (0..27).collect(), masked: true });
     harness.run();
-    assert_eq!(explorer(&mut harness).derived.delta_e, None);
+    assert_eq!(explorer(&mut harness).derived.delta_e(), None);
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
     let report = &explorer(&mut harness).last_fit.as_ref().expect("an answer").report;
@@ -113,7 +114,7 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
     let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
     let mut harness = table();
     explorer(&mut harness).take("long".to_owned(), measurement);
-    assert_eq!(explorer(&mut harness).middle, Middle::Table);
+    assert!(explorer(&mut harness).panes.is_on_screen(Pane::Data));
     harness.run();
     harness.get_by_label("Mask row 1");
     let middle = harness.get_by_label("Mask row 4").rect().center();

@@ -1,14 +1,16 @@
 //! The window, driven headlessly by the names of its controls.
 
+mod commands;
 mod files;
 mod fitting;
 mod masks;
 mod options;
+mod panes;
 mod planning;
 mod scans;
 mod sliders;
 
-use super::state::Settings;
+use super::state::{Settings, Stored, WindowSettings};
 use super::window::Explorer;
 use egui_kittest::Harness;
 use std::time::{Duration, Instant};
@@ -19,9 +21,13 @@ fn harness() -> Harness<'static, Option<Explorer>> {
 }
 
 fn harness_with(settings: Settings) -> Harness<'static, Option<Explorer>> {
+    harness_of(Stored { settings, window: WindowSettings::default() })
+}
+
+fn harness_of(stored: Stored) -> Harness<'static, Option<Explorer>> {
     let frame = move |ui: &mut egui::Ui, state: &mut Option<Explorer>| {
         let explorer = state.get_or_insert_with(|| {
-            let mut explorer = Explorer::new(ui.ctx(), settings.clone());
+            let mut explorer = Explorer::new(ui.ctx(), stored.clone());
             explorer.begin(None);
             explorer
         });
@@ -46,7 +52,7 @@ fn wait(harness: &mut Harness<'static, Option<Explorer>>) {
     loop {
         harness.step();
         let explorer = explorer(harness);
-        if !explorer.worker.is_busy() && explorer.commands.is_empty() {
+        if !explorer.worker.is_busy() && !explorer.background.is_busy() && explorer.commands.is_empty() {
             break;
         }
         assert!(begun.elapsed() < PATIENCE, "the job does not end");

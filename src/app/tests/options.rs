@@ -2,7 +2,7 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
-use crate::app::state::Settings;
+use crate::app::state::{Settings, Stored};
 use crate::app::window::Explorer;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -105,14 +105,14 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
     let mut harness = harness();
     explorer(&mut harness).settings.parameters.ks = 0.5;
     harness.run();
-    let consistent = explorer(&mut harness).derived.own.dolp[0][40].y;
+    let consistent = explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0][40].y;
     harness.get_by_label("Options").click();
     harness.run();
     choose(&mut harness, "Eq. (17)", "as printed");
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.settings.choices.eq17, Eq17::Printed);
     assert!(explorer.free().contains(Parameter::Ks));
-    assert_eq!(explorer.derived.own.dolp[0][40].y, consistent / 0.5);
+    assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[0][40].y, consistent / 0.5);
     harness.get_by_label("Default options").click();
     harness.run();
     assert!(!self::explorer(&mut harness).free().contains(Parameter::Ks));
@@ -157,10 +157,11 @@ fn settings_with_bounds_and_choices_survive_a_restart_and_nonsense_does_not() {
     settings.choices.loss = Loss::SoftL1;
     settings.choices.loss_scale = Some(0.02);
     settings.set_bounds(Parameter::C, -2.0, 0.5).expect("sound bounds");
+    let settings = Stored { settings, ..Stored::default() };
     crate::app::store::save(&path, &settings).expect("a writable folder");
     assert_eq!(crate::app::store::load_from(&path), (settings, None));
-    std::fs::write(&path, "{\"bounds\": [[\"N\", 3.0, 1.0]]}").expect("a writable folder");
-    let (settings, notice) = crate::app::store::load_from(&path);
+    std::fs::write(&path, "{\"settings\": {\"bounds\": [[\"N\", 3.0, 1.0]]}}").expect("a writable folder");
+    let (Stored { settings, .. }, notice) = crate::app::store::load_from(&path);
     assert_eq!((settings.bounds, settings.parameters), (Vec::new(), Parameters::default()));
     assert!(notice.expect("a notice").contains("damaged"));
 }

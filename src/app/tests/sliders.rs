@@ -17,12 +17,12 @@ fn every_parameter_has_a_slider_and_a_typed_value_of_its_name() {
 #[test]
 fn moving_a_slider_moves_the_curves() {
     let mut harness = harness();
-    let before = explorer(&mut harness).derived.series[0].clone();
+    let before = explorer(&mut harness).derived.curves.get().expect("curves").series[0].clone();
     harness.get_by_role_and_label(Role::Slider, "k").set_value_accesskit(4.5);
     harness.run();
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.settings.parameters.k, 4.5);
-    assert_ne!(explorer.derived.series[0], before);
+    assert_ne!(explorer.derived.curves.get().expect("curves").series[0], before);
 }
 
 #[test]
@@ -49,7 +49,8 @@ fn a_lobe_that_is_off_hides_its_sliders() {
     }
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.settings.model.diffuse, Diffuse::Absent);
-    assert!(explorer.derived.own.diffuse.is_empty() && explorer.derived.own.volume.is_empty());
+    let own = &explorer.derived.curves.get().expect("curves").own;
+    assert!(own.diffuse.is_empty() && own.volume.is_empty());
 }
 
 #[test]
@@ -75,8 +76,8 @@ fn reset_brings_back_the_default() {
 #[test]
 fn what_is_derived_is_not_made_anew_without_need() {
     let mut harness = harness();
-    let curve = explorer(&mut harness).derived.own.dolp[0].as_ptr();
+    let curve = explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0].as_ptr();
     harness.hover_at(egui::pos2(600.0, 200.0));
     harness.run();
-    assert_eq!(explorer(&mut harness).derived.own.dolp[0].as_ptr(), curve);
+    assert_eq!(explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0].as_ptr(), curve);
 }

@@ -1,16 +1,23 @@
 //! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
 
 mod comparison;
+mod dolp;
+mod lobes;
 mod planner;
+mod residuals;
 mod table;
 
 pub use comparison::comparison_ui;
+pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
+pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
 pub use planner::{planner_refresh, planner_ui};
 pub use table::{table_refresh, table_ui};
 
 /// What the panes keep from frame to frame.
 #[derive(Default)]
 pub struct Views {
+    pub dolp: dolp::DolpView,
+    pub lobes: lobes::LobesView,
     pub planner: planner::PlannerView,
     pub table: table::TableView,
 }

@@ -43,10 +43,10 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         match worker.fit.as_ref().map(Job::progress) {
             Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
             Some(None) => ui.label("Fitting…"),
-            None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e))),
+            None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e()))),
         };
         options::options_ui(settings, &document.measurement, ui);
-        let outlook = ui.collapsing("What these data determine", |ui| outlook::outlook_ui(derived.outlook.as_ref(), ui));
+        let outlook = ui.collapsing("What these data determine", |ui| outlook::outlook_ui(derived.outlook(), ui));
         let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
         if *outlook_is_shown != was_shown {
             // It is made before the next frame.

@@ -1,0 +1,245 @@
+//! What is drawn against θr: the model along every measured θi and at the sliders' own, and the measured points.
+
+use super::document::{Document, Mark, Series};
+use super::plots::Range;
+use super::problem::dolp_gain;
+use super::state::Settings;
+use egui_plot::PlotPoint;
+use pbrdf::fit::Eq17;
+use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
+use pbrdf::optics::Facet;
+
+/// Curves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
+pub const MOST_SERIES: usize = 12;
+pub const MOST_POINTS: usize = 20_000;
+
+/// Decades below its top that a logarithmic axis shows at most.
+pub const DECADES: f64 = 8.0;
+
+/// Up to this θr, in degrees, curves take part in choosing the axes: a Minnaert lobe has no bound at the horizon.
+pub const SETS_AXES: f64 = 80.0;
+
+/// A curve in pieces: a value that is not finite ends one.
+pub type Pieces = Vec<Vec<PlotPoint>>;
+
+/// A measured value with the ends of its error bar, in plot coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar {
+    pub x: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+/// Measured points of one series and quantity.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Marks {
+    pub used: Vec<PlotPoint>,
+    pub masked: Vec<PlotPoint>,
+    pub bars: Vec<Bar>,
+}
+
+impl Marks {
+    /// Whether anything was measured.
+    pub fn is_there(&self) -> bool {
+        !(self.used.is_empty() && self.masked.is_empty())
+    }
+}
+
+/// What is drawn of one measured θi.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeriesMarks {
+    pub name: String,
+    pub dolp: Marks,
+    pub brdf: Marks,
+}
+
+/// The model along one series.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Curves {
+    pub dolp: Pieces,
+    pub limit: Pieces,
+    pub total: Pieces,
+    pub specular: Pieces,
+    pub diffuse: Pieces,
+    pub volume: Pieces,
+}
+
+/// What the curves depend on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveKey {
+    pub parameters: Parameters,
+    pub model: Model,
+    pub theta_i: f64,
+    pub dphi: f64,
+    pub log_brdf: bool,
+    pub eq17: Eq17,
+    /// Whether the backscatter side is drawn.
+    pub backscatter: bool,
+    pub generation: u64,
+}
+
+impl CurveKey {
+    pub fn new(settings: &Settings, document: &Document) -> Self {
+        Self {
+            parameters: settings.parameters,
+            model: settings.model,
+            theta_i: settings.theta_i,
+            dphi: settings.dphi,
+            log_brdf: settings.log_brdf,
+            eq17: settings.choices.eq17,
+            backscatter: settings.show_backscatter || document.has_backscatter(),
+            generation: document.generation,
+        }
+    }
+
+    /// The θr that are drawn.
+    pub fn x(&self) -> Range {
+        Range { low: if self.backscatter { -90.0 } else { 0.0 }, high: 90.0 }
+    }
+}
+
+/// All curves of the sliders.
+#[derive(Debug, Clone, Default)]
+pub struct CurveSet {
+    /// Along each series.
+    pub series: Vec<Curves>,
+    /// At the sliders' own θi and Δφ.
+    pub own: Curves,
+    /// The series that has the sliders' own θi and Δφ.
+    pub own_is_series: Option<usize>,
+}
+
+impl CurveSet {
+    /// Without curves where the values mean no surface.
+    pub fn new(key: &CurveKey, document: &Document) -> Self {
+        let Ok(surface) = Pbrdf::new(key.model, key.parameters) else {
+            return Self { series: drawn(document).map(|_| Curves::default()).collect(), ..Self::default() };
+        };
+        let plane = key.dphi.rem_euclid(360.0);
+        let own = Series { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
+        let curves = |series: &Series| Curves::new(&surface, key.eq17, series, key.backscatter, key.log_brdf);
+        let series: Vec<Curves> = drawn(document).map(curves).collect();
+        let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
+        let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
+        Self { series, own, own_is_series }
+    }
+
+    /// Those of every series, and the sliders' own.
+    pub fn all(&self) -> impl Iterator<Item = &Curves> {
+        self.series.iter().chain([&self.own])
+    }
+}
+
+/// Measured points as they are drawn.
+#[derive(Debug, Clone, Default)]
+pub struct MarkSet {
+    /// Of each series.
+    pub series: Vec<SeriesMarks>,
+    /// Series and points that are not drawn.
+    pub left_out: Option<String>,
+}
+
+impl MarkSet {
+    pub fn new(document: &Document, log_brdf: bool) -> Self {
+        let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
+        let step = total.div_ceil(MOST_POINTS).max(1);
+        let series = drawn(document).map(|series| SeriesMarks {
+            name: series.name(),
+            dolp: marks(&series.dolp, step, Some),
+            brdf: marks(&series.brdf, step, |value| brdf_coordinate(value, log_brdf)),
+        });
+        let hidden = document.series.len().saturating_sub(MOST_SERIES);
+        let left_out = match (hidden, step) {
+            (0, 1) => None,
+            (0, _) => Some(format!("every {step}th of {total} points is drawn")),
+            _ => Some(format!("{MOST_SERIES} of {} angles of incidence are drawn", document.series.len())),
+        };
+        Self { series: series.collect(), left_out }
+    }
+}
+
+/// Values of a curve that take part in choosing an axis.
+pub fn axis_values(pieces: &Pieces) -> impl Iterator<Item = f64> {
+    pieces.iter().flatten().filter(|point| point.x.abs() <= SETS_AXES).map(|point| point.y)
+}
+
+/// The series that are drawn.
+pub fn drawn(document: &Document) -> impl Iterator<Item = &Series> {
+    document.series.iter().take(MOST_SERIES)
+}
+
+/// A BRDF as its plot has it; none where a logarithm does not exist.
+pub fn brdf_coordinate(value: f64, log: bool) -> Option<f64> {
+    let y = if log { libm::log10(value) } else { value };
+    y.is_finite().then_some(y)
+}
+
+fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64) -> Option<f64>) -> Marks {
+    let mut marks = Marks::default();
+    for mark in measured.iter().step_by(step) {
+        let Some(y) = coordinate(mark.quantity.value) else { continue };
+        let points = if mark.masked { &mut marks.masked } else { &mut marks.used };
+        points.push(PlotPoint::new(mark.theta_r, y));
+        if let Some(sigma) = mark.quantity.sigma {
+            let high = coordinate(mark.quantity.value + sigma).unwrap_or(y);
+            // A bar that reaches 0 or below ends beneath any logarithmic axis.
+            let low = coordinate(mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);
+            marks.bars.push(Bar { x: mark.theta_r, low, high });
+        }
+    }
+    marks
+}
+
+/// Signed θr of a curve: every half degree, and ever closer around the mirror direction, where lobes are narrow.
+pub fn directions(theta_i: f64, backscatter: bool) -> Vec<f64> {
+    let first = if backscatter { -179 } else { 0 };
+    let mut angles: Vec<f64> = (first..180).map(|half| 0.5 * f64::from(half)).collect();
+    angles.push(89.9);
+    if backscatter {
+        angles.push(-89.9);
+    }
+    let near = (0..48).map(|i| 0.002 * libm::pow(1.18, f64::from(i)));
+    angles.extend(near.flat_map(|offset| [theta_i - offset, theta_i + offset]).chain([theta_i]));
+    angles.retain(|angle| angle.abs() < 90.0 && (backscatter || *angle >= 0.0));
+    angles.sort_by(f64::total_cmp);
+    angles.dedup();
+    angles
+}
+
+impl Curves {
+    pub fn new(surface: &Pbrdf, eq17: Eq17, series: &Series, backscatter: bool, log: bool) -> Self {
+        let gain = dolp_gain(eq17, surface.parameters());
+        let angles = directions(series.theta_i, backscatter);
+        let at: Vec<(f64, Reflection, f64)> = angles
+            .into_iter()
+            .filter_map(|angle| {
+                let facet = Facet::new(series.geometry(angle)?);
+                Some((angle, surface.reflection(&facet), surface.fresnel_limit(&facet)))
+            })
+            .collect();
+        let brdf =
+            |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, brdf_coordinate(value(reflection), log))));
+        let model = surface.model();
+        Self {
+            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(gain * reflection.dolp)))),
+            limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Pieces::new() },
+            total: brdf(|reflection| reflection.brdf),
+            specular: if model.specular { brdf(|reflection| reflection.specular) } else { Pieces::new() },
+            diffuse: if model.diffuse == Diffuse::Absent { Pieces::new() } else { brdf(|reflection| reflection.diffuse) },
+            volume: if model.volume { brdf(|reflection| reflection.volume) } else { Pieces::new() },
+        }
+    }
+}
+
+pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>) -> Pieces {
+    let mut pieces = vec![Vec::new()];
+    for (x, y) in points {
+        match (y.filter(|y| y.is_finite()), pieces.last_mut()) {
+            (Some(y), Some(piece)) => piece.push(PlotPoint::new(x, y)),
+            (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
+            _ => {}
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}

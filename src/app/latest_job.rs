@@ -1,0 +1,161 @@
+//! Derived values that take longer than a frame: made on a thread of their own, always from the newest inputs.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+
+/// Where such jobs run: it wakes the window when one is done, and knows how many are on their way.
+#[derive(Clone)]
+pub struct Background {
+    ctx: egui::Context,
+    running: Arc<AtomicUsize>,
+}
+
+impl Background {
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self { ctx: ctx.clone(), running: Arc::default() }
+    }
+
+    /// Whether any job is on its way.
+    #[cfg(test)]
+    pub fn is_busy(&self) -> bool {
+        self.running.load(Ordering::Acquire) > 0
+    }
+}
+
+/// Ends a job in the count and wakes the window, also when the job panics.
+struct Ending(Background);
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        self.0.running.fetch_sub(1, Ordering::Release);
+        self.0.ctx.request_repaint();
+    }
+}
+
+/// What a job answers with. The fields end in this order: the answer, or that there is none, is known before the window wakes.
+struct Reply<V> {
+    sender: Sender<V>,
+    _ending: Ending,
+}
+
+/// A [`super::memo::Memo`] that is made in the background. At most one job runs; inputs that come meanwhile wait, and only the
+/// newest are taken up. Until their value is there, the one before is shown.
+pub struct LatestJob<K, V> {
+    shown: Option<(K, V)>,
+    running: Option<(K, Receiver<V>)>,
+    /// Inputs whose job panicked or could not be started: not tried again.
+    failed: Option<K>,
+}
+
+impl<K, V> Default for LatestJob<K, V> {
+    fn default() -> Self {
+        Self { shown: None, running: None, failed: None }
+    }
+}
+
+impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
+    /// Takes up what is done, and begins a job if the value belongs to other inputs than these. Call it before every frame that
+    /// shows the value. `make` owns its inputs; it runs on another thread.
+    pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce() -> V + Send + 'static) {
+        self.take_up();
+        let is_there = self.shown.as_ref().is_some_and(|(made_from, _)| made_from == key);
+        if is_there || self.running.is_some() || self.failed.as_ref() == Some(key) {
+            return;
+        }
+        let (sender, receiver) = channel();
+        let reply = Reply { sender, _ending: Ending(background.clone()) };
+        background.running.fetch_add(1, Ordering::Release);
+        let run = move || {
+            let reply = reply;
+            // The window may be gone.
+            let _ = reply.sender.send(make());
+        };
+        match std::thread::Builder::new().name("derive".to_owned()).spawn(run) {
+            Ok(_) => self.running = Some((key.clone(), receiver)),
+            Err(_) => self.failed = Some(key.clone()),
+        }
+    }
+
+    fn take_up(&mut self) {
+        let Some((key, receiver)) = self.running.take() else { return };
+        match receiver.try_recv() {
+            Ok(value) => self.shown = Some((key, value)),
+            Err(TryRecvError::Empty) => self.running = Some((key, receiver)),
+            Err(TryRecvError::Disconnected) => self.failed = Some(key),
+        }
+    }
+
+    /// The newest value that is done.
+    pub fn get(&self) -> Option<&V> {
+        self.shown.as_ref().map(|(_, value)| value)
+    }
+
+    /// The inputs of that value.
+    pub fn key(&self) -> Option<&K> {
+        self.shown.as_ref().map(|(key, _)| key)
+    }
+
+    /// Whether a newer value is being made.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Whether the job for these inputs came to nothing.
+    pub fn has_failed(&self, key: &K) -> bool {
+        self.failed.as_ref() == Some(key)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Background, LatestJob};
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    fn wait(background: &Background) {
+        let begun = Instant::now();
+        while background.is_busy() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "the job does not end");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn the_newest_inputs_win_and_the_old_value_is_shown_meanwhile() {
+        let background = Background::new(&egui::Context::default());
+        let mut job: LatestJob<u32, u32> = LatestJob::default();
+        job.refresh(&background, &1, || 10);
+        wait(&background);
+        let (let_go, hold) = channel::<()>();
+        job.refresh(&background, &2, move || {
+            let _ = hold.recv();
+            20
+        });
+        assert_eq!((job.get(), job.is_running()), (Some(&10), true));
+        // 3 comes and goes while 2 is being made.
+        job.refresh(&background, &3, || 30);
+        job.refresh(&background, &4, || 40);
+        drop(let_go);
+        wait(&background);
+        job.refresh(&background, &4, || 40);
+        assert_eq!(job.get(), Some(&20));
+        wait(&background);
+        job.refresh(&background, &4, || 40);
+        assert_eq!((job.get(), job.key(), job.is_running()), (Some(&40), Some(&4), false));
+    }
+
+    #[test]
+    fn a_job_that_panics_is_not_tried_again_with_the_same_inputs() {
+        let background = Background::new(&egui::Context::default());
+        let mut job: LatestJob<u32, u32> = LatestJob::default();
+        job.refresh(&background, &1, || std::panic::panic_any("on purpose"));
+        wait(&background);
+        job.refresh(&background, &1, || 10);
+        assert!(job.has_failed(&1) && !job.is_running() && job.get().is_none());
+        job.refresh(&background, &2, || 20);
+        wait(&background);
+        job.refresh(&background, &2, || 20);
+        assert_eq!(job.get(), Some(&20));
+    }
+}

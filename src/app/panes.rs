@@ -1,0 +1,314 @@
+//! The panes in the middle: one table of them, and the tiles that they lie in.
+//!
+//! A pane that is not on screen is not refreshed: what is not seen is not computed. To add one: a variant, a row in [`PANES`], a
+//! file in `views/` with its functions, and a field in [`super::views::Views`] for what it keeps.
+
+use super::command::Command;
+use super::layout::Layout;
+use super::views;
+use super::window::Explorer;
+use egui::{Key, Ui, WidgetText};
+use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use serde::{Deserialize, Serialize};
+
+/// Which pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "&'static str")]
+pub enum Pane {
+    Dolp,
+    Lobes,
+    Data,
+    Planner,
+    Models,
+}
+
+/// Where a pane lies until the user moves it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    Upper,
+    Lower,
+}
+
+/// What there is to know of a pane.
+pub struct Entry {
+    pub pane: Pane,
+    /// Name in files.
+    pub key: &'static str,
+    pub title: &'static str,
+    pub tooltip: &'static str,
+    /// Shows it, together with Ctrl.
+    pub shortcut: Option<Key>,
+    pub place: Place,
+    /// Makes anew what it draws, where inputs are others; called before each frame that has it on screen, and at no other time.
+    pub refresh: fn(&mut Explorer),
+    /// Draws it; evaluates nothing.
+    pub ui: fn(&mut Explorer, &mut Ui),
+    /// What its *Show* menu holds, if it has one.
+    pub options: Option<fn(&mut Explorer, &mut Ui)>,
+}
+
+/// All panes, in the order of the enumeration and of menus.
+pub static PANES: [Entry; 5] = [
+    Entry {
+        pane: Pane::Dolp,
+        key: "dolp",
+        title: "DoLP",
+        tooltip: "Degree of linear polarisation against the angle of view, Eq. (17), with the measured points and what the model misses",
+        shortcut: Some(Key::Num1),
+        place: Place::Upper,
+        refresh: views::dolp_refresh,
+        ui: views::dolp_ui,
+        options: Some(views::dolp_options_ui),
+    },
+    Entry {
+        pane: Pane::Lobes,
+        key: "lobes",
+        title: "Lobes",
+        tooltip: "BRDF against the angle of view: specular, diffuse and volume lobe and their sum, Eq. (14)",
+        shortcut: Some(Key::Num2),
+        place: Place::Lower,
+        refresh: views::lobes_refresh,
+        ui: views::lobes_ui,
+        options: Some(views::lobes_options_ui),
+    },
+    Entry {
+        pane: Pane::Data,
+        key: "data",
+        title: "Data table",
+        tooltip: "The measurement row by row with the model's values; masks by row and by series; metadata",
+        shortcut: Some(Key::Num9),
+        place: Place::Lower,
+        refresh: views::table_refresh,
+        ui: views::table_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Planner,
+        key: "planner",
+        title: "Angle planner",
+        tooltip: "What a measurement at these angles would determine, before it is made",
+        shortcut: None,
+        place: Place::Lower,
+        refresh: views::planner_refresh,
+        ui: views::planner_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Models,
+        key: "models",
+        title: "Models",
+        tooltip: "The ladder of models side by side on the open measurement",
+        shortcut: None,
+        place: Place::Lower,
+        refresh: |_| (),
+        ui: views::comparison_ui,
+        options: None,
+    },
+];
+
+impl Pane {
+    /// Its row in the table.
+    pub fn entry(self) -> &'static Entry {
+        &PANES[self as usize]
+    }
+}
+
+impl From<Pane> for &'static str {
+    fn from(pane: Pane) -> Self {
+        pane.entry().key
+    }
+}
+
+impl TryFrom<String> for Pane {
+    type Error = String;
+
+    fn try_from(key: String) -> Result<Self, String> {
+        PANES.iter().find(|entry| entry.key == key).map(|entry| entry.pane).ok_or_else(|| format!("there is no pane {key:?}"))
+    }
+}
+
+/// The panes and where they lie.
+pub struct Panes {
+    tree: Tree<Pane>,
+}
+
+impl Panes {
+    pub fn new(layout: &Layout) -> Self {
+        Self { tree: layout.tree() }
+    }
+
+    /// The arrangement; none where all panes are closed.
+    pub fn layout(&self) -> Option<Layout> {
+        Layout::of(&self.tree)
+    }
+
+    /// Those that the next frame draws.
+    pub fn on_screen(&self) -> Vec<Pane> {
+        self.tree.active_tiles().into_iter().filter_map(|tile| self.tree.tiles.get_pane(&tile).copied()).collect()
+    }
+
+    /// Sees to it that every group of tabs has one in front, so that [`Panes::on_screen`] knows it before it is drawn.
+    pub fn settle(&mut self) {
+        self.tree.simplify(&SIMPLIFICATION);
+        let ids: Vec<TileId> = self.tree.tiles.tile_ids().filter(|tile| is_tabs(&self.tree.tiles, *tile)).collect();
+        for id in ids {
+            if let Some(Tile::Container(Container::Tabs(mut tabs))) = self.tree.tiles.remove(id) {
+                tabs.ensure_active(&self.tree.tiles);
+                self.tree.tiles.insert(id, Tile::Container(Container::Tabs(tabs)));
+            }
+        }
+    }
+
+    pub fn is_on_screen(&self, pane: Pane) -> bool {
+        self.on_screen().contains(&pane)
+    }
+
+    /// Puts a pane on screen, where it lies or, if it is closed, beside its neighbours.
+    pub fn show(&mut self, pane: Pane) {
+        if self.tree.tiles.find_pane(&pane).is_none() {
+            self.insert(pane);
+        }
+        self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(other) if *other == pane));
+    }
+
+    fn insert(&mut self, pane: Pane) {
+        let tile = self.tree.tiles.insert_pane(pane);
+        let tabs = self.tabs_for(pane).and_then(|tabs| self.tree.tiles.get_mut(tabs));
+        if let Some(Tile::Container(container)) = tabs {
+            container.add_child(tile);
+            return;
+        }
+        let children = self.tree.root().into_iter().chain([tile]).collect();
+        let root = self.tree.tiles.insert_vertical_tile(children);
+        self.tree.root = Some(root);
+    }
+
+    /// The tabs that a closed pane opens in: those with a pane of the same place, or else any.
+    fn tabs_for(&self, pane: Pane) -> Option<TileId> {
+        let tiles = &self.tree.tiles;
+        let beside = PANES.iter().filter(|entry| entry.place == pane.entry().place);
+        let parent = beside.filter_map(|entry| tiles.parent_of(tiles.find_pane(&entry.pane)?)).find(|parent| is_tabs(tiles, *parent));
+        parent.or_else(|| self.tree.active_tiles().into_iter().find(|tile| is_tabs(tiles, *tile)))
+    }
+
+    pub fn close(&mut self, pane: Pane) {
+        if let Some(tile) = self.tree.tiles.find_pane(&pane) {
+            self.tree.remove_recursively(tile);
+        }
+    }
+}
+
+/// A pane without a tab could be neither named, moved nor closed.
+const SIMPLIFICATION: SimplificationOptions = SimplificationOptions {
+    prune_empty_tabs: true,
+    prune_empty_containers: true,
+    prune_single_child_tabs: true,
+    prune_single_child_containers: true,
+    all_panes_must_have_tabs: true,
+    join_nested_linear_containers: true,
+    flatten_tabs_in_tabs: true,
+};
+
+fn is_tabs(tiles: &Tiles<Pane>, tile: TileId) -> bool {
+    matches!(tiles.get(tile), Some(Tile::Container(Container::Tabs(_))))
+}
+
+/// Draws the panes.
+pub fn panes_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    if explorer.panes.on_screen().is_empty() {
+        ui.centered_and_justified(|ui| ui.label("All panes are closed. The View menu opens them again."));
+        return;
+    }
+    // The panes draw from the explorer that holds their tiles.
+    let mut tree = std::mem::replace(&mut explorer.panes.tree, Tree::empty(egui::Id::unique("no panes")));
+    tree.ui(&mut Shown { explorer }, ui);
+    explorer.panes.tree = tree;
+}
+
+/// How tiles look and behave.
+struct Shown<'a> {
+    explorer: &'a mut Explorer,
+}
+
+impl Behavior<Pane> for Shown<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+        egui::Frame::new().inner_margin(egui::Margin { left: 2, right: 10, top: 6, bottom: 2 }).show(ui, |ui| {
+            (pane.entry().ui)(self.explorer, ui);
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+        pane.entry().title.into()
+    }
+
+    fn on_tab_button(&mut self, tiles: &mut Tiles<Pane>, tile: TileId, response: egui::Response) -> egui::Response {
+        match tiles.get_pane(&tile) {
+            Some(pane) => response.on_hover_text(pane.entry().tooltip),
+            None => response,
+        }
+    }
+
+    fn is_tab_closable(&self, _tiles: &Tiles<Pane>, _tile: TileId) -> bool {
+        true
+    }
+
+    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+        // A group of tiles inside tabs is closed as a whole by the tiles themselves.
+        let Some(pane) = tiles.get_pane(&tile) else { return true };
+        self.explorer.commands.push(Command::ClosePane(*pane));
+        false
+    }
+
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<Pane>, ui: &mut Ui, _tile: TileId, tabs: &egui_tiles::Tabs, _scroll: &mut f32) {
+        let active = tabs.active.and_then(|tile| tiles.get_pane(&tile));
+        if let Some((pane, options)) = active.and_then(|pane| Some((pane, pane.entry().options?))) {
+            // A switch is seldom set alone.
+            let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+            let (button, _) = egui::containers::menu::MenuButton::new("Show").config(config).ui(ui, |ui| options(self.explorer, ui));
+            let name = format!("Show in {}", pane.entry().title);
+            button.on_hover_text("What this pane shows").widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        }
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SIMPLIFICATION
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        4.0
+    }
+
+    fn min_size(&self) -> f32 {
+        90.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PANES, Pane, Panes};
+    use crate::app::layout::Layout;
+
+    #[test]
+    fn the_table_is_in_the_order_of_the_enumeration_and_names_are_unique() {
+        for (i, entry) in PANES.iter().enumerate() {
+            assert_eq!(entry.pane as usize, i);
+            assert_eq!(Pane::try_from(entry.key.to_owned()), Ok(entry.pane));
+            assert_eq!(PANES.iter().filter(|other| other.title == entry.title || other.key == entry.key).count(), 1);
+        }
+    }
+
+    #[test]
+    fn panes_are_closed_and_opened_again() {
+        let mut panes = Panes::new(&Layout::default());
+        for entry in &PANES {
+            panes.close(entry.pane);
+            assert!(!panes.is_on_screen(entry.pane));
+        }
+        assert_eq!(panes.layout(), None);
+        for entry in &PANES {
+            panes.show(entry.pane);
+            assert!(panes.is_on_screen(entry.pane), "{}", entry.title);
+        }
+    }
+}

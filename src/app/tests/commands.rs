@@ -1,0 +1,168 @@
+//! The table of commands: menus, keyboard, palette.
+
+use super::{explorer, harness, wait};
+use crate::app::command::{self, Command, Status, Switch};
+use crate::app::state::Theme;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::Parameters;
+
+#[test]
+fn no_two_commands_have_the_same_keys_or_the_same_name() {
+    let mut harness = harness();
+    explorer(&mut harness).window.remember(std::path::Path::new("/somewhere/mine.csv"));
+    let items = command::items(explorer(&mut harness));
+    for (i, item) in items.iter().enumerate() {
+        assert!(!item.text.is_empty() && !item.tooltip.is_empty(), "{item:?}");
+        for other in &items[..i] {
+            assert!(item.shortcut.is_none() || item.shortcut != other.shortcut, "{item:?} and {other:?}");
+            assert_ne!(item.text, other.text);
+        }
+    }
+}
+
+#[test]
+fn every_command_can_be_carried_out() {
+    let commands: Vec<Command> = command::items(explorer(&mut harness())).into_iter().map(|item| item.command).collect();
+    // All in one window, so that the later ones meet what the earlier ones left.
+    let mut harness = harness();
+    for command in commands {
+        explorer(&mut harness).commands.push(command.clone());
+        wait(&mut harness);
+        let notice = explorer(&mut harness).notice.take();
+        assert_eq!(notice, None, "{command:?}");
+    }
+}
+
+#[test]
+fn keys_do_what_menus_say() {
+    let mut harness = harness();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    assert!(explorer(&mut harness).settings.log_brdf);
+    harness.get_by_label("View").click();
+    harness.run();
+    harness.get_by_label("Logarithmic lobes").click();
+    harness.run();
+    assert!(!explorer(&mut harness).settings.log_brdf);
+}
+
+#[test]
+fn keys_work_while_a_slider_has_the_focus_and_not_while_a_field_is_typed_into() {
+    let mut harness = harness();
+    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "k").focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    assert!(explorer(&mut harness).settings.log_brdf);
+    harness.get_by_label("File").click();
+    harness.run();
+    harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Or type a path and press Enter:").focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    harness.run();
+    assert!(explorer(&mut harness).settings.log_brdf);
+}
+
+#[test]
+fn the_palette_finds_a_command_by_a_few_letters() {
+    let mut harness = harness();
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run();
+    assert!(explorer(&mut harness).palette.is_open());
+    harness.get_by_label("Find a command").type_text("dark");
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.window.theme, Theme::Dark);
+    assert!(!explorer.palette.is_open());
+}
+
+#[test]
+fn arrows_choose_in_the_palette_and_escape_leaves_it() {
+    let mut harness = harness();
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run();
+    harness.get_by_label("Find a command").type_text("reset");
+    harness.run();
+    harness.key_press(Key::ArrowDown);
+    harness.run();
+    explorer(&mut harness).settings.parameters.n = 7.0;
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(!explorer(&mut harness).palette.is_open());
+    assert_eq!(explorer(&mut harness).settings.parameters.n, 7.0);
+}
+
+#[test]
+fn undo_brings_back_every_setting() {
+    let mut harness = harness();
+    let before = explorer(&mut harness).settings.clone();
+    let steps: [fn(&mut crate::app::state::Settings); 5] = [
+        |settings| settings.parameters.k = 4.5,
+        |settings| settings.model.volume = false,
+        |settings| settings.log_brdf = true,
+        |settings| settings.theta_i = 12.5,
+        |settings| settings.show_limit = false,
+    ];
+    for step in steps {
+        step(&mut explorer(&mut harness).settings);
+        harness.run();
+    }
+    let after = explorer(&mut harness).settings.clone();
+    for _ in steps {
+        explorer(&mut harness).commands.push(Command::Undo);
+        harness.run();
+    }
+    assert_eq!(explorer(&mut harness).settings, before);
+    for _ in steps {
+        explorer(&mut harness).commands.push(Command::Redo);
+        harness.run();
+    }
+    assert_eq!(explorer(&mut harness).settings, after);
+}
+
+#[test]
+fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
+    let mut harness = harness();
+    let steps_before = explorer(&mut harness).history.can_undo();
+    for command in [Command::SetTheme(Theme::Dark), Command::Toggle(Switch::FrameTimes)] {
+        explorer(&mut harness).commands.push(command);
+        harness.run();
+    }
+    assert_eq!(explorer(&mut harness).history.can_undo(), steps_before);
+}
+
+#[test]
+fn parameters_are_copied_and_pasted_as_text() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters.n = 2.07;
+    explorer(&mut harness).commands.push(Command::CopyParameters);
+    harness.step();
+    let copied = harness.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    let copied = copied.expect("text on the clipboard");
+    assert!(copied.starts_with("n=2.07, k=3"), "{copied}");
+    explorer(&mut harness).settings.parameters = Parameters::default();
+    harness.input_mut().events.push(egui::Event::Paste(copied));
+    harness.run();
+    assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
+    harness.input_mut().events.push(egui::Event::Paste("what is this".to_owned()));
+    harness.run();
+    assert!(explorer(&mut harness).notice.as_deref().expect("a notice").contains("is no set of parameters"));
+    assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
+}
+
+#[test]
+fn what_is_impossible_is_not_ordered_by_its_keys() {
+    let mut harness = harness();
+    let items = command::items(explorer(&mut harness));
+    let redo = items.iter().find(|item| item.command == Command::Redo).expect("redo is in the table");
+    assert_eq!(redo.status, Status::Impossible);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run();
+    assert!(explorer(&mut harness).notice.is_none());
+}

@@ -1,0 +1,114 @@
+//! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel limit, the last fit, and under it what
+//! the model misses.
+
+use super::residuals::{self, Residuals};
+use crate::app::curves::{Curves, Pieces, axis_values, drawn};
+use crate::app::memo::Memo;
+use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::Ui;
+use egui_plot::{AxisHints, HoverPosition, LineStyle};
+use pbrdf::fit::Eq17;
+use pbrdf::model::{Model, Parameters, Pbrdf};
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct DolpView {
+    axes: Axes,
+    range: Following,
+    /// DoLP of the last fit along each series, where the sliders have left it.
+    ghost: Memo<Option<GhostKey>, Vec<Pieces>>,
+    pub residuals: Residuals,
+}
+
+/// The fit, the reading of Eq. (17), the generation of the document, and whether the backscatter side is drawn.
+type GhostKey = (Parameters, Model, Eq17, u64, bool);
+
+pub fn dolp_refresh(explorer: &mut Explorer) {
+    let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
+    derived.refresh_curves(settings, document);
+    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+    let view = &mut views.dolp;
+
+    let fitted = last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
+    let elsewhere = fitted.filter(|(parameters, ..)| *parameters != settings.parameters);
+    let ghost_key = elsewhere.map(|(parameters, model, eq17)| (parameters, model, eq17, document.generation, key.backscatter));
+    view.ghost.refresh(ghost_key, |key| {
+        let Some((parameters, model, eq17, _, backscatter)) = *key else { return Vec::new() };
+        let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
+        drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, false).dolp).collect()
+    });
+    view.residuals.refresh(settings, document, *dragging);
+
+    let limit = settings.show_limit;
+    let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
+    let bars = marks.series.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high));
+    let top = values.chain(bars).fold(0.0, f64::max);
+    view.range.follow(Range { low: 0.0, high: round_up(top).min(1.05) }, *dragging);
+}
+
+/// Share of the height that the residuals have.
+const STRIP: f32 = 0.25;
+
+pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let room = ui.available_height();
+    if explorer.views.dolp.residuals.range().is_some() && room > 220.0 {
+        let strip = (STRIP * room).max(80.0);
+        curves_ui(explorer, ui, room - strip - ui.spacing().item_spacing.y);
+        residuals::residuals_ui(explorer, ui, strip);
+    } else {
+        curves_ui(explorer, ui, room);
+    }
+}
+
+/// What is drawn in the pane.
+pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    ui.checkbox(&mut explorer.settings.show_limit, "Fresnel limit")
+        .on_hover_text("DoLP without any depolarising term: no point can lie above it");
+    ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
+}
+
+fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
+    let Explorer { derived, settings, views, .. } = explorer;
+    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+    let view = &mut views.dolp;
+    let dark = ui.visuals().dark_mode;
+    let own_name = format!("θi = {}° (slider)", settings.theta_i);
+    let dashed = Some(LineStyle::dashed_dense());
+    let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
+    let y = axis(AxisHints::new_y(), ui, "DoLP", decimal);
+    let response = plot("dolp", ui, height, x, y)
+        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
+        .legend(legend())
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}", position.x, position.y))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            view.axes.apply(plot, Some(key.x()), view.range.get());
+            if settings.show_limit {
+                for (i, curves) in curves.series.iter().enumerate() {
+                    curve(plot, &curves.limit, "Fresnel limit", theme::series(i, dark), dashed, 1.0);
+                }
+                if curves.own_is_series.is_none() {
+                    curve(plot, &curves.own.limit, "Fresnel limit", theme::foreground(dark), dashed, 1.0);
+                }
+            }
+            for (i, pieces) in view.ghost.get().into_iter().flatten().enumerate() {
+                curve(plot, pieces, "last fit", theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
+            }
+            for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
+                let color = theme::series(i, dark);
+                curve(plot, &curves.dolp, &marks.name, color, None, 2.0);
+                marks_in(plot, &marks.dolp, &marks.name, color, dark);
+            }
+            if curves.own_is_series.is_none() {
+                curve(plot, &curves.own.dolp, &own_name, theme::foreground(dark), None, 2.0);
+            }
+        });
+    view.axes.listen(&response, ui);
+}

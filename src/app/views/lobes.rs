@@ -1,0 +1,78 @@
+//! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
+
+use crate::app::curves::{DECADES, axis_values};
+use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
+use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::Ui;
+use egui_plot::{AxisHints, HoverPosition};
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct LobesView {
+    axes: Axes,
+    range: Following,
+}
+
+pub fn lobes_refresh(explorer: &mut Explorer) {
+    let Explorer { derived, settings, document, views, dragging, .. } = explorer;
+    derived.refresh_curves(settings, document);
+    let (Some(curves), Some(marks)) = (derived.curves.get(), derived.marks.get()) else { return };
+    let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
+    let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
+    let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
+    let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
+    for value in of_curves.chain(of_marks) {
+        (bottom, top) = (bottom.min(value), top.max(value));
+    }
+    let wanted = if settings.log_brdf {
+        let high = if top.is_finite() { (top + 0.1).ceil() } else { 1.0 };
+        Range { low: bottom.floor().clamp(high - DECADES, high - 1.0), high }
+    } else {
+        Range { low: 0.0, high: round_up(top) }
+    };
+    views.lobes.range.follow(wanted, *dragging);
+}
+
+/// What is drawn in the pane.
+pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    ui.checkbox(&mut explorer.settings.log_brdf, "Logarithmic BRDF");
+    ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
+}
+
+pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { derived, settings, views, .. } = explorer;
+    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+    let view = &mut views.lobes;
+    let dark = ui.visuals().dark_mode;
+    let log = settings.log_brdf;
+    let title = format!("θr / °  at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi);
+    let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
+    let y = axis(AxisHints::new_y(), ui, "BRDF / (1/sr)", if log { power_of_ten } else { decimal });
+    let response = plot("lobes", ui, ui.available_height(), x, y)
+        .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
+        .legend(legend())
+        .label_formatter(move |hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                let brdf = if log { libm::exp10(position.y) } else { position.y };
+                Some(format!("{plot_name}\nθr = {:.2}°\nBRDF = {brdf:.4e} 1/sr", position.x))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            view.axes.apply(plot, Some(key.x()), view.range.get());
+            for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
+                if marks.brdf.is_there() {
+                    let color = theme::series(i, dark);
+                    curve(plot, &curves.total, &marks.name, color, None, 1.5);
+                    marks_in(plot, &marks.brdf, &marks.name, color, dark);
+                }
+            }
+            curve(plot, &curves.own.specular, "specular", theme::specular(dark), None, 1.5);
+            curve(plot, &curves.own.diffuse, "diffuse", theme::diffuse(dark), None, 1.5);
+            curve(plot, &curves.own.volume, "volume", theme::volume(dark), None, 1.5);
+            curve(plot, &curves.own.total, "total", theme::foreground(dark), None, 2.5);
+        });
+    view.axes.listen(&response, ui);
+}

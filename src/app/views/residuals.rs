@@ -1,0 +1,87 @@
+//! The strip under DoLP: model less measurement, so that a misfit too small for the curves shows.
+
+use crate::app::curves::{MOST_POINTS, MOST_SERIES, drawn};
+use crate::app::document::{Document, Mark};
+use crate::app::memo::Memo;
+use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::{Axes, Following, Range, plot, round_up};
+use crate::app::problem::dolp_gain;
+use crate::app::state::Settings;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::Ui;
+use egui_plot::{AxisHints, HLine, HoverPosition, PlotPoint, PlotPoints, Points};
+use pbrdf::fit::Eq17;
+use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::optics::Facet;
+
+/// What the strip keeps.
+#[derive(Default)]
+pub struct Residuals {
+    axes: Axes,
+    /// DoLP of the model less the measured one, of each series; masked points left out.
+    pub of_series: Memo<(Parameters, Model, Eq17, u64), Vec<Vec<PlotPoint>>>,
+    range: Following,
+    is_empty: bool,
+}
+
+impl Residuals {
+    pub fn refresh(&mut self, settings: &Settings, document: &Document, dragging: bool) {
+        let key = (settings.parameters, settings.model, settings.choices.eq17, document.generation);
+        self.of_series.refresh(key, |_| of_all(settings, document));
+        let largest = self.of_series.get().into_iter().flatten().flatten().map(|point| point.y.abs()).fold(0.0, f64::max);
+        self.is_empty = largest == 0.0;
+        if !self.is_empty {
+            let end = 1.08 * round_up(largest);
+            self.range.follow(Range { low: -end, high: end }, dragging);
+        }
+    }
+
+    /// Ends of its axis; none where no DoLP was measured.
+    pub fn range(&self) -> Option<Range> {
+        self.range.get().filter(|_| !self.is_empty)
+    }
+}
+
+fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
+    let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return Vec::new() };
+    let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
+    let of_one = |series: &crate::app::document::Series| {
+        let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
+        let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
+        let residual = |mark: &Mark| {
+            let facet = Facet::new(series.geometry(mark.theta_r)?);
+            Some(PlotPoint::new(mark.theta_r, gain * surface.dolp(&facet) - mark.quantity.value))
+        };
+        used.filter_map(residual).collect()
+    };
+    drawn(document).map(of_one).collect()
+}
+
+pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
+    let Explorer { derived, views, .. } = explorer;
+    let view = &mut views.dolp.residuals;
+    let (Some(key), Some(marks), Some(residuals)) = (derived.curves.key(), derived.marks.get(), view.of_series.get()) else { return };
+    let Some(range) = view.range.get() else { return };
+    let dark = ui.visuals().dark_mode;
+    let x = axis(AxisHints::new_x(), ui, "", decimal);
+    let y = axis(AxisHints::new_y(), ui, "model − meas.", decimal);
+    let response = plot("residuals", ui, height, x, y)
+        .y_grid_spacer(|input| axis::marks(&input, 3.0, 0.0))
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                Some(format!("{plot_name}\nθr = {:.2}°\nresidual = {:.2e}", position.x, position.y))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            view.axes.apply(plot, Some(key.x()), Some(range));
+            plot.hline(HLine::new("", 0.0).color(theme::muted(dark)).width(1.0));
+            for (i, (residuals, marks)) in residuals.iter().zip(&marks.series).enumerate() {
+                if !residuals.is_empty() {
+                    plot.points(Points::new(marks.name.clone(), PlotPoints::Borrowed(residuals)).color(theme::series(i, dark)).radius(2.5));
+                }
+            }
+        });
+    view.axes.listen(&response, ui);
+}
