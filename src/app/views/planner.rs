@@ -7,7 +7,7 @@ use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
-use crate::app::words::{is_loose, percent};
+use crate::app::words::{is_loose, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::Choices;
 use pbrdf::measurement::Columns;
@@ -175,18 +175,18 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
     };
     let (incidences, views) = settings.plan.counts();
     ui.strong(format!("Predicted standard errors: {incidences} × {views} planned points"));
-    ui.weak("At the sliders as they stand; both columns with the noise on the left.");
+    ui.weak("At the sliders as they stand; both columns with the planned noise.");
     for sentence in [now, planned].into_iter().filter_map(|prediction| prediction.as_ref().err()) {
         ui.colored_label(warning, sentence);
     }
     let any = planned.as_ref().or(now.as_ref());
     let Ok(any) = any else { return };
-    Grid::new("predicted errors").num_columns(5).striped(true).show(ui, |ui| {
+    Grid::new("predicted errors").num_columns(5).striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
         for (heading, help) in [
             ("", ""),
             ("value", "The slider"),
             ("± now", "With the angles of the open measurement"),
-            ("± planned", "With the angles on the left"),
+            ("± planned", "With the planned angles"),
             ("now / planned", "How many times smaller the error becomes"),
         ] {
             ui.strong(heading).on_hover_text(help);
@@ -215,13 +215,13 @@ fn error_row_ui(
     let text = |prediction: &Result<Prediction, String>| match (prediction, error(prediction)) {
         (Err(_), _) => "-".to_owned(),
         (Ok(_), None) => "open".to_owned(),
-        (Ok(_), Some(error)) => format!("{error:.2e} ({})", percent(parameter, value, error)),
+        (Ok(_), Some(error)) => format!("{} ({})", short(error), percent(parameter, value, error)),
     };
     ui.label(parameter.symbol()).on_hover_text(parameter.name());
     ui.monospace(significant(value));
     ui.monospace(text(now));
     ui.monospace(text(planned));
-    ui.monospace(error(now).zip(error(planned)).map_or_else(String::new, |(now, planned)| format!("{:.3}", now / planned)));
+    ui.monospace(error(now).zip(error(planned)).map_or_else(String::new, |(now, planned)| short(now / planned)));
     ui.end_row();
 }
 

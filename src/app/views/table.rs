@@ -6,6 +6,7 @@ use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::problem::dolp_gain;
 use crate::app::window::Explorer;
+use crate::app::words::short;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::fit::Eq17;
@@ -114,15 +115,15 @@ fn one_series_ui(document: &Document, series: &Series, commands: &mut Vec<Comman
 type Heading = (&'static str, &'static str, f32);
 
 const ANGLES: [Heading; 3] = [
-    ("θi / °", "Angle of incidence", 56.0),
-    ("θr / °", "Angle of view", 56.0),
-    ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 56.0),
+    ("θi / °", "Angle of incidence", 46.0),
+    ("θr / °", "Angle of view", 46.0),
+    ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 46.0),
 ];
 const DOLP: [Heading; 4] = [
-    ("DoLP", "Measured degree of linear polarisation", 72.0),
-    ("± σ", "Its stated standard deviation", 72.0),
-    ("model", "DoLP of the model at the sliders", 72.0),
-    ("residual", "Model less measurement", 76.0),
+    ("DoLP", "Measured degree of linear polarisation", 68.0),
+    ("± σ", "Its stated standard deviation", 62.0),
+    ("model", "DoLP of the model at the sliders", 68.0),
+    ("residual", "Model less measurement", 68.0),
 ];
 const BRDF: [Heading; 4] = [
     ("BRDF", "Measured BRDF in 1/sr", 80.0),
@@ -142,7 +143,7 @@ fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, u
         // A million rows of whole points stay apart in f32; with a gap between them they would not.
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut builder = TableBuilder::new(ui).id_salt(document.number).striped(true).auto_shrink([false; 2]);
-        builder = builder.cell_layout(Layout::right_to_left(Align::Center)).column(Column::exact(46.0)).column(Column::exact(54.0));
+        builder = builder.cell_layout(Layout::right_to_left(Align::Center)).column(Column::exact(38.0)).column(Column::exact(50.0));
         for (_, _, width) in headings.clone() {
             builder = builder.column(Column::exact(*width));
         }
@@ -214,18 +215,4 @@ fn line_ui(
     if has_brdf {
         quantity(row.brdf, predicted.map(|predicted| predicted.brdf));
     }
-}
-
-/// Three significant digits are enough for an error.
-fn short(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e4).contains(&value.abs()) { significant_of(value, 3) } else { format!("{value:.2e}") }
-}
-
-fn significant_of(value: f64, digits: i32) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 6")]
-    let decimals = (f64::from(digits - 1) - libm::log10(value.abs()).floor()).clamp(0.0, 6.0) as usize;
-    format!("{value:.decimals$}")
 }
