@@ -1,11 +1,10 @@
 //! Angles that might be measured, and what they would determine.
 
-use super::problem::problem;
 use super::state::Settings;
-use pbrdf::fit::{Choices, Loss, Uncertainty, Weights};
-use pbrdf::measurement::{Columns, Measurement, Quantity, Row};
-use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
-use pbrdf::optics::{Facet, Geometry};
+use pbrdf::fit::{self, PlannedNoise};
+use pbrdf::measurement::{Columns, Measurement};
+use pbrdf::model::{Parameter, ParameterSet};
+use pbrdf::optics::Geometry;
 use serde::{Deserialize, Serialize};
 
 /// Angles from one to another in steps, in degrees; a single one where both ends are the same.
@@ -96,6 +95,11 @@ impl Plan {
         self.columns != Columns::Dolp
     }
 
+    fn noise(&self) -> PlannedNoise {
+        let if_measured = |noise, other| (self.columns != other).then_some(noise);
+        PlannedNoise { dolp: if_measured(self.noise, Columns::Brdf), brdf: if_measured(self.brdf_noise, Columns::Dolp) }
+    }
+
     fn geometries(&self) -> Vec<Geometry> {
         let theta_i = || self.theta_i.iter().flat_map(|span| span.angles());
         let theta_r = || self.theta_r.iter().flat_map(|span| span.angles());
@@ -108,8 +112,6 @@ impl Plan {
 /// What angles would determine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// Points.
-    pub points: usize,
     /// Standard error of each free parameter; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
     /// What would stay open, in words.
@@ -136,28 +138,19 @@ impl Prediction {
     }
 
     fn new(settings: &Settings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
-        let surface = Pbrdf::new(settings.model, settings.parameters).map_err(|error| format!("{error}."))?;
         if geometries.is_empty() {
             return Err("There is no angle: add one of incidence and one of view.".to_owned());
         }
-        let plan = &settings.plan;
-        let rows = geometries.into_iter().map(|geometry| {
-            let reflection = surface.reflection(&Facet::new(geometry));
-            let dolp = Quantity { value: reflection.dolp, sigma: Some(plan.noise) };
-            let brdf_sigma = plan.brdf_noise * reflection.brdf;
-            // No light, no relative error.
-            let brdf = (brdf_sigma > 0.0).then_some(Quantity { value: reflection.brdf, sigma: Some(brdf_sigma) });
-            Row { geometry, dolp: (plan.columns != Columns::Brdf).then_some(dolp), brdf: brdf.filter(|_| plan.has_brdf()), masked: false }
-        });
-        let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
-        let choices = Choices { weights: Weights::Sigma, loss: Loss::Linear, dolp_only: false, ..settings.choices };
-        let problem = problem(settings, &measurement, settings.model, free, choices).map_err(|error| format!("{error}."))?;
-        let uncertainty = Uncertainty::at(&problem, &settings.parameters, 0.0, ParameterSet::EMPTY);
-        Ok(Self {
-            points: measurement.rows.len(),
-            errors: free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
-            open: uncertainty.open.into_iter().map(|open| open.text).collect(),
-        })
+        let plan = fit::Plan {
+            model: settings.model,
+            parameters: settings.parameters,
+            geometries,
+            noise: settings.plan.noise(),
+            free,
+            eq17: settings.choices.eq17,
+        };
+        let fit::Prediction { errors, undetermined, .. } = plan.predict().map_err(|error| format!("{error}."))?;
+        Ok(Self { errors, open: undetermined.into_iter().map(|open| open.text).collect() })
     }
 
     /// Standard error of a parameter.

@@ -5,7 +5,7 @@
 
 use super::band::Band;
 use super::bounds::Bounds;
-use super::choices::{Choices, Weights};
+use super::choices::{Choices, Eq17, Weights};
 use super::problem::{Problem, ProblemError, free_by_default};
 use super::uncertainty::{OpenDirection, Uncertainty};
 use crate::measurement::{Measurement, Quantity, Row};
@@ -34,6 +34,8 @@ pub struct Plan {
     pub noise: PlannedNoise,
     /// The parameters that the fit is to find.
     pub free: ParameterSet,
+    /// By which reading of Eq. (17).
+    pub eq17: Eq17,
 }
 
 /// What a plan would determine.
@@ -66,7 +68,7 @@ impl Plan {
     /// With the parameters free that a fit of such data frees by default.
     #[must_use]
     pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: PlannedNoise) -> Self {
-        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY };
+        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, eq17: Eq17::Consistent };
         plan.free = Pbrdf::new(model, parameters)
             .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &Choices::default()));
         plan
@@ -79,7 +81,7 @@ impl Plan {
         for parameter in self.free {
             bounds.widen_to(parameter, self.parameters[parameter]);
         }
-        let choices = Choices { weights: Weights::Sigma, ..Choices::default() };
+        let choices = Choices { weights: Weights::Sigma, eq17: self.eq17, ..Choices::default() };
         let problem = Problem::new(&self.measurement(&surface), self.model, self.parameters, self.free, bounds, choices);
         let problem = problem?;
         let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);

@@ -9,12 +9,12 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words::{is_loose, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::Choices;
+use pbrdf::fit::Eq17;
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 
 /// What predictions depend on.
-type Key = (Parameters, Model, Choices, ParameterSet, Plan, u64);
+type Key = (Parameters, Model, Eq17, ParameterSet, Plan, u64);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -26,7 +26,7 @@ pub struct PlannerView {
 pub fn planner_refresh(explorer: &mut Explorer) {
     let free = explorer.free_in_plan();
     let Explorer { settings, document, views, .. } = explorer;
-    let key = (settings.parameters, settings.model, settings.choices, free, settings.plan.clone(), document.generation);
+    let key = (settings.parameters, settings.model, settings.choices.eq17, free, settings.plan.clone(), document.generation);
     views
         .planner
         .predictions
