@@ -17,6 +17,8 @@ const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
 const DARKEST: f64 = 1e300;
 /// No finite factor brings e^(±1e4) back into the range of f64: there are no digits to mend.
 const BEYOND: f64 = 1e4;
+/// What larger exponents leave over is too large for e^(−rest) = 1 − rest.
+const LARGEST_WITH_REST: f64 = 1e9;
 /// Values whose squares and quotients are far from the ends of f64.
 const PLAIN: RangeInclusive<f64> = 1e-100..=1e100;
 
@@ -43,7 +45,7 @@ impl Lobe {
 
     /// With an exponent of more digits, where these matter.
     pub(super) fn with_exponent(self, exponent: Double) -> Self {
-        let exponent_rest = if exponent.hi.abs() < BEYOND { exponent.lo } else { 0.0 };
+        let exponent_rest = if exponent.hi.abs() < LARGEST_WITH_REST { exponent.lo } else { 0.0 };
         Self { exponent: exponent.hi, exponent_rest, ..self }
     }
 
