@@ -76,3 +76,14 @@ fn the_cancellation_free_form_holds_its_digits_where_the_textbook_loses_all() {
     assert!(worst("cancellation-free, prepared scene") <= 1e-13);
     assert_eq!(worst("textbook, f64"), 1.0);
 }
+
+#[test]
+fn the_stability_gallery_passes_and_the_textbook_does_not() {
+    let keys = ["case", "brdf_error", "dolp_error", "gradient_error", "textbook_error", "condition", "outcome", "pass"];
+    let rows = rows("stability", &keys);
+    let failed: Vec<&Value> = rows.iter().filter(|row| row["pass"] != true).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    let evaluations: Vec<&Value> = rows.iter().filter(|row| row["brdf_error"].is_number()).collect();
+    assert!(evaluations.len() >= 60 && rows.len() - evaluations.len() >= 12, "{} rows", rows.len());
+    assert!(evaluations.iter().filter(|row| row["textbook_error"].as_f64().expect("a number") > 1e-13).count() > 20);
+}

@@ -4,7 +4,7 @@ use super::arguments::{Report as Task, Subject};
 use super::failure::Failure;
 use super::output::Progress;
 use super::{interrupt, output};
-use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Surroundings};
+use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -46,7 +46,7 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
     };
     let answer = match task.subject {
         Subject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), date(), surroundings)),
-        Subject::Stability => return Err(Failure::not_yet("report stability")),
+        Subject::Stability => Answer::new(&Stability::run(machine(), date(), surroundings)),
         Subject::Cost => return Err(Failure::not_yet("report cost")),
     };
     drop(progress);
