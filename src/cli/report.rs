@@ -4,6 +4,7 @@ use super::arguments::{Report as Task, Subject};
 use super::failure::Failure;
 use super::output::Progress;
 use super::{interrupt, output};
+use pbrdf::report::figure::Figure;
 use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
@@ -11,19 +12,24 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Instant, SystemTime};
 
+/// Resolution of PNG figures, in dots per inch: sharp on paper and on dense screens.
+const DPI: f64 = 200.0;
+
 /// A finished report in the forms that leave the program.
 struct Answer {
     /// As printed with `--json`.
     json: Value,
+    /// As it goes into the folder, with curves.
+    whole_json: Value,
     /// As printed without.
     markdown: String,
-    /// Further files of the folder: their names and contents.
-    files: Vec<(String, Vec<u8>)>,
+    /// Pictures, with the ends of their files' names.
+    figures: Vec<(&'static str, Figure)>,
 }
 
 impl Answer {
-    fn new<R: Row>(report: &Report<R>) -> Self {
-        Self { json: report.json(), markdown: report.markdown(), files: Vec::new() }
+    fn new<R: Row>(report: Report<R>) -> Self {
+        Self { json: report.json(), whole_json: report.json_with_curves(), markdown: report.markdown(), figures: report.figures }
     }
 }
 
@@ -45,8 +51,8 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
         },
     };
     let answer = match task.subject {
-        Subject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), date(), surroundings)),
-        Subject::Stability => Answer::new(&Stability::run(machine(), date(), surroundings)),
+        Subject::ErrorVsTime => Answer::new(ErrorVsTime::run(machine(), date(), surroundings)),
+        Subject::Stability => Answer::new(Stability::run(machine(), date(), surroundings)),
         Subject::Cost => return Err(Failure::not_yet("report cost")),
     };
     drop(progress);
@@ -69,11 +75,15 @@ fn prepare(folder: &Path) -> Result<(), Failure> {
 }
 
 fn save(folder: &Path, name: &str, answer: &Answer) -> Result<(), Failure> {
-    let json = serde_json::to_string_pretty(&answer.json).map_err(|error| Failure::output("JSON", &error.into()))?;
+    let json = serde_json::to_string_pretty(&answer.whole_json).map_err(|error| Failure::output("JSON", &error.into()))?;
     output::write(Some(&folder.join(format!("{name}.json"))), |out| writeln!(out, "{json}"))?;
     output::write(Some(&folder.join(format!("{name}.md"))), |out| out.write_all(answer.markdown.as_bytes()))?;
-    for (name, contents) in &answer.files {
-        output::write(Some(&folder.join(name)), |out| out.write_all(contents))?;
+    for (suffix, figure) in &answer.figures {
+        let svg = folder.join(format!("{name}-{suffix}.svg"));
+        output::write(Some(&svg), |out| out.write_all(figure.svg().as_bytes()))?;
+        let png = folder.join(format!("{name}-{suffix}.png"));
+        let pixels = figure.png(DPI).map_err(|error| Failure::output(png.display(), &std::io::Error::other(error)))?;
+        output::write(Some(&png), |out| out.write_all(&pixels))?;
     }
     Ok(())
 }

@@ -59,7 +59,7 @@ impl ErrorVsTime {
              under all its geometries. An error of 1 means not a single digit.",
             golden.len()
         )];
-        Report { title: "Error against run time", machine, date, rows, notes }
+        Report::new("Error against run time", machine, date, rows, notes)
     }
 }
 

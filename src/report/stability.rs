@@ -2,6 +2,7 @@
 //!
 //! Evaluation cases come from `assets/reference/stability_gallery.csv`, values and derivatives to 60 digits; fits from [`super::stiff_fits`].
 
+use super::figure::{Axis, Figure, Panel, Series};
 use super::reference::{Reference, critical_angle_factor, gradient_error, references, relative_error};
 use super::stiff_fits::StiffFit;
 use super::textbook::textbook_f64;
@@ -113,7 +114,8 @@ impl Stability {
              end with a typed reason."
                 .to_owned(),
         ];
-        Report { title: "Stability in stiff and extreme cases", machine, date, rows, notes }
+        let figures = vec![("digits", digits_held(&rows))];
+        Report { figures, ..Report::new("Stability in stiff and extreme cases", machine, date, rows, notes) }
     }
 
     fn of_evaluation(reference: &Reference) -> Self {
@@ -142,6 +144,27 @@ impl Stability {
             pass: worst <= VALUE_BAR * factor && gradient_error.is_some_and(|error| error <= GRADIENT_BAR * factor),
         }
     }
+}
+
+/// Digits held in each evaluation case, beside those of the textbook form.
+fn digits_held(rows: &[Stability]) -> Figure {
+    let cases: Vec<&Stability> = rows.iter().filter(|row| row.brdf_error.is_some()).collect();
+    let series = |name: &str, error: &dyn Fn(&Stability) -> Option<f64>| {
+        let points = (0_u32..).map(f64::from).zip(&cases);
+        Series::points(name, points.filter_map(|(x, row)| Some([x, digits(error(row)?)])).collect::<Vec<_>>())
+    };
+    let panel = Panel {
+        x: Axis::linear("evaluation case, in the order of the table", ""),
+        y: Axis::linear("decimal digits held", "").between(-0.5, 17.0),
+        series: vec![
+            series("BRDF and DoLP", &|row| Some(row.brdf_error?.max(row.dolp_error?))),
+            series("gradient", &|row| row.gradient_error),
+            series("textbook form", &|row| row.textbook_error),
+            Series::level("bar on values", digits(VALUE_BAR)),
+        ],
+        ..Panel::default()
+    };
+    Figure { title: "Digits held in stiff and extreme cases".to_owned(), panels: vec![panel], ..Figure::default() }
 }
 
 /// Decimal digits that an error leaves; 16 at most.

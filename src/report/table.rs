@@ -1,6 +1,7 @@
 //! A report as a value: rows with named columns, which Markdown, JSON and the window show each in their way.
 
 use super::Machine;
+use super::figure::Figure;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -80,6 +81,18 @@ pub struct Report<R> {
     pub rows: Vec<R>,
     /// How to read it: paragraphs under the table.
     pub notes: Vec<String>,
+    /// Pictures of it, each with the end of its file's name.
+    pub figures: Vec<(&'static str, Figure)>,
+    /// What else belongs into the file beside the rows, such as curves.
+    pub further: Map<String, Value>,
+}
+
+impl<R> Report<R> {
+    /// A report without pictures.
+    #[must_use]
+    pub fn new(title: &'static str, machine: Machine, date: String, rows: Vec<R>, notes: Vec<String>) -> Self {
+        Self { title, machine, date, rows, notes, figures: Vec::new(), further: Map::new() }
+    }
 }
 
 impl<R: Row> Report<R> {
@@ -91,6 +104,16 @@ impl<R: Row> Report<R> {
             Value::Object(R::COLUMNS.iter().zip(&cells).map(|(&column, cell)| (column.to_owned(), cell.json())).collect::<Map<_, _>>())
         };
         json!({ "machine": self.machine.to_string(), "date": self.date, "rows": self.rows.iter().map(of).collect::<Vec<_>>() })
+    }
+
+    /// The same with what else belongs into the file.
+    #[must_use]
+    pub fn json_with_curves(&self) -> Value {
+        let mut json = self.json();
+        if let Some(object) = json.as_object_mut() {
+            object.extend(self.further.clone());
+        }
+        json
     }
 
     /// As Markdown: a heading, where and when, the table, the notes.
@@ -141,13 +164,7 @@ mod tests {
     }
 
     fn report(rows: Vec<Pair>) -> Report<Pair> {
-        Report {
-            title: "Pairs",
-            machine: Machine::new("", 1),
-            date: "2026-11-25T00:00:00Z".to_owned(),
-            rows,
-            notes: vec!["So.".to_owned()],
-        }
+        Report::new("Pairs", Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), rows, vec!["So.".to_owned()])
     }
 
     #[test]
