@@ -5,6 +5,7 @@
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
 mod assignment;
+mod audit;
 mod batch;
 mod far_tail;
 mod finishes;
@@ -18,6 +19,7 @@ mod scene;
 mod single_reflection;
 
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
+pub use audit::{Audit, Check, Finding, Reflectance};
 pub use batch::{Batch, DolpGradients, Instructions, Radiances};
 pub use finishes::{FINISHES, Finish};
 pub use gradient::{Gradient, Wanted};

@@ -9,7 +9,7 @@
 //! 1e-11 for σ ≥ 0.01 and θi ≤ 85°, below 1e-8 for σ ≥ 0.001 and θi ≤ 89.9°. Where e^(−y) alone underflows, the exponent is kept apart.
 
 use super::{Lobe, Model, Parameters};
-use crate::optics::{Degrees, Geometry, Grooves, Order, SlopeDistribution, reduced_slope_sq};
+use crate::optics::{Degrees, Grooves, Order, SlopeDistribution, reduced_slope_sq};
 use std::cell::RefCell;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -64,7 +64,7 @@ impl Loss {
         let (per_sigma, per_q) = survival_slopes(distribution, last, sigma, q);
         let tail = darkness(last);
         let mut sums = [tail, tail * per_sigma, tail * per_q];
-        let end = faintest(distribution, first, q);
+        let end = distribution.faintest(first, q);
         for piece in edges.windows(2) {
             let (low, high) = (libm::log1p(w_of(piece[0])), libm::log1p(w_of(piece[1])).min(end));
             if high <= low {
@@ -72,11 +72,7 @@ impl Loss {
             }
             for (x, weight) in order.between_roots(low, high) {
                 let w = libm::expm1(x);
-                let density = match distribution {
-                    SlopeDistribution::Gauss => 1.0 + w,
-                    SlopeDistribution::Cauchy => q - 1.0,
-                };
-                let part = weight * density * darkness(w) * grooves.lost(sigma * (2.0 * w).sqrt());
+                let part = weight * distribution.survival_slope(w, q) * darkness(w) * grooves.lost(sigma * (2.0 * w).sqrt());
                 sums[0] += part;
                 sums[1] += part * distribution.sigma_log_slope(w, q) / sigma;
                 sums[2] += part * distribution.q_slope(w, q) / distribution.height(q);
@@ -92,25 +88,14 @@ impl Loss {
 }
 
 /// 1 − ρ(θi), what single reflection by a perfect reflector loses in V-grooves of a model's facets: 0 to 1.
-pub(crate) fn lost_by_single_reflection(model: Model, parameters: &Parameters, geometry: Geometry) -> f64 {
-    PI * Loss::at(model.distribution, geometry.theta_i(), parameters.sigma, parameters.q).lobe.value()
+pub(crate) fn lost_by_single_reflection(model: Model, parameters: &Parameters, theta_i: Degrees) -> f64 {
+    PI * Loss::at(model.distribution, theta_i, parameters.sigma, parameters.q).lobe.value()
 }
 
 /// Where a loss is remembered: any mixture of the bits that tells neighbouring angles apart (Fibonacci hashing).
 fn slot([theta_i, sigma, q]: [u64; 3]) -> usize {
     let mixed = (theta_i ^ sigma.rotate_left(21) ^ q.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (mixed >> 32) as usize % REMEMBERED
-}
-
-/// e^(−44) is less than f64 can add to 1.
-const FAINT: f64 = 44.0;
-
-/// ln(1 + w) beyond which facets are too few to count beside those at `first`.
-fn faintest(distribution: SlopeDistribution, first: f64, q: f64) -> f64 {
-    match distribution {
-        SlopeDistribution::Gauss => libm::log1p(first + FAINT),
-        SlopeDistribution::Cauchy => libm::log1p(first) + FAINT / (q - 1.0),
-    }
 }
 
 /// Derivatives of the logarithm of the share of steeper facets by σ and q.

@@ -88,6 +88,36 @@ impl SlopeDistribution {
         }
     }
 
+    /// `dy/dx` for `x = ln(1 + w)`: with e^(−y) the share of facets per step in x.
+    pub(crate) fn survival_slope(self, w: f64, q: f64) -> f64 {
+        match self {
+            Self::Gauss => 1.0 + w,
+            Self::Cauchy => q - 1.0,
+        }
+    }
+
+    /// ln(1 + w) beyond which facets are too few to count beside those at `first`: e^(−44) is less than f64 can add to 1.
+    pub(crate) fn faintest(self, first: f64, q: f64) -> f64 {
+        const FAINT: f64 = 44.0;
+        match self {
+            Self::Gauss => libm::log1p(first + FAINT),
+            Self::Cauchy => libm::log1p(first) + FAINT / (q - 1.0),
+        }
+    }
+
+    /// The σ of Gauss at which it has the median slope of Cauchy with that σ and q: then only their tails differ.
+    /// `σ_G = σ √((2^(1/(q−1)) − 1)/ln 2)`; infinite for q so near 1 that half of the facets stand upright.
+    #[must_use]
+    pub fn gauss_of_equal_median(sigma: f64, q: f64) -> f64 {
+        sigma * (libm::expm1(LN_2 / (q - 1.0)) / LN_2).sqrt()
+    }
+
+    /// The σ of Cauchy with tail exponent q at which it has the median slope of Gauss with that σ: the way back.
+    #[must_use]
+    pub fn cauchy_of_equal_median(gauss_sigma: f64, q: f64) -> f64 {
+        gauss_sigma / (libm::expm1(LN_2 / (q - 1.0)) / LN_2).sqrt()
+    }
+
     /// P(α), Eq. (5) or (7), for tan²α, slope σ > 0 and tail exponent q > 1.
     #[must_use]
     pub fn facet_density(self, tan_alpha_sq: f64, sigma: f64, q: f64) -> f64 {
@@ -147,6 +177,19 @@ mod tests {
             let half = integral(distribution, 0.3, q, distribution.median_slope(0.3, q));
             assert!((half - 0.5).abs() < QUADRATURE, "{distribution:?} q = {q}: {half}");
         }
+    }
+
+    #[test]
+    fn sigmas_of_equal_median_have_equal_medians_and_lead_back() {
+        // A handful of roundings, as often as the exponential grows.
+        for (sigma, q) in [(0.3, 2.0), (0.7, 1.2), (0.05, 9.0)] {
+            let gauss = SlopeDistribution::gauss_of_equal_median(sigma, q);
+            let medians = [SlopeDistribution::Gauss.median_slope(gauss, q), SlopeDistribution::Cauchy.median_slope(sigma, q)];
+            assert!((medians[0] / medians[1] - 1.0).abs() < 8.0 * f64::EPSILON, "{medians:?}");
+            assert!((SlopeDistribution::cauchy_of_equal_median(gauss, q) / sigma - 1.0).abs() < 8.0 * f64::EPSILON);
+        }
+        // GGX and Beckmann: σ_G = σ/√(ln 2).
+        assert!((SlopeDistribution::gauss_of_equal_median(1.0, 2.0) * std::f64::consts::LN_2.sqrt() - 1.0).abs() < 8.0 * f64::EPSILON);
     }
 
     #[test]

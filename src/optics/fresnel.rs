@@ -53,10 +53,14 @@ impl Fresnel {
     /// Of that index at that facet.
     #[must_use]
     pub fn new(index: RefractiveIndex, facet: &Facet) -> Self {
+        Self::under(index, facet.cos_beta, facet.cos_beta_sq, facet.sin_beta_sq)
+    }
+
+    /// Under an angle of incidence β, given cos β, its square and sin²β.
+    pub(crate) fn under(index: RefractiveIndex, cos_beta: f64, cos_beta_sq: f64, sin_beta_sq: f64) -> Self {
         let one_over = scale(index);
         let (n, k) = (index.n() * one_over, index.k_m() * one_over);
-        let (cos_beta, cos_beta_sq) = (facet.cos_beta, facet.cos_beta_sq);
-        let (cos_over, sin_sq_over) = (cos_beta * one_over, facet.sin_beta_sq * one_over);
+        let (cos_over, sin_sq_over) = (cos_beta * one_over, sin_beta_sq * one_over);
         let sin_sq = sin_sq_over * one_over;
 
         let x = real_part_of_a_sq(n, k, sin_sq, cos_over * cos_over, one_over);

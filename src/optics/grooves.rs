@@ -60,6 +60,31 @@ impl Grooves {
         &self.edges
     }
 
+    /// u of a facet of slope s and azimuth φ.
+    pub(crate) fn u(&self, s: f64, phi: f64) -> f64 {
+        1.0 - s * self.tan_theta * libm::cos(phi)
+    }
+
+    /// G u of a facet of slope s: 0 below the horizon.
+    pub(crate) fn kept(s: f64, u: f64) -> f64 {
+        u.min(2.0).min(4.0 * u / (1.0 + s * s) - 2.0).max(0.0)
+    }
+
+    /// The azimuths between 0 and π, cut where `G u` has kinks and where the horizon is.
+    pub(crate) fn azimuths(&self, s: f64) -> Vec<[f64; 2]> {
+        let swing = s * self.tan_theta;
+        let horizon = 0.5 * (1.0 + s * s);
+        let kinks = if s < 1.0 { [horizon, 2.0 * (1.0 + s * s) / (3.0 - s * s), 2.0] } else { [horizon, 1.0 + s * s, 1.0 + s * s] };
+        let mut cuts = vec![0.0];
+        for above in kinks.map(|u| u - 1.0 + swing) {
+            if above > 0.0 && above < 2.0 * swing {
+                cuts.push(2.0 * libm::asin((0.5 * above / swing).sqrt()));
+            }
+        }
+        cuts.push(PI);
+        cuts.windows(2).filter(|ends| ends[1] > ends[0]).map(|ends| [ends[0], ends[1]]).collect()
+    }
+
     /// What facets of slope s, averaged over their azimuths, lose of the light that they catch.
     pub(crate) fn lost(&self, s: f64) -> f64 {
         let c_sq = 1.0 / (1.0 + s * s);

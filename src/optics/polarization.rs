@@ -5,7 +5,7 @@
 //! Signs agree with NIST's SCATMECH.
 
 use super::{Fresnel, Rotation};
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Complex, Matrix4, Vector4};
 
 /// A Stokes vector (S0, S1, S2, S3).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +65,27 @@ impl Mueller {
     #[must_use]
     pub fn element(&self, row: usize, column: usize) -> f64 {
         self.0[(row, column)]
+    }
+
+    /// The smallest eigenvalue of the coherency matrix `H = ¼ Σ m_jk (σ_j ⊗ σ_k*)`: not negative for a matrix that some optical system has (Cloude,
+    /// Optik 75, 26 (1986)). With S3 = −2 Im(E_s E_p*) σ_3 stands the other way round than usual.
+    #[must_use]
+    pub fn smallest_coherency_eigenvalue(&self) -> f64 {
+        let (zero, one, i) = (Complex::new(0.0, 0.0), Complex::new(1.0, 0.0), Complex::new(0.0, 1.0));
+        let pauli = [[[one, zero], [zero, one]], [[one, zero], [zero, -one]], [[zero, one], [one, zero]], [[zero, i], [-i, zero]]];
+        let coherency = Matrix4::from_fn(|a, b| {
+            let mut sum = zero;
+            for j in 0..4 {
+                for k in 0..4 {
+                    let element = self.element(j, k);
+                    if element != 0.0 {
+                        sum += pauli[j][a / 2][b / 2] * pauli[k][a % 2][b % 2].conj() * element;
+                    }
+                }
+            }
+            sum * 0.25
+        });
+        coherency.symmetric_eigenvalues().min()
     }
 
     /// What becomes of a Stokes vector.

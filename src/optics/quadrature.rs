@@ -14,29 +14,40 @@ const NODES: usize = 32;
 /// A node in 0…1 and its weight.
 type Node = (f64, f64);
 
-static RULE: LazyLock<[Node; NODES]> = LazyLock::new(rule::<NODES>);
+static FINE: LazyLock<[Node; NODES]> = LazyLock::new(rule);
+static COARSE: LazyLock<[Node; NODES / 2]> = LazyLock::new(rule);
+static ROUGH: LazyLock<[Node; NODES / 4]> = LazyLock::new(rule);
 /// The same, for x as above.
-static ROUNDED: LazyLock<[Node; NODES]> = LazyLock::new(|| rounded(&RULE));
-static COARSE: LazyLock<[Node; NODES / 2]> = LazyLock::new(rule::<{ NODES / 2 }>);
+static FINE_ROUNDED: LazyLock<[Node; NODES]> = LazyLock::new(|| rounded(&FINE));
 static COARSE_ROUNDED: LazyLock<[Node; NODES / 2]> = LazyLock::new(|| rounded(&COARSE));
+static ROUGH_ROUNDED: LazyLock<[Node; NODES / 4]> = LazyLock::new(|| rounded(&ROUGH));
 
 /// How many nodes an interval has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(not(test), allow(dead_code, reason = "coarse rules and smooth integrands come with the audit"))]
 pub(crate) enum Order {
     /// 32.
     Fine,
     /// 16.
     Coarse,
+    /// 8.
+    Rough,
 }
 
-#[cfg_attr(not(test), allow(dead_code, reason = "coarse rules and smooth integrands come with the audit"))]
 impl Order {
+    /// Half the nodes; 8 at least.
+    pub(crate) fn halved(self) -> Self {
+        match self {
+            Self::Fine => Self::Coarse,
+            Self::Coarse | Self::Rough => Self::Rough,
+        }
+    }
+
     /// Nodes and weights between two ends where the integrand is smooth.
     pub(crate) fn between(self, low: f64, high: f64) -> impl Iterator<Item = Node> {
         let rule: &'static [Node] = match self {
-            Self::Fine => &*RULE,
+            Self::Fine => &*FINE,
             Self::Coarse => &*COARSE,
+            Self::Rough => &*ROUGH,
         };
         scaled(rule, low, high)
     }
@@ -44,8 +55,9 @@ impl Order {
     /// The same where it may begin and end like a half-integer power.
     pub(crate) fn between_roots(self, low: f64, high: f64) -> impl Iterator<Item = Node> {
         let rule: &'static [Node] = match self {
-            Self::Fine => &*ROUNDED,
+            Self::Fine => &*FINE_ROUNDED,
             Self::Coarse => &*COARSE_ROUNDED,
+            Self::Rough => &*ROUGH_ROUNDED,
         };
         scaled(rule, low, high)
     }
@@ -91,7 +103,7 @@ mod tests {
 
     #[test]
     fn polynomials_up_to_twice_the_order_are_exact() {
-        for (order, power) in [(Order::Fine, 63), (Order::Coarse, 31)] {
+        for (order, power) in [(Order::Fine, 63), (Order::Coarse, 31), (Order::Rough, 15)] {
             let integral: f64 = order.between(0.0, 1.0).map(|(x, weight)| weight * x.powi(power)).sum();
             assert!((integral * f64::from(power + 1) - 1.0).abs() < ROUNDING, "{order:?}: {integral}");
         }

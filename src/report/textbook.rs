@@ -66,7 +66,7 @@ macro_rules! textbook {
                 Diffuse::Lambert => kd / pi,
                 Diffuse::Minnaert => kd * $pow(cos_i * cos_r, c) / pi,
                 // An integral has no textbook form: that of the core.
-                Diffuse::Hyde if model.specular => ks * lost_by_single_reflection(model, parameters, geometry) as $real / pi,
+                Diffuse::Hyde if model.specular => ks * lost_by_single_reflection(model, parameters, geometry.theta_i()) as $real / pi,
                 Diffuse::Hyde => 0.0,
             };
             let volume = if model.volume {
