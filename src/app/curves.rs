@@ -9,6 +9,8 @@ use pbrdf::fit::Eq17;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::Facet;
 
+pub use pbrdf::report::directions;
+
 /// Curves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
 pub const MOST_SERIES: usize = 12;
 pub const MOST_POINTS: usize = 20_000;
@@ -188,22 +190,6 @@ fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64) -> Option<f64>
         }
     }
     marks
-}
-
-/// Signed θr of a curve: every half degree, and ever closer around the mirror direction, where lobes are narrow.
-pub fn directions(theta_i: f64, backscatter: bool) -> Vec<f64> {
-    let first = if backscatter { -179 } else { 0 };
-    let mut angles: Vec<f64> = (first..180).map(|half| 0.5 * f64::from(half)).collect();
-    angles.push(89.9);
-    if backscatter {
-        angles.push(-89.9);
-    }
-    let near = (0..48).map(|i| 0.002 * libm::pow(1.18, f64::from(i)));
-    angles.extend(near.flat_map(|offset| [theta_i - offset, theta_i + offset]).chain([theta_i]));
-    angles.retain(|angle| angle.abs() < 90.0 && (backscatter || *angle >= 0.0));
-    angles.sort_by(f64::total_cmp);
-    angles.dedup();
-    angles
 }
 
 impl Curves {

@@ -1,8 +1,9 @@
 //! The measurement that is open, in the groups that it is plotted in.
 
-use pbrdf::measurement::{Measurement, Quantity, Row};
-use pbrdf::optics::Geometry;
+use pbrdf::measurement::{Measurement, Row};
 use std::sync::Arc;
+
+pub use pbrdf::measurement::{Mark, Series};
 
 /// A bundled example.
 pub struct Example {
@@ -16,43 +17,6 @@ pub const EXAMPLES: [Example; 3] = [
     Example { name: "Copper 650 nm (simulated)", text: include_str!("../../assets/examples/copper_650nm_simulated.csv") },
     Example { name: "Aluminium 650 nm (simulated)", text: include_str!("../../assets/examples/aluminium_650nm_simulated.csv") },
 ];
-
-/// One measured value in a plot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
-    /// θr in degrees, negative on the backscatter side.
-    pub theta_r: f64,
-    pub quantity: Quantity,
-    pub masked: bool,
-    /// Its row in the measurement.
-    pub row: usize,
-}
-
-/// Rows of one θi in one plane through the surface normal.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series {
-    /// Degrees.
-    pub theta_i: f64,
-    /// Δφ of its forward side in degrees, 90 < Δφ ≤ 270; 180 is the plane of incidence.
-    pub plane: f64,
-    pub dolp: Vec<Mark>,
-    pub brdf: Vec<Mark>,
-    /// Its rows in the measurement.
-    pub rows: Vec<usize>,
-}
-
-impl Series {
-    /// Geometry at a signed θr in this plane.
-    pub fn geometry(&self, signed_theta_r: f64) -> Option<Geometry> {
-        let dphi = if signed_theta_r < 0.0 { self.plane - 180.0 } else { self.plane };
-        Geometry::new(self.theta_i, signed_theta_r.abs(), dphi).ok()
-    }
-
-    /// Name in a legend.
-    pub fn name(&self) -> String {
-        if self.plane == 180.0 { format!("θi = {}°", self.theta_i) } else { format!("θi = {}°, Δφ = {}°", self.theta_i, self.plane) }
-    }
-}
 
 /// A measurement with its name and its groups.
 #[derive(Debug, Clone)]
@@ -76,7 +40,7 @@ const CHANGES: u32 = 32;
 
 impl Document {
     pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
-        let series = series(&measurement.rows);
+        let series = Series::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
         Self { name, measurement: Arc::new(measurement), series, number, generation: number << CHANGES, mask }
     }
@@ -124,7 +88,7 @@ impl Document {
 
     /// Whether anything was measured on the backscatter side.
     pub fn has_backscatter(&self) -> bool {
-        self.series.iter().flat_map(|series| series.dolp.iter().chain(&series.brdf)).any(|mark| mark.theta_r < 0.0)
+        self.series.iter().any(Series::has_backscatter)
     }
 
     /// Whether the measured BRDF spans so much that a linear axis would show its peak alone.
@@ -154,39 +118,6 @@ impl Document {
     }
 }
 
-/// Plane and signed θr of a geometry.
-fn plane_of(geometry: Geometry) -> (f64, f64) {
-    let dphi = geometry.dphi().0.rem_euclid(360.0);
-    let theta_r = geometry.theta_r().0;
-    if dphi > 90.0 && dphi <= 270.0 { (dphi, theta_r) } else { ((dphi + 180.0).rem_euclid(360.0), -theta_r) }
-}
-
 fn masked_rows(rows: &[Row]) -> Mask {
     rows.iter().enumerate().filter(|(_, row)| row.masked).map(|(index, _)| index).collect()
-}
-
-fn series(rows: &[Row]) -> Vec<Series> {
-    let mut order: Vec<(f64, f64, f64, usize)> = rows
-        .iter()
-        .enumerate()
-        .map(|(index, row)| {
-            let (plane, theta_r) = plane_of(row.geometry);
-            (row.geometry.theta_i().0, plane, theta_r, index)
-        })
-        .collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
-    let mut groups: Vec<Series> = Vec::new();
-    for (theta_i, plane, theta_r, index) in order {
-        if groups.last().is_none_or(|last| last.theta_i != theta_i || last.plane != plane) {
-            groups.push(Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() });
-        }
-        if let Some(last) = groups.last_mut() {
-            let row = &rows[index];
-            let mark = |quantity| Mark { theta_r, quantity, masked: row.masked, row: index };
-            last.dolp.extend(row.dolp.map(mark));
-            last.brdf.extend(row.brdf.map(mark));
-            last.rows.push(index);
-        }
-    }
-    groups
 }

@@ -6,10 +6,9 @@ use super::problem::{problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
 use pbrdf::fit::{Edge, FitReport, Profile, Scatter, Standing, bootstrap, fit, profile};
-use pbrdf::measurement::{Measurement, append_columns, exact};
+use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
-use pbrdf::optics::Facet;
-use pbrdf::report::fit_json;
+use pbrdf::report::{FITTED_COLUMNS, fit_json, fitted_cells};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -38,10 +37,8 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
 
     if let Some(path) = &task.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&measurement, &surface, task);
-        output::write(Some(path), |out| {
-            append_columns(&bytes, &["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"], &cells, out)
-        })?;
+        let cells = fitted_cells(&measurement, &surface, problem.choices().eq17, task.model.dolp_only);
+        output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &cells, out))?;
     }
     if task.json {
         let mut json = fit_json(task.model, &report);
@@ -54,26 +51,6 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
         })?;
     }
     Ok(output::exit_code())
-}
-
-/// Model and residual of both quantities for each row; a quantity that was not measured or is not predicted leaves its cells empty.
-fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, task: &Fit) -> Vec<Vec<String>> {
-    let printed_gain = match task.options.eq17 {
-        super::arguments::Eq17::Consistent => 1.0,
-        super::arguments::Eq17::Printed => surface.parameters().ks,
-    };
-    let pair = |model: f64, measured: Option<f64>| [exact(model), measured.map_or_else(String::new, |measured| exact(model - measured))];
-    measurement
-        .rows
-        .iter()
-        .map(|row| {
-            let reflection = surface.reflection(&Facet::new(row.geometry));
-            let dolp = pair(reflection.dolp / printed_gain, row.dolp.map(|dolp| dolp.value));
-            let brdf =
-                if task.model.dolp_only { [String::new(), String::new()] } else { pair(reflection.brdf, row.brdf.map(|brdf| brdf.value)) };
-            dolp.into_iter().chain(brdf).collect()
-        })
-        .collect()
 }
 
 /// The report for a person.

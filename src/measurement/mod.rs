@@ -4,6 +4,7 @@
 //! to whoever calls.
 
 mod read;
+mod series;
 mod simulate;
 mod table;
 mod wavelength;
@@ -11,6 +12,7 @@ mod woollam;
 mod write;
 
 pub use read::read;
+pub use series::{Mark, Series};
 pub use simulate::{Columns, Simulation};
 pub use table::{Column, Progress, ReadError, ReadErrorKind, Record, Table};
 pub use wavelength::{WavelengthError, choose_wavelength};

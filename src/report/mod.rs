@@ -3,9 +3,11 @@
 //! A [`Report`] is a value: rows with named columns, shown as Markdown, as JSON, or in the window. Clock, cancel and progress come
 //! from outside ([`Surroundings`]), and so does what is known of the machine.
 
+mod curves;
 mod error_vs_time;
 pub mod figure;
 mod fit_json;
+mod fitted;
 mod machine;
 mod palette;
 mod reference;
@@ -15,8 +17,10 @@ mod table;
 mod textbook;
 mod timing;
 
+pub use curves::{CurvePoint, curve, directions, write_curves};
 pub use error_vs_time::{ErrorVsTime, TaskKind};
 pub use fit_json::fit_json;
+pub use fitted::{FITTED_COLUMNS, dolp_divisor, fitted_cells, write_fitted};
 pub use machine::Machine;
 pub use reference::{Reference, critical_angle_factor, golden, gradient_error, relative_error};
 pub use stability::{GRADIENT_BAR, Setting, Stability, VALUE_BAR};

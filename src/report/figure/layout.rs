@@ -142,10 +142,10 @@ struct Cell {
     legend: Vec<Vec<usize>>,
 }
 
-/// So many labels fit into that length.
-fn most(length: f64, each: f64) -> usize {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 10")]
-    let most = (length / each).clamp(2.0, 9.0) as usize;
+/// So many labels fit into that length, and at least so many are wanted.
+fn most(length: f64, each: f64, least: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 9")]
+    let most = (length / each).clamp(least, 9.0) as usize;
     most
 }
 
@@ -157,10 +157,10 @@ fn cell(panel: &Panel, outer: Frame, font: &Font) -> Cell {
     let x_label = if panel.x.title().is_empty() { 0.0 } else { LABEL + GAP };
     let below = TICK + GAP + SMALL + x_label + GAP;
     let height = (outer.height - above - below).max(1.0);
-    let y = Ruled::new(&panel.y, super::range::y(panel), most(height, 20.0));
+    let y = Ruled::new(&panel.y, super::range::y(panel), most(height, 20.0, 3.0));
     let y_label = if panel.y.title().is_empty() { 0.0 } else { LABEL + GAP };
     let left = y_label + y.label_width(font).min(WIDEST_LABELS * outer.width) + TICK + 2.0 * GAP;
-    let color = heat_map(panel).map(|map| Ruled::new(&map.color_axis, super::range::color(map), most(height, 20.0)));
+    let color = heat_map(panel).map(|map| Ruled::new(&map.color_axis, super::range::color(map), most(height, 20.0, 3.0)));
     let bar = color.as_ref().map_or(0.0, |color| {
         let label = heat_map(panel).map_or(0.0, |map| if map.color_axis.title().is_empty() { 0.0 } else { LABEL + GAP });
         2.0 * GAP + COLOR_BAR + TICK + GAP + color.label_width(font) + label
@@ -231,10 +231,10 @@ fn placed(panel: &Panel, cell: Cell, font: &Font) -> Placed {
             frame = Frame { left: frame.left + 0.5 * (frame.width - width), top: frame.top + 0.5 * (frame.height - height), width, height };
         }
     }
-    let mut x = Ruled::new(&panel.x, ends, most(frame.width, 34.0));
+    let mut x = Ruled::new(&panel.x, ends, most(frame.width, 34.0, 2.0));
     let needed = x.label_width(font) + 3.0 * GAP;
     if needed > 34.0 {
-        x = Ruled::new(&panel.x, ends, most(frame.width, needed));
+        x = Ruled::new(&panel.x, ends, most(frame.width, needed, 2.0));
     }
     let color_bar = color.map(|axis| ColorBar {
         frame: Frame { left: frame.right() + 2.0 * GAP, top: frame.top, width: COLOR_BAR, height: frame.height },
