@@ -3,6 +3,7 @@
 #[cfg(feature = "gui")]
 mod app;
 mod cli;
+mod export;
 mod open_file;
 mod write_file;
 

@@ -93,6 +93,12 @@ pub struct Fit {
     /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
+    /// File for a report with figures: .html in one file, .md with its figures as .svg files beside it.
+    #[arg(long, value_name = "FILE.html|.md", value_parser = values::report_file)]
+    pub report: Option<PathBuf>,
+    /// File for a figure of data, fit and residuals: .svg, or .png at 300 dots an inch.
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = values::picture_file)]
+    pub figure: Option<PathBuf>,
 }
 
 /// `compare`.

@@ -5,10 +5,11 @@ use super::failure::Failure;
 use super::problem::{problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
-use pbrdf::fit::{Edge, FitReport, Profile, Scatter, Standing, bootstrap, fit, profile};
+use crate::export;
+use pbrdf::fit::{Edge, FitReport, Problem, Profile, Scatter, Standing, bootstrap, fit, profile};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
-use pbrdf::report::{FITTED_COLUMNS, fit_json, fitted_cells};
+use pbrdf::report::{FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -40,6 +41,7 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
         let cells = fitted_cells(&measurement, &surface, problem.choices().eq17, task.model.dolp_only);
         output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &cells, out))?;
     }
+    write_documents(task, &bytes, &measurement, &problem, &report)?;
     if task.json {
         let mut json = fit_json(task.model, &report);
         add_scans(&mut json, &profiles, &scatters);
@@ -51,6 +53,24 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
         })?;
     }
     Ok(output::exit_code())
+}
+
+/// The report and the figure that were asked for.
+fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem: &Problem, report: &FitReport) -> Result<(), Failure> {
+    let name = task.input.file_name().map_or_else(|| task.input.display().to_string(), |name| name.to_string_lossy().into_owned());
+    let source = Source { name, sha256: Some(export::sha256(bytes)) };
+    let (program, date) = (export::program(), export::now());
+    let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date };
+    if let Some(path) = &task.report {
+        let kind = export::report_kind(path).map_err(Failure::usage)?;
+        export::write_report(path, kind, &fitted.document()).map_err(|error| Failure::output(path.display(), &error))?;
+    }
+    if let Some(path) = &task.figure {
+        let kind = export::picture_kind(path).map_err(Failure::usage)?;
+        let figure = fitted.figure().ok_or_else(|| Failure::usage("There is nothing to draw: no row has a value."))?;
+        export::write_picture(path, kind, &figure).map_err(|error| Failure::output(path.display(), &error))?;
+    }
+    Ok(())
 }
 
 /// The report for a person.

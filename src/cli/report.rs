@@ -4,13 +4,14 @@ use super::arguments::{Report as Task, Subject};
 use super::failure::Failure;
 use super::output::Progress;
 use super::{interrupt, output};
+use crate::export::now;
 use pbrdf::report::figure::Figure;
 use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 /// Resolution of PNG figures, in dots per inch: sharp on paper and on dense screens.
 const DPI: f64 = 200.0;
@@ -51,8 +52,8 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
         },
     };
     let answer = match task.subject {
-        Subject::ErrorVsTime => Answer::new(ErrorVsTime::run(machine(), date(), surroundings)),
-        Subject::Stability => Answer::new(Stability::run(machine(), date(), surroundings)),
+        Subject::ErrorVsTime => Answer::new(ErrorVsTime::run(machine(), now(), surroundings)),
+        Subject::Stability => Answer::new(Stability::run(machine(), now(), surroundings)),
         Subject::Cost => return Err(Failure::not_yet("report cost")),
     };
     drop(progress);
@@ -93,9 +94,4 @@ pub fn machine() -> Machine {
     // Absent outside Linux: then the architecture has to do.
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     Machine::new(&cpuinfo, std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
-}
-
-/// Now, as ISO 8601 in UTC.
-pub fn date() -> String {
-    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }

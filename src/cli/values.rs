@@ -1,6 +1,8 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
+use crate::export;
 use pbrdf::model::{PRESETS, Parameter, Preset, assignment_from_text};
+use std::path::PathBuf;
 
 /// `n=2`.
 pub type Assignment = (Parameter, f64);
@@ -105,6 +107,17 @@ fn range(from: f64, to: f64, step: f64, angles: &mut Vec<f64>) -> Result<(), Str
     Ok(())
 }
 
+/// The name of a file that a report is written to.
+pub fn report_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    export::report_kind(&path).map(|_| path)
+}
+
+/// The name of a file that a figure is written to.
+pub fn picture_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    export::picture_kind(&path).map(|_| path)
+}
 #[cfg(test)]
 mod tests {
     use super::{grid, interval};

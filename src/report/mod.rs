@@ -4,8 +4,11 @@
 //! from outside ([`Surroundings`]), and so does what is known of the machine.
 
 mod curves;
+mod document;
 mod error_vs_time;
 pub mod figure;
+mod fit_document;
+mod fit_figures;
 mod fit_json;
 mod fitted;
 mod machine;
@@ -18,7 +21,10 @@ mod textbook;
 mod timing;
 
 pub use curves::{CurvePoint, curve, directions, write_curves};
+pub use document::{Block, Document};
 pub use error_vs_time::{ErrorVsTime, TaskKind};
+pub use fit_document::{FitDocument, Source};
+pub use fit_figures::FitFigures;
 pub use fit_json::fit_json;
 pub use fitted::{FITTED_COLUMNS, dolp_divisor, fitted_cells, write_fitted};
 pub use machine::Machine;

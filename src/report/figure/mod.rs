@@ -17,6 +17,8 @@ mod ticks;
 #[cfg(feature = "figures")]
 pub use png::{Image, PngError};
 
+pub(super) use canvas::escape;
+
 pub use super::palette::{ColorMap, Rgb, SERIES};
 
 /// Panels under a title.

@@ -1,0 +1,113 @@
+//! Figures and reports of fits as files: what the name of a file asks for, and writing it.
+
+use crate::write_file::write_file;
+use pbrdf::report::Document;
+use pbrdf::report::figure::Figure;
+use sha2::{Digest as _, Sha256};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Resolution of a PNG for print.
+pub const PRINT_DPI: f64 = 300.0;
+
+/// How a figure is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureKind {
+    Svg,
+    Png,
+}
+
+/// How a report is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReportKind {
+    Html,
+    Markdown,
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// What a figure's file name asks for; the error is a phrase.
+pub fn picture_kind(path: &Path) -> Result<PictureKind, String> {
+    match extension(path).as_str() {
+        "svg" => Ok(PictureKind::Svg),
+        "png" => Ok(PictureKind::Png),
+        _ => Err(format!("{}: expected a name that ends in .svg or .png", path.display())),
+    }
+}
+
+/// What a report's file name asks for; the error is a phrase.
+pub fn report_kind(path: &Path) -> Result<ReportKind, String> {
+    match extension(path).as_str() {
+        "html" | "htm" => Ok(ReportKind::Html),
+        "md" | "markdown" => Ok(ReportKind::Markdown),
+        _ => Err(format!("{}: expected a name that ends in .html or .md", path.display())),
+    }
+}
+
+/// Writes a figure.
+pub fn write_picture(path: &Path, kind: PictureKind, figure: &Figure) -> io::Result<()> {
+    let bytes = match kind {
+        PictureKind::Svg => figure.svg().into_bytes(),
+        PictureKind::Png => figure.png(PRINT_DPI).map_err(io::Error::other)?,
+    };
+    write_file(path, |out| out.write_all(&bytes))
+}
+
+/// The file of a figure that belongs to a Markdown file: `report.md` has `report-dolp.svg` beside it.
+fn beside(path: &Path, name: &str) -> PathBuf {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!("{stem}-{name}.svg"))
+}
+
+/// Writes a report: HTML in one file; Markdown after the SVG files of its figures, which stand beside it.
+pub fn write_report(path: &Path, kind: ReportKind, document: &Document) -> io::Result<()> {
+    let text = match kind {
+        ReportKind::Html => document.html(),
+        ReportKind::Markdown => {
+            for (name, figure) in document.figures() {
+                write_picture(&beside(path, name), PictureKind::Svg, figure)?;
+            }
+            document.markdown(|name| beside(path, name).file_name().map(|file| file.to_string_lossy().into_owned()).unwrap_or_default())
+        }
+    };
+    write_file(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// The program and its version.
+pub fn program() -> String {
+    format!("pbrdf-explorer {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Day and time, UTC.
+pub fn now() -> String {
+    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+}
+
+/// SHA-256 in hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PictureKind, ReportKind, picture_kind, report_kind, sha256};
+    use std::path::Path;
+
+    #[test]
+    fn names_say_what_is_written() {
+        assert_eq!(picture_kind(Path::new("a/b.PNG")), Ok(PictureKind::Png));
+        assert_eq!(picture_kind(Path::new("b.c.svg")), Ok(PictureKind::Svg));
+        assert!(picture_kind(Path::new("svg")).unwrap_err().contains(".svg or .png"));
+        assert_eq!(report_kind(Path::new("b.md")), Ok(ReportKind::Markdown));
+        assert!(report_kind(Path::new("b.pdf")).is_err());
+    }
+
+    #[test]
+    fn hashes_are_those_of_sha256sum() {
+        // FIPS 180-2, appendix B.1.
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

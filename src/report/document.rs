@@ -1,0 +1,234 @@
+//! A document of headings, paragraphs, tables and figures, written as one self-contained HTML file or as Markdown.
+
+use super::figure::{Figure, escape};
+use std::fmt::Write as _;
+
+/// A part of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Block {
+    /// A heading under the title.
+    Heading(String),
+    /// A paragraph.
+    Paragraph(String),
+    /// Items, one below the other.
+    List(Vec<String>),
+    /// A table: head and rows of as many cells.
+    Table {
+        /// Names of the columns; empty for a table of keys and values.
+        head: Vec<String>,
+        /// What stands in them.
+        rows: Vec<Vec<String>>,
+    },
+    /// A figure with words under it.
+    Picture {
+        /// Part of the name of its file, where it has one: letters and dashes.
+        name: &'static str,
+        /// The words.
+        caption: String,
+        /// The figure.
+        figure: Box<Figure>,
+    },
+}
+
+/// A title and what stands under it. All of it is plain text, whatever characters there are.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Document {
+    /// Its title.
+    pub title: String,
+    /// Its parts.
+    pub blocks: Vec<Block>,
+}
+
+const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a;background:#fff}\
+h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2rem;border-bottom:1px solid #ccc}\
+table{border-collapse:collapse;margin:1rem 0;font-variant-numeric:tabular-nums}\
+th,td{padding:.2rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top;overflow-wrap:anywhere}\
+thead th{border-bottom:2px solid #888}figure{margin:1.5rem 0}figcaption{color:#444;font-size:.9rem}svg{max-width:100%;height:auto}";
+
+impl Document {
+    /// As one HTML file that needs nothing else: figures are in it as SVG, and it loads and runs nothing.
+    #[must_use]
+    pub fn html(&self) -> String {
+        let title = escape(&self.title);
+        let mut out = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
+             <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
+             <h1>{title}</h1>\n"
+        );
+        for block in &self.blocks {
+            // Writing to a string does not fail.
+            let _ = match block {
+                Block::Heading(text) => writeln!(out, "<h2>{}</h2>", escape(text)),
+                Block::Paragraph(text) => writeln!(out, "<p>{}</p>", escape(text)),
+                Block::List(items) => {
+                    let items: String = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
+                    writeln!(out, "<ul>\n{items}</ul>")
+                }
+                Block::Table { head, rows } => writeln!(out, "{}", html_table(head, rows)),
+                Block::Picture { caption, figure, .. } => {
+                    writeln!(out, "<figure>\n{}<figcaption>{}</figcaption>\n</figure>", figure.svg(), escape(caption))
+                }
+            };
+        }
+        out.push_str("</body>\n</html>\n");
+        out
+    }
+
+    /// As Markdown, with the figures as files beside it: `file_of` gives the path that stands in the text for the figure of that name.
+    #[must_use]
+    pub fn markdown(&self, file_of: impl Fn(&str) -> String) -> String {
+        let mut out = format!("# {}\n", plain(&self.title));
+        for block in &self.blocks {
+            out.push('\n');
+            // Writing to a string does not fail.
+            let _ = match block {
+                Block::Heading(text) => writeln!(out, "## {}", plain(text)),
+                Block::Paragraph(text) => writeln!(out, "{}", plain_line(text)),
+                Block::List(items) => {
+                    let items: String = items.iter().map(|item| format!("- {}\n", plain_line(item))).collect();
+                    write!(out, "{items}")
+                }
+                Block::Table { head, rows } => write!(out, "{}", markdown_table(head, rows)),
+                Block::Picture { name, caption, .. } => {
+                    writeln!(out, "![{}](<{}>)\n\n*{}*", plain(caption), address(&file_of(name)), plain(caption))
+                }
+            };
+        }
+        out
+    }
+
+    /// The figures with their names.
+    pub fn figures(&self) -> impl Iterator<Item = (&'static str, &Figure)> {
+        self.blocks.iter().filter_map(|block| match block {
+            Block::Picture { name, figure, .. } => Some((*name, &**figure)),
+            _ => None,
+        })
+    }
+}
+
+fn html_table(head: &[String], rows: &[Vec<String>]) -> String {
+    let row = |cells: &[String], tag: &str| -> String {
+        let cells: String = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let head = if head.is_empty() { String::new() } else { format!("<thead>\n{}</thead>\n", row(head, "th")) };
+    let body: String = rows.iter().map(|cells| row(cells, "td")).collect();
+    format!("<table>\n{head}<tbody>\n{body}</tbody>\n</table>")
+}
+
+fn markdown_table(head: &[String], rows: &[Vec<String>]) -> String {
+    let columns = head.len().max(rows.iter().map(Vec::len).max().unwrap_or(0));
+    let line = |cells: &[String]| -> String {
+        let cells: String = (0..columns).map(|j| format!(" {} |", cells.get(j).map_or_else(String::new, |cell| plain(cell)))).collect();
+        format!("|{cells}\n")
+    };
+    let rule = "---|".repeat(columns);
+    let body: String = rows.iter().map(|cells| line(cells)).collect();
+    format!("{}|{rule}\n{body}", line(head))
+}
+
+/// Text that Markdown shows as it is, on one line.
+fn plain(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\r' | '\t' => out.push(' '),
+            control if control.is_control() => out.push('\u{fffd}'),
+            // `<` and `&` begin HTML, which Markdown lets through.
+            '<' => out.push_str("&lt;"),
+            '&' => out.push_str("&amp;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '#' | '!' | '~' | '$' | '>' => {
+                out.push('\\');
+                out.push(letter);
+            }
+            letter => out.push(letter),
+        }
+    }
+    out
+}
+
+/// The same at the beginning of a line, where it must not begin a list or a heading.
+fn plain_line(text: &str) -> String {
+    let out = plain(text);
+    match out.chars().next() {
+        Some('-' | '+' | '=') => format!("\\{out}"),
+        Some(digit) if digit.is_ascii_digit() => {
+            let digits = out.chars().take_while(char::is_ascii_digit).count();
+            if matches!(out.as_bytes().get(digits), Some(b'.' | b')')) { format!("{}\\{}", &out[..digits], &out[digits..]) } else { out }
+        }
+        _ => out,
+    }
+}
+
+/// A path between the angle brackets of a Markdown link.
+fn address(path: &str) -> String {
+    let mut out = String::with_capacity(path.len());
+    for letter in path.chars() {
+        match letter {
+            '<' => out.push_str("%3C"),
+            '>' => out.push_str("%3E"),
+            '\\' => out.push('/'),
+            '\n' | '\r' => out.push(' '),
+            letter => out.push(letter),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Document, plain, plain_line};
+    use crate::report::figure::Figure;
+
+    const HOSTILE: &str = "<script>alert(1)</script> & \"x\" | *b* _i_ `c` [l](javascript:1) \u{0}\n# h";
+
+    fn document() -> Document {
+        let text = || HOSTILE.to_owned();
+        Document {
+            title: text(),
+            blocks: vec![
+                Block::Heading(text()),
+                Block::Paragraph(text()),
+                Block::List(vec![text()]),
+                Block::Table { head: vec![text()], rows: vec![vec![text()], Vec::new()] },
+                Block::Picture { name: "dolp", caption: text(), figure: Box::new(Figure { title: text(), ..Figure::default() }) },
+            ],
+        }
+    }
+
+    #[test]
+    fn html_shows_texts_as_they_are_and_runs_nothing() {
+        let html = document().html();
+        assert!(!html.contains("<script"));
+        assert_eq!(
+            html.matches("&lt;script&gt;alert(1)").count(),
+            11,
+            "title twice, five texts, caption, and the figure's label, title and words"
+        );
+        assert!(html.contains("default-src 'none'") && html.contains("<svg"));
+        // With its void elements closed it is XML.
+        let body = &html[html.find("<body>").unwrap()..html.find("</html>").unwrap()];
+        let document = roxmltree::Document::parse(body).unwrap();
+        assert_eq!(document.descendants().filter(|node| node.has_tag_name("td")).count(), 1);
+    }
+
+    #[test]
+    fn markdown_shows_texts_as_they_are() {
+        let markdown = document().markdown(|name| format!("my file <{name}>.svg"));
+        assert!(!markdown.contains("<script"));
+        assert!(markdown.contains("](<my file %3Cdolp%3E.svg>)"));
+        assert!(markdown.matches("](javascript").count() == markdown.matches("\\](javascript").count(), "{markdown}");
+        let table: Vec<&str> = markdown.lines().filter(|line| line.starts_with('|')).collect();
+        let bars = |line: &str| line.matches('|').count() - line.matches("\\|").count();
+        assert_eq!(table.iter().map(|line| bars(line)).collect::<Vec<_>>(), [2; 4]);
+    }
+
+    #[test]
+    fn a_line_does_not_begin_a_list_or_heading_by_accident() {
+        assert_eq!(plain_line("- 3"), "\\- 3");
+        assert_eq!(plain_line("12. steel"), "12\\. steel");
+        assert_eq!(plain_line("#1 k_s"), "\\#1 k\\_s");
+        assert_eq!(plain("-2.07"), "-2.07");
+    }
+}

@@ -1,0 +1,352 @@
+//! A fit as a document for people: data and where they come from, model, choices, parameters, what is open, figures.
+
+use super::document::{Block, Document};
+use super::figure::{Figure, Panel};
+use super::fit_figures::FitFigures;
+use super::fitted::dolp_divisor;
+use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Weights};
+use crate::measurement::{Measurement, Series};
+use crate::model::{Diffuse, Model, Pbrdf, Preset};
+use crate::optics::SlopeDistribution;
+
+/// Where measured data come from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Source {
+    /// Name of the file.
+    pub name: String,
+    /// SHA-256 of its bytes in hexadecimal digits.
+    pub sha256: Option<String>,
+}
+
+/// A fit with all that a reader of its report asks for.
+#[derive(Debug, Clone, Copy)]
+pub struct FitDocument<'a> {
+    /// The data.
+    pub measurement: &'a Measurement,
+    /// Where they come from.
+    pub source: &'a Source,
+    /// What was minimised.
+    pub problem: &'a Problem,
+    /// What came out.
+    pub report: &'a FitReport,
+    /// The program and its version.
+    pub program: &'a str,
+    /// Day and time of the report, as ISO 8601; empty where nobody knows.
+    pub date: &'a str,
+}
+
+/// Rows of a table with two columns.
+fn pairs(rows: Vec<(&str, String)>) -> Block {
+    Block::Table { head: Vec::new(), rows: rows.into_iter().map(|(key, value)| vec![key.to_owned(), value]).collect() }
+}
+
+fn heading(text: &str) -> Block {
+    Block::Heading(text.to_owned())
+}
+
+/// So many significant digits.
+fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let digits_less_one = digits.saturating_sub(1);
+    let text = format!("{value:.digits_less_one$e}");
+    let exponent: i32 = text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    if !(-4..6).contains(&exponent) {
+        return text;
+    }
+    let decimals = usize::try_from(i32::try_from(digits_less_one).unwrap_or(0) - exponent).unwrap_or(0);
+    format!("{value:.decimals$}")
+}
+
+/// A value to the second digit of its standard error, and the error; to six digits without.
+fn with_error(value: f64, error: Option<f64>) -> (String, Option<String>) {
+    let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else { return (significant(value, 6), None) };
+    #[expect(clippy::cast_possible_truncation, reason = "an exponent of f64")]
+    let exponent = |x: f64| if x == 0.0 { -400 } else { libm::log10(x.abs()).floor() as i32 };
+    let digits = usize::try_from(exponent(value) - exponent(error) + 2).unwrap_or(0).clamp(2, 17);
+    (significant(value, digits), Some(significant(error, 2)))
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "not defined".to_owned(), |value| significant(value, 6))
+}
+
+impl FitDocument<'_> {
+    /// The whole document.
+    #[must_use]
+    pub fn document(&self) -> Document {
+        let mut blocks = vec![Block::Paragraph(self.summary())];
+        blocks.extend(self.figures());
+        blocks.extend(self.parameters());
+        blocks.extend(self.open());
+        blocks.extend(self.correlations());
+        blocks.extend(self.goodness());
+        blocks.extend(self.data());
+        blocks.extend(self.model());
+        blocks.push(heading("Program"));
+        let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
+        blocks.push(Block::Paragraph(format!("{}{date}.", self.program)));
+        Document { title: format!("Fit of {}", self.source.name), blocks }
+    }
+
+    /// One figure of data, fit and residuals: DoLP and, where it was measured and is predicted, the BRDF below it.
+    #[must_use]
+    pub fn figure(&self) -> Option<Figure> {
+        let surface = Pbrdf::new(self.report.model, self.report.parameters).ok()?;
+        let series = Series::of(&self.measurement.rows);
+        let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
+        let brdf = if self.measurement.has_brdf() && !self.choices().dolp_only { figures.brdf(&self.source.name) } else { None };
+        match (figures.dolp(&self.source.name), brdf) {
+            (Some(dolp), Some(brdf)) => {
+                let panels = dolp.panels.into_iter().chain(brdf.panels.into_iter().map(|panel| Panel { height_share: 2.6, ..panel }));
+                Some(Figure { panels: panels.collect(), height_mm: dolp.height_mm + brdf.height_mm, ..dolp })
+            }
+            (dolp, brdf) => dolp.or(brdf),
+        }
+    }
+
+    fn used(&self) -> usize {
+        self.measurement.rows.iter().filter(|row| !row.masked).count()
+    }
+
+    fn choices(&self) -> &Choices {
+        self.problem.choices()
+    }
+
+    fn summary(&self) -> String {
+        let FitReport { stop_reason, evaluations, elapsed_ms, objective, start_objective, .. } = self.report;
+        format!(
+            "{} of {} rows. How it ended: {}. ΔE of Eq. (18) went from {} to {} in {evaluations} evaluations and {elapsed_ms:.0} ms.",
+            self.used(),
+            self.measurement.rows.len(),
+            stop_reason.text(),
+            number(*start_objective),
+            number(*objective),
+        )
+    }
+
+    fn figures(&self) -> Vec<Block> {
+        let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
+        let series = Series::of(&self.measurement.rows);
+        let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
+        let mut blocks = vec![heading("Figures")];
+        if let Some(figure) = figures.dolp("") {
+            let caption = "DoLP against the angle of view: points measured, curves fitted, dashed the Fresnel limit that no \
+                           diffuse or volume term can exceed; below, model less measured."
+                .to_owned();
+            blocks.push(Block::Picture { name: "dolp", caption, figure: Box::new(figure) });
+        }
+        let predicts_brdf = !self.choices().dolp_only;
+        if let Some(figure) = figures.brdf("").filter(|_| predicts_brdf) {
+            let caption = match series.first() {
+                Some(first) if !self.measurement.has_brdf() => {
+                    format!("Lobes of the BRDF at {} with the weights of the fit; no BRDF was measured.", first.name())
+                }
+                _ => "BRDF against the angle of view: points measured, curves fitted.".to_owned(),
+            };
+            blocks.push(Block::Picture { name: "brdf", caption, figure: Box::new(figure) });
+        }
+        blocks
+    }
+
+    fn parameters(&self) -> Vec<Block> {
+        let head = ["", "parameter", "value", "standard error", "start", "bounds", "unit"].map(str::to_owned).to_vec();
+        let row = |estimate: &Estimate| {
+            let Estimate { parameter, start, value, free, std_error, at_bound } = *estimate;
+            let (value, error) = with_error(value, std_error.filter(|_| free));
+            let error = match (free, at_bound, error) {
+                (false, ..) => "fixed".to_owned(),
+                (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
+                (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
+                (true, None, Some(error)) => error,
+                (true, None, None) if self.report.determined.contains(&parameter) => "no degree of freedom left".to_owned(),
+                (true, None, None) => "open".to_owned(),
+            };
+            let (low, high) = self.problem.bounds().of(parameter);
+            let bounds = if free { format!("{low} … {high}") } else { String::new() };
+            let start = significant(start, 6);
+            [parameter.symbol(), parameter.name()]
+                .map(str::to_owned)
+                .into_iter()
+                .chain([value, error, start, bounds, parameter.unit().to_owned()])
+                .collect()
+        };
+        let table = Block::Table { head, rows: self.report.estimates.iter().map(row).collect() };
+        let errors = match self.choices().weights {
+            Weights::Sigma => "Standard errors are those of the stated standard deviations, one each, linearised at the solution.",
+            Weights::None => {
+                "Standard errors come from the scatter of the residuals, one standard deviation each, linearised at the solution; \
+                 they say nothing about a wrong model."
+            }
+        };
+        let mut blocks = vec![heading("Parameters"), table, Block::Paragraph(errors.to_owned())];
+        if self.report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
+            blocks.push(Block::Paragraph(
+                "A parameter at a bound has no standard error, and those of the others hold with it kept there.".to_owned(),
+            ));
+        }
+        blocks
+    }
+
+    fn open(&self) -> Vec<Block> {
+        let mut blocks = vec![heading("What the data leave open")];
+        if self.report.undetermined.is_empty() {
+            let text =
+                if self.report.determined.is_empty() { "No parameter was free." } else { "Nothing: every free parameter is determined." };
+            blocks.push(Block::Paragraph(text.to_owned()));
+        } else {
+            blocks.push(Block::List(self.report.undetermined.iter().map(|direction| direction.text.clone()).collect()));
+            blocks.push(Block::Paragraph(
+                "Along such a direction the parameters may change together without changing what was measured: their values above are \
+                 one choice among many and have no standard error."
+                    .to_owned(),
+            ));
+        }
+        blocks
+    }
+
+    fn correlations(&self) -> Vec<Block> {
+        let names: Vec<String> = self.report.determined.iter().map(|parameter| parameter.symbol().to_owned()).collect();
+        if names.len() < 2 {
+            return Vec::new();
+        }
+        let head = [String::new()].into_iter().chain(names.iter().cloned()).collect();
+        let cell = |value: &f64| if value.is_finite() { format!("{value:.3}") } else { "–".to_owned() };
+        let row = |(i, name): (usize, &String)| {
+            let cells = self.report.correlations.row(i).iter().map(cell).collect::<Vec<_>>();
+            [name.clone()].into_iter().chain(cells).collect()
+        };
+        let rows = names.iter().enumerate().map(row).collect();
+        vec![heading("Correlations of the determined parameters"), Block::Table { head, rows }]
+    }
+
+    fn goodness(&self) -> Vec<Block> {
+        let report = self.report;
+        let mut rows = vec![
+            ("ΔE, Eq. (18)", number(report.objective)),
+            ("sum of squares", significant(report.sum_of_squares, 6)),
+            ("degrees of freedom", report.dof.to_string()),
+        ];
+        if let Some(chi2) = report.chi2 {
+            rows.push(("χ²", significant(chi2, 6)));
+            #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
+            rows.push(("χ² per degree of freedom", number((report.dof > 0).then(|| chi2 / report.dof as f64))));
+        }
+        rows.push(("AICc", number(report.aicc)));
+        let mut blocks = vec![heading("Goodness of fit"), pairs(rows)];
+        if report.minima.len() > 1 {
+            let row = |minimum: &crate::fit::Minimum| {
+                vec![significant(minimum.objective, 6), minimum.reached.to_string(), minimum.stop_reason.text().to_owned()]
+            };
+            blocks.push(Block::Paragraph("Where the starts ended, the best first:".to_owned()));
+            blocks.push(Block::Table {
+                head: ["ΔE", "starts", "why there"].map(str::to_owned).to_vec(),
+                rows: report.minima.iter().map(row).collect(),
+            });
+        }
+        blocks
+    }
+
+    fn data(&self) -> Vec<Block> {
+        let measurement = self.measurement;
+        let masked = measurement.rows.len() - self.used();
+        let mut rows = vec![("file", self.source.name.clone())];
+        if let Some(sha256) = &self.source.sha256 {
+            rows.push(("SHA-256 of the file", sha256.clone()));
+        }
+        rows.push(("rows", format!("{}, {masked} of them masked and not used", measurement.rows.len())));
+        let quantity = |there: bool, count: usize, name: &str| there.then(|| format!("{name} ({count} values)"));
+        let count = |of: fn(&crate::measurement::Row) -> bool| measurement.rows.iter().filter(|row| of(row)).count();
+        let measured = [
+            quantity(measurement.has_dolp(), count(|row| row.dolp.is_some()), "DoLP"),
+            quantity(measurement.has_brdf(), count(|row| row.brdf.is_some()), "BRDF in 1/sr"),
+        ];
+        rows.push(("measured", measured.into_iter().flatten().collect::<Vec<_>>().join(", ")));
+        let angles: Vec<String> = measurement.incidence_angles().iter().take(20).map(|angle| format!("{angle}°")).collect();
+        rows.push(("angles of incidence", angles.join(", ")));
+        rows.extend(measurement.metadata.iter().map(|(key, value)| (key.as_str(), value.clone())));
+        vec![heading("Data"), pairs(rows)]
+    }
+
+    fn model(&self) -> Vec<Block> {
+        let model = self.report.model;
+        let preset = Preset::of(model);
+        let mut rows = vec![
+            ("model", preset.map_or_else(|| "own choice of terms".to_owned(), |preset| preset.name.to_owned())),
+            ("source", preset.map_or_else(String::new, |preset| preset.citation.to_owned())),
+            ("terms", terms(model)),
+        ];
+        rows.extend(self.choice_rows());
+        vec![heading("Model and choices"), pairs(rows)]
+    }
+
+    fn choice_rows(&self) -> Vec<(&'static str, String)> {
+        let Choices { weights, brdf_residuals, loss, loss_scale, eq17, dolp_only } = self.choices();
+        let weights = match weights {
+            Weights::None => "none: all values of a quantity count alike",
+            Weights::Sigma => "each residual divided by the stated standard deviation",
+        };
+        let brdf = match brdf_residuals {
+            BrdfResiduals::Absolute => "X − Xm",
+            BrdfResiduals::Relative => "(X − Xm)/Xm",
+            BrdfResiduals::Log => "ln X − ln Xm",
+        };
+        let scale = loss_scale.map_or_else(|| "scale from the residuals of a linear fit".to_owned(), |scale| format!("scale {scale}"));
+        let loss = match loss {
+            Loss::Linear => "squares".to_owned(),
+            Loss::Huber => format!("Huber, {scale}"),
+            Loss::SoftL1 => format!("soft L1, {scale}"),
+        };
+        let reading = match eq17 {
+            Eq17::Consistent => "consistent: k_s in the numerator",
+            Eq17::Printed => "as printed: k_s missing from the numerator",
+        };
+        let free: Vec<&str> = self.problem.free().iter().map(|parameter| parameter.symbol()).collect();
+        let mut rows = vec![("free parameters", free.join(", ")), ("weights", weights.to_owned())];
+        if self.measurement.has_brdf() {
+            let brdf = if *dolp_only { "not used: the model predicts DoLP only" } else { brdf };
+            rows.push(("residuals of BRDF", brdf.to_owned()));
+        }
+        rows.extend([("loss", loss), ("reading of Eq. (17)", reading.to_owned())]);
+        rows
+    }
+}
+
+/// The terms of a model in words.
+fn terms(model: Model) -> String {
+    let distribution = match model.distribution {
+        SlopeDistribution::Gauss => "Gauss facets",
+        SlopeDistribution::Cauchy => "Cauchy facets",
+    };
+    let masking = if model.masking { "masking and shadowing of V grooves" } else { "no masking" };
+    let diffuse = match model.diffuse {
+        Diffuse::Absent => None,
+        Diffuse::Lambert => Some("a Lambertian term"),
+        Diffuse::Minnaert => Some("a Minnaert term"),
+    };
+    let specular = model.specular.then(|| format!("a specular lobe of {distribution} with {masking}"));
+    let terms = specular.into_iter().chain(diffuse.map(str::to_owned)).chain(model.volume.then(|| "a volume term".to_owned()));
+    terms.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{significant, with_error};
+
+    #[test]
+    fn numbers_have_the_digits_that_mean_something() {
+        assert_eq!(significant(2.071_234, 3), "2.07");
+        assert_eq!(significant(1.5e-7, 3), "1.50e-7");
+        assert_eq!(significant(1234.6, 2), "1235");
+        assert_eq!(significant(-0.0, 3), "-0");
+        let pair = |value, error| {
+            let (value, error) = with_error(value, error);
+            (value, error.unwrap_or_default())
+        };
+        assert_eq!(pair(2.071_234, Some(0.012_3)), ("2.071".to_owned(), "0.012".to_owned()));
+        assert_eq!(pair(0.3, Some(12.0)), ("0.30".to_owned(), "12".to_owned()));
+        assert_eq!(pair(2.071_234_5, None), ("2.07123".to_owned(), String::new()));
+        assert_eq!(pair(0.0, Some(0.1)), ("0".to_owned(), "0.10".to_owned()));
+    }
+}
