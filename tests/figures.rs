@@ -1,6 +1,6 @@
 //! Figures: what an SVG contains, read as XML, and what a PNG is when decoded.
 
-use pbrdf::report::figure::{Axis, ColorMap, Dash, Figure, HeatMap, Panel, Point, SERIES, Series, Symbol};
+use pbrdf::report::figure::{Axis, ColorMap, Dash, Figure, HeatMap, Panel, Point, Rgb, SERIES, Series, Symbol};
 use roxmltree::{Document, Node};
 
 fn panel(series: Vec<Series>) -> Panel {
@@ -148,6 +148,15 @@ fn series_of_one_name_share_a_colour_and_an_entry() {
         .map(|node| node.attribute("d").unwrap().matches('M').count())
         .sum();
     assert_eq!(discs, 2);
+}
+
+#[test]
+fn a_name_for_curves_of_several_colours_has_a_neutral_sample() {
+    let limit = |y: f64, color: Rgb| Series::dashed("Fresnel limit", vec![[0.0, y], [90.0, y]], Dash::Dotted).colored(color);
+    let svg = svg_of(panel(vec![limit(0.2, SERIES[3]), limit(0.4, SERIES[4])]));
+    let document = Document::parse(&svg).unwrap();
+    let dotted = |color: &str| paths(&document, color, Some("0.9")).len();
+    assert_eq!((dotted(&color(3)), dotted(&color(4)), dotted("#141414")), (1, 1, 1));
 }
 
 #[test]

@@ -61,11 +61,23 @@ fn significant(value: f64, digits: usize) -> String {
 
 /// A value to the second digit of its standard error, and the error; to six digits without.
 fn with_error(value: f64, error: Option<f64>) -> (String, Option<String>) {
-    let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else { return (significant(value, 6), None) };
+    let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else {
+        return (idle_zeros_off(&significant(value, 6)), None);
+    };
     #[expect(clippy::cast_possible_truncation, reason = "an exponent of f64")]
     let exponent = |x: f64| if x == 0.0 { -400 } else { libm::log10(x.abs()).floor() as i32 };
     let digits = usize::try_from(exponent(value) - exponent(error) + 2).unwrap_or(0).clamp(2, 17);
     (significant(value, digits), Some(significant(error, 2)))
+}
+
+/// Without zeros at the end of a decimal fraction.
+fn idle_zeros_off(text: &str) -> String {
+    if text.contains('.') && !text.contains('e') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
+}
+
+/// Whether a value and 0 are less than two standard errors apart.
+fn is_hardly_known(estimate: &Estimate) -> bool {
+    estimate.free && estimate.at_bound.is_none() && estimate.std_error.is_some_and(|error| error > 0.5 * estimate.value.abs())
 }
 
 fn number(value: Option<f64>) -> String {
@@ -154,7 +166,7 @@ impl FitDocument<'_> {
         let head = ["", "parameter", "value", "standard error", "start", "bounds", "unit"].map(str::to_owned).to_vec();
         let row = |estimate: &Estimate| {
             let Estimate { parameter, start, value, free, std_error, at_bound } = *estimate;
-            let (value, error) = with_error(value, std_error.filter(|_| free));
+            let (value, error) = with_error(value, std_error.filter(|_| free && at_bound.is_none()));
             let error = match (free, at_bound, error) {
                 (false, ..) => "fixed".to_owned(),
                 (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
@@ -165,7 +177,7 @@ impl FitDocument<'_> {
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
-            let start = significant(start, 6);
+            let start = idle_zeros_off(&significant(start, 6));
             [parameter.symbol(), parameter.name()]
                 .map(str::to_owned)
                 .into_iter()
@@ -202,6 +214,14 @@ impl FitDocument<'_> {
                  one choice among many and have no standard error."
                     .to_owned(),
             ));
+        }
+        let hardly: Vec<&str> =
+            self.report.estimates.iter().filter(|estimate| is_hardly_known(estimate)).map(|e| e.parameter.symbol()).collect();
+        if !hardly.is_empty() {
+            blocks.push(Block::Paragraph(format!(
+                "Hardly determined, with a standard error above half of the value: {}.",
+                hardly.join(", ")
+            )));
         }
         blocks
     }
@@ -324,6 +344,7 @@ fn terms(model: Model) -> String {
         Diffuse::Absent => None,
         Diffuse::Lambert => Some("a Lambertian term"),
         Diffuse::Minnaert => Some("a Minnaert term"),
+        Diffuse::Hyde => Some("a Lambertian term from the energy balance"),
     };
     let specular = model.specular.then(|| format!("a specular lobe of {distribution} with {masking}"));
     let terms = specular.into_iter().chain(diffuse.map(str::to_owned)).chain(model.volume.then(|| "a volume term".to_owned()));
@@ -347,6 +368,7 @@ mod tests {
         assert_eq!(pair(2.071_234, Some(0.012_3)), ("2.071".to_owned(), "0.012".to_owned()));
         assert_eq!(pair(0.3, Some(12.0)), ("0.30".to_owned(), "12".to_owned()));
         assert_eq!(pair(2.071_234_5, None), ("2.07123".to_owned(), String::new()));
+        assert_eq!([pair(1.0, None).0, pair(100.0, None).0, pair(1e-7, None).0], ["1", "100", "1.00000e-7"]);
         assert_eq!(pair(0.0, Some(0.1)), ("0".to_owned(), "0.10".to_owned()));
     }
 }

@@ -141,9 +141,17 @@ fn draw_legend(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed, colors: 
         let mut left = placed.frame.left;
         for &index in line {
             let series = &panel.series[index];
-            let all = panel.series.iter().zip(colors).filter(|(other, _)| other.name == series.name);
-            for (part, color) in all.collect::<Vec<(&Series, &Rgb)>>() {
-                draw_sample(canvas, part, *color, (left, middle), LEGEND_SAMPLE);
+            let parts: Vec<(&Series, Rgb)> =
+                panel.series.iter().zip(colors.iter().copied()).filter(|(other, _)| other.name == series.name).collect();
+            // One sample of each kind; a name for curves of several colours has none of them.
+            let is_one = parts.iter().all(|(_, color)| *color == parts[0].1);
+            let mut kinds = Vec::new();
+            for (part, color) in parts {
+                let kind = std::mem::discriminant(&part.drawn);
+                if !kinds.contains(&kind) {
+                    kinds.push(kind);
+                    draw_sample(canvas, part, if is_one { color } else { INK }, (left, middle), LEGEND_SAMPLE);
+                }
             }
             let baseline = middle + 0.5 * LETTER_HEIGHT * SMALL;
             canvas.text(&series.name, SMALL, (left + LEGEND_SAMPLE + GAP, baseline), Anchor::Start, false, INK);

@@ -18,7 +18,12 @@ pub fn ticks(axis: &Axis, (low, high): (f64, f64), most: usize) -> Vec<Tick> {
         return inside.map(|(at, label)| Tick { at: *at, label: Some(label.clone()) }).collect();
     }
     match axis.scale {
-        Scale::Linear => linear(low, high, step_of(axis, high - low, most)),
+        Scale::Linear => {
+            let step = step_of(axis, high - low, most);
+            let marks = linear(low, high, step);
+            // One mark tells no scale.
+            if marks.len() < 2 { linear(low, high, 0.5 * step) } else { marks }
+        }
         Scale::Log => log(low, high, most),
     }
 }
@@ -159,6 +164,8 @@ mod tests {
     #[test]
     fn linear_marks_are_round_numbers() {
         assert_eq!(labels(Scale::Linear, -90.0, 90.0), ["−50", "0", "50"]);
+        let few = ticks(&Axis::default(), (-0.0075, 0.008), 3).into_iter().filter_map(|tick| tick.label).collect::<Vec<_>>();
+        assert_eq!(few, ["−0.005", "0", "0.005"]);
         let degrees = Axis::linear("θr", "°");
         let at = |most| ticks(&degrees, (-90.0, 90.0), most).into_iter().filter_map(|tick| tick.label).collect::<Vec<_>>();
         assert_eq!(at(6), ["−90", "−60", "−30", "0", "30", "60", "90"]);
