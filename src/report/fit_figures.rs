@@ -29,6 +29,9 @@ pub struct FitFigures<'a> {
     curves: Vec<Vec<CurvePoint>>,
 }
 
+/// Name of a term, whether it is there, its value, and the number of its colour.
+type Term = (&'static str, bool, fn(&CurvePoint) -> f64, usize);
+
 /// What is taken from a measured series.
 type Marks = fn(&Measured) -> &[Mark];
 
@@ -55,7 +58,7 @@ impl<'a> FitFigures<'a> {
     #[must_use]
     pub fn dolp(&self, title: &str) -> Option<Figure> {
         let marks: Marks = |group| &group.dolp;
-        let measured: f64 = self.series.iter().flat_map(marks).map(|mark| top(mark)).fold(0.0, f64::max);
+        let measured: f64 = self.series.iter().flat_map(marks).map(top).fold(0.0, f64::max);
         let has_points = self.series.iter().any(|group| !group.dolp.is_empty());
         let has_limit = self.surface.model().specular;
         let mut series = Vec::new();
@@ -119,7 +122,7 @@ impl<'a> FitFigures<'a> {
     fn lobes(&self, curve: &[CurvePoint]) -> Vec<Series> {
         let model = self.surface.model();
         let mut series = vec![Series::line("total", points(curve, |point| point.reflection.brdf)).colored(Rgb(20, 20, 20))];
-        let terms: [(&str, bool, fn(&CurvePoint) -> f64, usize); 3] = [
+        let terms: [Term; 3] = [
             ("specular", model.specular, |point| point.reflection.specular, 3),
             ("diffuse", model.diffuse != crate::model::Diffuse::Absent, |point| point.reflection.diffuse, 4),
             ("volume", model.volume, |point| point.reflection.volume, 5),
