@@ -4,9 +4,9 @@ use super::document::{Block, Document};
 use super::figure::{Figure, Panel};
 use super::fit_figures::FitFigures;
 use super::fitted::dolp_divisor;
-use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Weights};
+use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
 use crate::measurement::{Measurement, Series};
-use crate::model::{Diffuse, Model, Pbrdf, Preset};
+use crate::model::{Diffuse, Model, Parameter, Pbrdf, Preset};
 use crate::optics::SlopeDistribution;
 
 /// Where measured data come from.
@@ -75,9 +75,10 @@ fn idle_zeros_off(text: &str) -> String {
     if text.contains('.') && !text.contains('e') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
 }
 
-/// Whether a value and 0 are less than two standard errors apart.
+/// Whether a parameter is known to no better than half of its size, q by its distance from 1.
 fn is_hardly_known(estimate: &Estimate) -> bool {
-    estimate.free && estimate.at_bound.is_none() && estimate.std_error.is_some_and(|error| error > 0.5 * estimate.value.abs())
+    let origin = if estimate.parameter == Parameter::Q { 1.0 } else { 0.0 };
+    matches!(estimate.standing(), Standing::Determined(error) if error > 0.5 * (estimate.value - origin).abs())
 }
 
 fn number(value: Option<f64>) -> String {
@@ -165,15 +166,16 @@ impl FitDocument<'_> {
     fn parameters(&self) -> Vec<Block> {
         let head = ["", "parameter", "value", "standard error", "start", "bounds", "unit"].map(str::to_owned).to_vec();
         let row = |estimate: &Estimate| {
-            let Estimate { parameter, start, value, free, std_error, at_bound } = *estimate;
-            let (value, error) = with_error(value, std_error.filter(|_| free && at_bound.is_none()));
-            let error = match (free, at_bound, error) {
-                (false, ..) => "fixed".to_owned(),
-                (true, Some(Edge::Lower), _) => "at lower bound".to_owned(),
-                (true, Some(Edge::Upper), _) => "at upper bound".to_owned(),
-                (true, None, Some(error)) => error,
-                (true, None, None) if self.report.determined.contains(&parameter) => "no degree of freedom left".to_owned(),
-                (true, None, None) => "open".to_owned(),
+            let Estimate { parameter, start, value, free, .. } = *estimate;
+            let standing = estimate.standing();
+            let (value, error) = with_error(value, if let Standing::Determined(error) = standing { Some(error) } else { None });
+            let error = match standing {
+                Standing::Fixed => "fixed".to_owned(),
+                Standing::AtBound(Edge::Lower) => "at lower bound".to_owned(),
+                Standing::AtBound(Edge::Upper) => "at upper bound".to_owned(),
+                Standing::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
+                Standing::NoFreedom => "no degree of freedom left".to_owned(),
+                Standing::Open => "open".to_owned(),
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
