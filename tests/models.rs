@@ -1,7 +1,7 @@
 //! The ladder beyond the nine-parameter model: Hyde's balance.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Bounds, Choices, Problem, Starts, Watch, fit, free_by_default};
+use pbrdf::fit::{Bounds, Choices, Contest, HeldGauss, Problem, Starts, Watch, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Preset, Wanted};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
@@ -110,4 +110,33 @@ fn without_a_specular_lobe_there_is_no_balance_to_carry() {
     let surface = Pbrdf::new(Model { specular: false, diffuse: Diffuse::Hyde, ..hyde() }, STEEL).expect("a surface");
     assert_eq!(surface.reflection(&facet(30.0, 30.0, 180.0)).brdf, 0.0);
     assert!(surface.model().parameters().is_empty());
+}
+
+/// Gauss and Cauchy on the same rows.
+fn contest(truth: SlopeDistribution, noise: f64) -> (Contest, Option<HeldGauss>) {
+    let measurement = simulated(Model::full(truth), STEEL, Columns::Dolp, noise);
+    let [(problem, gauss), (_, cauchy)] = SlopeDistribution::ALL.map(|distribution| {
+        let model = Model::full(distribution);
+        let free = free_by_default(model, &measurement, &Choices::default());
+        let problem = Problem::new(&measurement, model, STEEL, free, Bounds::default(), Choices::default()).expect("a problem");
+        let report = fit(&problem, Starts::One, 1, Watch::NOBODY);
+        (problem, report)
+    });
+    (Contest::new(&gauss, &cauchy).expect("finite sums"), HeldGauss::new(&problem, &gauss, &cauchy, Watch::NOBODY))
+}
+
+#[test]
+fn the_distribution_that_made_the_data_wins_and_a_held_gauss_is_no_better_than_a_free_one() {
+    let (on_cauchy, held) = contest(SlopeDistribution::Cauchy, 0.002);
+    assert_eq!(on_cauchy.winner(), Some(SlopeDistribution::Cauchy));
+    assert!(on_cauchy.ratio() > 1.1 && on_cauchy.aicc_gain.is_some_and(|gain| gain > 10.0), "{on_cauchy:?}");
+    assert!(on_cauchy.text().starts_with("Cauchy wins over Gauss: ΔE ") && on_cauchy.text().contains("essentially no support"));
+    let held = held.expect("σ is free");
+    for (_, sum) in [held.equal_sigma, held.equal_median] {
+        // The free fit ends within its tolerance of the minimum.
+        assert!(sum >= on_cauchy.gauss * (1.0 - 1e-6), "{held:?}");
+    }
+    let (on_gauss, _) = contest(SlopeDistribution::Gauss, 0.002);
+    // Cauchy tends to Gauss for large q: it is not beaten by much, but it has a parameter more to answer for.
+    assert!(on_gauss.aicc_gain.is_some_and(|gain| gain < 0.0), "{on_gauss:?}");
 }

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::problem::{NoProblem, problem, starts};
 use super::watched::Watched;
 use super::{input, interrupt, output};
-use pbrdf::fit::{FitReport, ProblemError, Standing, fit};
+use pbrdf::fit::{Contest, FitReport, HeldGauss, Problem, ProblemError, Standing, fit};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use pbrdf::report::fit_json;
@@ -14,7 +14,10 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A model with its fit, or why there is none.
-type Rung = (&'static Preset, Result<FitReport, String>);
+type Rung = (&'static Preset, Result<(Problem, FitReport), String>);
+
+/// Presets that differ by their distribution alone: Gauss, Cauchy.
+const PAIRS: [(&str, &str); 2] = [("gauss", "cauchy"), ("specular-gauss", "specular")];
 
 pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
     interrupt::watch();
@@ -30,7 +33,8 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
             Ok(problem) => {
                 let watched = Watched::new(preset.key);
                 let closures = watched.watch();
-                Ok(fit(&problem, starts(&task.options), task.options.seed, closures.as_watch()))
+                let report = fit(&problem, starts(&task.options), task.options.seed, closures.as_watch());
+                Ok((problem, report))
             }
             Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
             Err(other) => return Err(other.about(&task.input, &measurement)),
@@ -41,15 +45,34 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
         let fits: Vec<Value> = rungs
             .iter()
             .map(|(preset, result)| match result {
-                Ok(report) => fit_json(preset, report),
+                Ok((_, report)) => fit_json(preset, report),
                 Err(reason) => json!({ "model": preset.key, "skipped": reason }),
             })
             .collect();
         output::write_json(&json!({ "fits": fits }))?;
     } else {
-        output::write(None, |out| print(out, &measurement, &rungs))?;
+        let verdicts = verdicts(&rungs);
+        output::write(None, |out| {
+            print(out, &measurement, &rungs)?;
+            verdicts.iter().try_for_each(|verdict| writeln!(out, "\n{verdict}"))
+        })?;
     }
     Ok(output::exit_code())
+}
+
+/// Gauss against Cauchy, wherever both were fitted.
+fn verdicts(rungs: &[Rung]) -> Vec<String> {
+    let of = |key: &str| rungs.iter().find(|(preset, _)| preset.key == key).and_then(|(_, result)| result.as_ref().ok());
+    let verdict = |&(gauss, cauchy): &(&str, &str)| {
+        let watched = Watched::new("gauss at equal median slope");
+        let closures = watched.watch();
+        let ((problem, gauss_fit), (_, cauchy_fit)) = (of(gauss)?, of(cauchy)?);
+        let contest = Contest::new(gauss_fit, cauchy_fit)?;
+        let held = HeldGauss::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
+        let held = held.map_or_else(String::new, |held| format!("\n{}", held.text(&contest)));
+        Some(format!("{gauss} and {cauchy}: {}{held}", contest.text()))
+    };
+    PAIRS.iter().filter_map(verdict).collect()
 }
 
 /// Two tables: how good each model is, and what it says of each parameter, beside the truth of a simulation.
@@ -62,7 +85,7 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
     for (preset, result) in rungs {
         match result {
             Err(reason) => writeln!(out, "{:<16} skipped: {reason}", preset.key)?,
-            Ok(report) => {
+            Ok((_, report)) => {
                 let number = |value: Option<f64>, digits: usize| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"));
                 #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
                 let reduced = report.chi2.map(|chi2| chi2 / report.dof as f64);
@@ -81,7 +104,8 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
             }
         }
     }
-    let fitted: Vec<(&str, &FitReport)> = rungs.iter().filter_map(|(preset, result)| Some((preset.key, result.as_ref().ok()?))).collect();
+    let fitted: Vec<(&str, &FitReport)> =
+        rungs.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
     let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
     write!(out, "\n{:<9}", "")?;
     for (key, _) in &fitted {
