@@ -3,7 +3,7 @@
 use super::values::{self, Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit;
-use pbrdf::measurement;
+use pbrdf::measurement::{self, TensorResolution};
 use pbrdf::model::{Parameter, Preset};
 use std::path::PathBuf;
 
@@ -37,9 +37,9 @@ pub enum Task {
     Report(Report),
     /// Turn a foreign file into a measurement.
     Import(Import),
-    /// Not there yet.
-    #[command(hide = true)]
-    Export(Later),
+    /// Write a surface for another program.
+    #[command(subcommand)]
+    Export(Export),
     /// List tabulated refractive indices of metals, source by source.
     Metals(Metals),
 }
@@ -212,11 +212,20 @@ pub struct Angles {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, after_help = IMPORT_HELP)]
 pub struct Import {
-    /// Woollam ellipsometry text.
+    /// Woollam ellipsometry text, or a tensor of Mueller matrices (.pbsdf).
     pub input: PathBuf,
     /// Vacuum wavelength in nm; the nearest one of the file is taken, with a notice.
     #[arg(long, value_name = "NM", value_parser = values::positive)]
     pub wavelength: Option<f64>,
+    /// Angles of incidence of the slices through a tensor, in degrees.
+    #[arg(long, default_value = "15:75:15", value_parser = values::grid)]
+    pub theta_i: Grid,
+    /// Angles of view of the slices through a tensor, in degrees; negative is the backscatter side.
+    #[arg(long, default_value = "-80:80:5", allow_hyphen_values = true, value_parser = values::grid)]
+    pub theta_r: Grid,
+    /// Relative azimuth of the slices through a tensor, in degrees; 180 is the plane of incidence, others are out of plane.
+    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
+    pub dphi: f64,
     /// File to write; standard output without.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
@@ -225,7 +234,34 @@ pub struct Import {
 /// What `import` understands.
 const IMPORT_HELP: &str = "\
 Woollam text (WVASE, its short form, CompleteEASE): psi at several angles becomes specular DoLP = |cos 2 psi| at theta_r = theta_i,
-with dolp_sigma where the file states sigma_psi. Depolarisation rows are named in the metadata and not applied.";
+with dolp_sigma where the file states sigma_psi. Depolarisation rows are named in the metadata and not applied.
+
+Tensor (.pbsdf, KAIST and Mitsuba 3): BRDF and DoLP for unpolarised light in one band, on the angles of --theta-i, --theta-r and
+--dphi, linear between the nodes. Out of plane: --dphi 90 --theta-r 0:80:5.";
+
+/// `export`.
+#[derive(Debug, Subcommand)]
+pub enum Export {
+    /// A tensor of Mueller matrices, .pbsdf, for the plugin measured_polarized of Mitsuba 3.
+    Mitsuba(Mitsuba),
+}
+
+/// `export mitsuba`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct Mitsuba {
+    #[command(flatten)]
+    pub surface: Surface,
+    /// What the file says of its one band, in nm; Mitsuba takes it for every wavelength.
+    #[arg(long, value_name = "NM", default_value_t = 550, value_parser = clap::value_parser!(u16).range(1..))]
+    pub wavelength: u16,
+    /// Nodes in the azimuth of difference (-180 to 180 degrees), the angle of difference and the half angle (0 to 90 degrees).
+    #[arg(long, value_name = "PHI_D,THETA_D,THETA_H", default_value = "73,61,64", value_parser = values::resolution)]
+    pub resolution: TensorResolution,
+    /// File to write.
+    #[arg(short, long)]
+    pub output: PathBuf,
+}
 
 /// `metals`.
 #[derive(Debug, Args)]

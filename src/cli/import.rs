@@ -3,7 +3,7 @@
 use super::arguments::Import;
 use super::failure::Failure;
 use super::{input, interrupt, output};
-use pbrdf::measurement::{self, Measurement, is_woollam, read_woollam};
+use pbrdf::measurement::{self, Measurement, grid_geometries, is_tensor, is_woollam, read_tensor, read_woollam};
 use std::process::ExitCode;
 
 pub fn run(task: &Import) -> Result<ExitCode, Failure> {
@@ -11,8 +11,11 @@ pub fn run(task: &Import) -> Result<ExitCode, Failure> {
     let bytes = input::bytes(&task.input)?;
     let mut measurement = if is_woollam(&bytes) {
         woollam(task, &bytes)?
+    } else if is_tensor(&bytes) {
+        tensor(task, &bytes)?
     } else {
-        return Err(Failure::input(&task.input, "this is not a file that import knows; expected Woollam ellipsometry text"));
+        let expected = "this is not a file that import knows; expected Woollam ellipsometry text or a tensor file (.pbsdf)";
+        return Err(Failure::input(&task.input, expected));
     };
     let name = task.input.file_name().map(|name| name.to_string_lossy().replace(char::is_control, " "));
     measurement.metadata.push(("imported_from".to_owned(), name.unwrap_or_default()));
@@ -49,4 +52,26 @@ fn notice_nearest(task: &Import, taken_nm: &[f64]) {
         let taken: Vec<String> = taken_nm.iter().map(f64::to_string).collect();
         output::notice(format_args!("{}: has no {wanted} nm; the nearest was taken, {} nm.", task.input.display(), taken.join(" and ")));
     }
+}
+
+fn tensor(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {
+    let tensor = read_tensor(bytes).map_err(|error| Failure::input(&task.input, error))?;
+    let path = task.input.display();
+    if !tensor.assumed_grids().is_empty() {
+        let names = tensor.assumed_grids().join(", ");
+        output::notice(format_args!("{path}: gives no angles for {names}; they are taken to be even over their whole range."));
+    }
+    let geometries = grid_geometries(&task.theta_i.0, &task.theta_r.0, task.dphi).map_err(|error| Failure::usage(format!("{error}.")))?;
+    let slice = tensor.slice(&geometries, task.wavelength).map_err(|error| not_chosen(task, &error))?;
+    notice_nearest(task, &[slice.wavelength_nm]);
+    if slice.without_value > 0 {
+        output::notice(format_args!("{path}: left out {} geometries without a value.", slice.without_value));
+    }
+    if slice.beyond_one > 0 {
+        output::notice(format_args!("{path}: left out the DoLP of {} geometries where it is above 1.", slice.beyond_one));
+    }
+    if slice.measurement.rows.is_empty() {
+        return Err(Failure::input(&task.input, "none of the geometries has a value"));
+    }
+    Ok(slice.measurement)
 }

@@ -6,6 +6,7 @@
 mod arguments;
 mod compare;
 mod evaluate;
+mod export;
 mod failure;
 mod fit;
 mod import;
@@ -20,7 +21,7 @@ mod simulate;
 mod values;
 mod watched;
 
-use arguments::{Arguments, Task};
+use arguments::{Arguments, Export, Task};
 use clap::Parser as _;
 use failure::Failure;
 use std::process::ExitCode;
@@ -41,7 +42,7 @@ pub fn run() -> ExitCode {
         Some(Task::Plan(task)) => plan::run(&task),
         Some(Task::Report(task)) => report::run(&task),
         Some(Task::Import(task)) => import::run(&task),
-        Some(Task::Export(_)) => Err(Failure::not_yet("export")),
+        Some(Task::Export(Export::Mitsuba(task))) => export::mitsuba(&task),
         Some(Task::Metals(task)) => metals::run(&task),
         None => window(arguments.file),
     };

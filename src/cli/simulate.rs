@@ -23,6 +23,21 @@ pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
 
 /// A simulation without noise.
 pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Result<Simulation, Failure> {
+    Ok(Simulation {
+        model_name: surface.model.key.to_owned(),
+        surface: self::surface(surface, columns)?,
+        theta_i: angles.theta_i.0.clone(),
+        theta_r: angles.theta_r.0.clone(),
+        dphi: angles.dphi,
+        columns: columns.into(),
+        noise: 0.0,
+        brdf_noise: 0.0,
+        seed: 0,
+    })
+}
+
+/// A model with its values, if it predicts those columns.
+pub fn surface(surface: &Surface, columns: Columns) -> Result<Pbrdf, Failure> {
     let mut parameters = Parameters::default();
     let preset = surface.model;
     if preset.dolp_only && !matches!(columns, Columns::Dolp) {
@@ -34,17 +49,7 @@ pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Resul
         }
         parameters[parameter] = value;
     }
-    Ok(Simulation {
-        model_name: preset.key.to_owned(),
-        surface: Pbrdf::new(preset.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))?,
-        theta_i: angles.theta_i.0.clone(),
-        theta_r: angles.theta_r.0.clone(),
-        dphi: angles.dphi,
-        columns: columns.into(),
-        noise: 0.0,
-        brdf_noise: 0.0,
-        seed: 0,
-    })
+    Pbrdf::new(preset.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))
 }
 
 /// The command as it was given, but for where the result went, so that the same command gives the same bytes anywhere.

@@ -1,6 +1,7 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
 use crate::export;
+use pbrdf::measurement::TensorResolution;
 use pbrdf::model::{PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
 
@@ -15,6 +16,10 @@ pub struct Grid(pub Vec<f64>);
 
 /// More points than anybody measures, and still no strain on memory.
 const LARGEST_GRID: f64 = 1e6;
+
+/// Most nodes of an angle, and of all together, that a tensor is written with.
+const MOST_NODES: usize = 2000;
+const MOST_MATRICES: usize = 32_000_000;
 
 /// A preset by its name.
 pub fn preset(text: &str) -> Result<&'static Preset, String> {
@@ -73,6 +78,19 @@ pub fn interval(text: &str) -> Result<Interval, String> {
     let (name, range) = text.split_once('=').ok_or_else(expected)?;
     let (low, high) = range.split_once("..").ok_or_else(expected)?;
     Ok((parameter(name)?, number(low)?, number(high)?))
+}
+
+/// `73,61,64`: three numbers of nodes.
+pub fn resolution(text: &str) -> Result<TensorResolution, String> {
+    let expected = || format!("expected three whole numbers from 2 to {MOST_NODES}, such as 73,61,64, found {text:?}");
+    let counts: Option<Vec<usize>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|count| (2..=MOST_NODES).contains(count))).collect();
+    let counts = counts.ok_or_else(expected)?;
+    let [phi_d, theta_d, theta_h] = counts[..] else { return Err(expected()) };
+    if phi_d * theta_d * theta_h > MOST_MATRICES {
+        return Err(format!("{text} makes more than {MOST_MATRICES} matrices, a file beyond 2 GB"));
+    }
+    Ok(TensorResolution { phi_d, theta_d, theta_h })
 }
 
 /// `30,40,50` or `20:60:5` (inclusive), or a mixture of both.

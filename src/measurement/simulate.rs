@@ -46,17 +46,22 @@ pub struct Simulation {
     pub seed: u64,
 }
 
+/// Every θr for every θi, in degrees; a negative θr with Δφ = 180 alone, as the backscatter side.
+pub fn grid_geometries(theta_i: &[f64], theta_r: &[f64], dphi: f64) -> Result<Vec<Geometry>, GeometryError> {
+    let mut geometries = Vec::with_capacity(theta_i.len() * theta_r.len());
+    for &theta_i in theta_i {
+        for &theta_r in theta_r {
+            let in_plane = theta_r < 0.0 && dphi == 180.0;
+            geometries.push(if in_plane { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) }?);
+        }
+    }
+    Ok(geometries)
+}
+
 impl Simulation {
     /// Where is measured, row after row of θr for each θi.
     pub fn geometries(&self) -> Result<Vec<Geometry>, GeometryError> {
-        let mut geometries = Vec::with_capacity(self.theta_i.len() * self.theta_r.len());
-        for &theta_i in &self.theta_i {
-            for &theta_r in &self.theta_r {
-                let in_plane = theta_r < 0.0 && self.dphi == 180.0;
-                geometries.push(if in_plane { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, self.dphi) }?);
-            }
-        }
-        Ok(geometries)
+        grid_geometries(&self.theta_i, &self.theta_r, self.dphi)
     }
 
     /// Makes the measurement, in the order of the geometries.

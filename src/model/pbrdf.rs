@@ -202,17 +202,32 @@ impl Pbrdf {
     /// The whole Mueller matrix between the meridian bases of the incident and the reflected ray.
     #[must_use]
     pub fn mueller(&self, geometry: Geometry) -> Mueller {
-        let facet = Facet::new(geometry);
-        let reflection = self.reflection(&facet);
-        let depolarised = Mueller::depolarizer(reflection.diffuse + reflection.volume);
+        let (specular, depolarised) = self.mueller_parts(&Facet::new(geometry));
         if !self.model.specular {
             return depolarised;
         }
         let meridian_from_incidence = Mueller::rotator(geometry.rotation_out().inverse());
         let incidence_from_meridian = Mueller::rotator(geometry.rotation_in());
-        let fresnel = Mueller::fresnel(&Fresnel::new(self.index, &facet));
-        let d_g = self.lobes(&facet).specular.weighted(self.parameters.ks);
-        meridian_from_incidence * fresnel * incidence_from_meridian * d_g + depolarised
+        meridian_from_incidence * specular * incidence_from_meridian + depolarised
+    }
+
+    /// The whole Mueller matrix with both rays in the facet's plane of incidence, which holds both: no rotation.
+    #[must_use]
+    pub fn mueller_in_facet_plane(&self, facet: &Facet) -> Mueller {
+        let (specular, depolarised) = self.mueller_parts(facet);
+        specular + depolarised
+    }
+
+    /// The specular lobe in the facet's plane of incidence, and what depolarises.
+    fn mueller_parts(&self, facet: &Facet) -> (Mueller, Mueller) {
+        let reflection = self.reflection(facet);
+        let depolarised = Mueller::depolarizer(reflection.diffuse + reflection.volume);
+        if !self.model.specular {
+            return (Mueller::depolarizer(0.0), depolarised);
+        }
+        let fresnel = Mueller::fresnel(&Fresnel::new(self.index, facet));
+        let d_g = self.lobes(facet).specular.weighted(self.parameters.ks);
+        (fresnel * d_g, depolarised)
     }
 
     /// The Fresnel limit DoLP_s at a prepared geometry: what DoLP would be without any depolarising term.

@@ -1,0 +1,23 @@
+//! `export`: a surface for another program.
+
+use super::arguments::{Columns, Mitsuba};
+use super::failure::Failure;
+use super::{interrupt, output, simulate};
+use pbrdf::measurement::{TensorGrid, write_tensor};
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+
+/// The tensor that Mitsuba 3 renders.
+pub fn mitsuba(task: &Mitsuba) -> Result<ExitCode, Failure> {
+    interrupt::watch();
+    let surface = simulate::surface(&task.surface, Columns::Brdf)?;
+    let grid = TensorGrid::new(&surface, task.resolution);
+    let mut progress = output::Progress::new("exporting");
+    let mut tell = |done| {
+        progress.tell_fraction(done);
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    output::write(Some(&task.output), |out| write_tensor(&surface, &grid, task.wavelength, &mut tell, out))
+        .map_err(|failure| if interrupt::asked() { Failure::interrupted() } else { failure })?;
+    Ok(ExitCode::SUCCESS)
+}
