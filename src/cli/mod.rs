@@ -6,13 +6,13 @@
 mod arguments;
 mod compare;
 mod evaluate;
-mod export;
 mod failure;
 mod fit;
 mod import;
 mod input;
 mod interrupt;
 mod metals;
+mod mitsuba;
 mod output;
 mod plan;
 mod problem;
@@ -42,7 +42,7 @@ pub fn run() -> ExitCode {
         Some(Task::Plan(task)) => plan::run(&task),
         Some(Task::Report(task)) => report::run(&task),
         Some(Task::Import(task)) => import::run(&task),
-        Some(Task::Export(Export::Mitsuba(task))) => export::mitsuba(&task),
+        Some(Task::Export(Export::Mitsuba(task))) => mitsuba::run(&task),
         Some(Task::Metals(task)) => metals::run(&task),
         None => window(arguments.file),
     };

@@ -118,6 +118,9 @@ impl TensorErrorKind {
     }
 }
 
+/// What π may gain in f32.
+const F32_ROUNDING: f64 = 1e-6;
+
 /// A tensor file in memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tensor {
@@ -295,7 +298,7 @@ fn grid_of(
     let mut before = f64::NEG_INFINITY;
     for (index, &found) in angles.iter().enumerate() {
         // f32 rounds π up.
-        if !(found.abs() <= 3.1416 && found > before) {
+        if !(found.abs() <= PI + F32_ROUNDING && found > before) {
             return Err(field.error(TensorErrorKind::Grid { index, found, expected: ANGLES }));
         }
         before = found;

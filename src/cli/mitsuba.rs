@@ -1,4 +1,4 @@
-//! `export`: a surface for another program.
+//! `export mitsuba`: the tensor that Mitsuba 3 renders.
 
 use super::arguments::{Columns, Mitsuba};
 use super::failure::Failure;
@@ -7,8 +7,7 @@ use pbrdf::measurement::{TensorGrid, write_tensor};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
 
-/// The tensor that Mitsuba 3 renders.
-pub fn mitsuba(task: &Mitsuba) -> Result<ExitCode, Failure> {
+pub fn run(task: &Mitsuba) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let surface = simulate::surface(&task.surface, Columns::Brdf)?;
     let grid = TensorGrid::new(&surface, task.resolution);
