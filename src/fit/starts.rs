@@ -48,6 +48,8 @@ pub struct Search {
 
 /// Starts of a round.
 const ROUND: usize = 12;
+/// Automatic search glances at so many starts, and half of those it follows are the most promising of them.
+const GLANCES: usize = 256;
 /// Automatic search ends after so many starts at the latest.
 const MOST_STARTS: usize = 96;
 /// It ends when the best minimum was reached so often…
@@ -89,12 +91,25 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         search.finish(problem, watch);
         return search;
     }
+    let mut queue = Vec::new();
     let mut quiet = 0;
     let mut done = 0;
     // The first round runs even if nobody waits for it any more: each of its descents ends at its start, and that is an answer.
     while done < most && quiet < QUIET_ROUNDS && (done == 0 || !(watch.cancelled)()) {
-        let round = candidates.take(ROUND.min(most - done));
-        done += round.len();
+        let count = ROUND.min(most - done);
+        let round = match starts {
+            Starts::Automatic if done > 0 => {
+                if queue.is_empty() {
+                    queue = search.glance(problem, &candidates.take(GLANCES), watch);
+                }
+                // In equal parts the promising and the fresh: a few steps do not tell everything.
+                let promising = queue.drain(..(count / 2).min(queue.len())).collect::<Vec<_>>();
+                let fresh = candidates.take(count - promising.len());
+                promising.into_iter().chain(fresh).collect()
+            }
+            _ => candidates.take(count),
+        };
+        done += count;
         let before = search.best();
         for descent in run_all(problem, &round, Effort::Reach, watch) {
             search.add(descent);
@@ -160,18 +175,20 @@ impl Search {
         }
     }
 
-    /// A few steps from every start, then the best distinct ones to the end.
-    fn follow_the_best(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) {
+    /// A few steps from every start; where they led, the best first, each place once.
+    fn glance(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) -> Vec<Parameters> {
         let mut short = run_all(problem, starts, Effort::Few, watch);
         self.evaluations += short.iter().map(|descent| descent.evaluations).sum::<usize>();
         short.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
         short.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);
-        short.truncate(POLISHED);
-        if (watch.cancelled)() {
-            short.truncate(1);
-        }
-        let polished: Vec<Parameters> = short.iter().map(|descent| descent.parameters).collect();
-        for descent in run_all(problem, &polished, Effort::Full, watch) {
+        short.into_iter().map(|descent| descent.parameters).collect()
+    }
+
+    /// A few steps from every start, then the best distinct ones to the end.
+    fn follow_the_best(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) {
+        let mut polished = self.glance(problem, starts, watch);
+        polished.truncate(if (watch.cancelled)() { 1 } else { POLISHED });
+        for descent in run_all(problem, &polished, Effort::Reach, watch) {
             self.add(descent);
         }
     }

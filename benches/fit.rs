@@ -1,0 +1,69 @@
+//! How long does a fit take? `cargo bench --bench fit`.
+#![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
+
+use pbrdf::fit::{Bounds, Choices, Effort, Problem, Starts, Watch, descend, fit, free_by_default};
+use pbrdf::measurement::{Columns, Simulation};
+use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::optics::SlopeDistribution::Cauchy;
+
+const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
+/// What counts as the truth found again, where there is no noise.
+const EXACT: f64 = 1e-20;
+
+fn main() {
+    divan::main();
+}
+
+/// 27 points of steel, eight free parameters, from the defaults.
+fn steel(noise: f64, seed: u64) -> Problem {
+    let measurement = Simulation {
+        model_name: "cauchy".to_owned(),
+        surface: Pbrdf::new(Model::full(Cauchy), TRUTH).expect("a valid surface"),
+        theta_i: vec![30.0, 40.0, 50.0],
+        theta_r: (4..=12).map(|i| 5.0 * f64::from(i)).collect(),
+        dphi: 180.0,
+        columns: Columns::Dolp,
+        noise,
+        brdf_noise: 0.0,
+        seed,
+    }
+    .run()
+    .expect("valid angles");
+    let model = Model::full(Cauchy);
+    let free = free_by_default(model, &measurement, &Choices::default());
+    Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), Choices::default()).expect("a valid problem")
+}
+
+/// One start, no noise, to ΔE ≤ 1e-20: below 0.5 ms on one core (median).
+#[divan::bench]
+fn noise_free_to_the_last_digits(bencher: divan::Bencher<'_, '_>) {
+    let problem = steel(0.0, 0);
+    assert!(descend(&problem, Effort::Full, Watch::NOBODY).sum_of_squares <= EXACT);
+    bencher.bench(|| descend(divan::black_box(&problem), Effort::Full, Watch::NOBODY));
+}
+
+/// One start with noise of 0.005 in DoLP, another draw for each sample: how much longer is the valley of the noisy problem? No budget; the
+/// slowest samples are its tail.
+#[divan::bench(sample_count = 200, sample_size = 1)]
+fn noisy(bencher: divan::Bencher<'_, '_>) {
+    let mut seed = 0;
+    let draw = || {
+        seed += 1;
+        steel(0.005, seed)
+    };
+    bencher.with_inputs(draw).bench_local_values(|problem| descend(&problem, Effort::Full, Watch::NOBODY));
+}
+
+/// A thousand starts: below 0.5 s on two cores.
+#[divan::bench(sample_count = 10, sample_size = 1)]
+fn a_thousand_starts(bencher: divan::Bencher<'_, '_>) {
+    let problem = steel(0.005, 1);
+    bencher.bench(|| fit(divan::black_box(&problem), Starts::Exactly(1000), 1, Watch::NOBODY));
+}
+
+/// The default fit of a noisy set, as the command line does it: well below 0.2 s on two cores.
+#[divan::bench(sample_count = 10, sample_size = 1)]
+fn the_default_fit(bencher: divan::Bencher<'_, '_>) {
+    let problem = steel(0.005, 1);
+    bencher.bench(|| fit(divan::black_box(&problem), Starts::Automatic, 1, Watch::NOBODY));
+}
