@@ -23,6 +23,9 @@ pub enum Command {
     SaveMeasurement(PathBuf),
     /// Load the bundled example of that number.
     OpenExample(usize),
+    /// The lesson of that number at the step of that number: sliders and views as it wants them.
+    ShowStep(usize, usize),
+    CloseLesson,
     /// Stop reading.
     CancelLoading,
     ForgetRecent,
@@ -107,6 +110,7 @@ pub enum Menu {
     View,
     Theme,
     Language,
+    Lesson,
     Help,
     /// The palette alone.
     None,
@@ -220,6 +224,7 @@ static ENTRIES: &[Entry] = &[
         ctrl(Key::B), |e| switch(e.settings.show_backscatter)),
     row(Command::Toggle(Switch::FrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |e| switch(e.window.show_frame_times)),
+    row(Command::CloseLesson, Menu::Lesson, "Close lesson", "The sliders stay as they are", None, |e| only_if(e.lessons.open.is_some())),
     row(Command::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
     row(Command::DismissNotice, Menu::None, "Dismiss notice", "Away with the sentence above the plots", None,
         |e| only_if(e.notice.is_some())),
@@ -250,6 +255,11 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         plain(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
     });
+    let code = explorer.window.language.code();
+    let lessons = explorer.lessons.all.iter().enumerate().map(|(i, lesson)| {
+        let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
+        plain(Command::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Status::Possible)
+    });
     let on_screen = explorer.panes.on_screen();
     let panes = PANES.iter().map(|entry| Item {
         shortcut: entry.shortcut.and_then(ctrl),
@@ -274,7 +284,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let tooltip = "Language of the window".into();
         plain(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
     });
-    fixed.chain(examples).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
+    fixed.chain(examples).chain(lessons).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
 }
 
 /// The command whose keys are pressed, if it is possible now.

@@ -28,6 +28,14 @@ impl Language {
         }
     }
 
+    /// Its code in lessons.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Chinese => "zh",
+        }
+    }
+
     /// That of the environment; English unless it says Chinese.
     pub fn of_environment() -> Self {
         let said =

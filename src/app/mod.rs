@@ -13,6 +13,7 @@ mod language;
 #[allow(dead_code, reason = "for panes whose contents take longer than a frame")]
 mod latest_job;
 mod layout;
+mod lessons;
 mod memo;
 mod palette;
 mod panels;

@@ -7,8 +7,9 @@ use super::frame_times::FrameTimes;
 use super::history::History;
 use super::latest_job::Background;
 use super::layout::Layout;
+use super::lessons::{self, Lessons};
 use super::palette::{Palette, palette_ui};
-use super::panes::{Panes, panes_ui};
+use super::panes::{Pane, Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
 use super::problem::{problem, reason};
 use super::scans::{Bootstrap, ProfileCurve, Scans};
@@ -58,6 +59,7 @@ pub struct Explorer {
     pub views: Views,
     pub panes: Panes,
     pub palette: Palette,
+    pub lessons: Lessons,
     /// Where panes make what takes longer than a frame.
     pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
@@ -101,6 +103,7 @@ impl Explorer {
             notice: None,
             views: Views::default(),
             palette: Palette::default(),
+            lessons: Lessons::default(),
             background: Background::new(ctx),
             dragging: false,
             typed_path: String::new(),
@@ -113,6 +116,11 @@ impl Explorer {
 
     /// Opens the first example, and then the file if there is one: if that cannot be read, the example stays.
     pub fn begin(&mut self, file: Option<PathBuf>) {
+        // Tests read no folders of the user.
+        let own = self.settings_file.as_ref().and_then(|_| lessons::own_folder());
+        let (lessons, faults) = Lessons::load(own.as_deref());
+        self.lessons = lessons;
+        faults.into_iter().for_each(|sentence| self.say(sentence));
         let example = &EXAMPLES[0];
         match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
@@ -296,6 +304,8 @@ impl Explorer {
                     self.worker.open_text(example.name.to_owned(), example.text)?;
                 }
             }
+            Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
+            Command::CloseLesson => self.lessons.open = None,
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
@@ -433,6 +443,27 @@ impl Explorer {
         }
     }
 
+    /// Sliders, angles and views as a step of a lesson wants them; what it does not name stays.
+    fn show_step(&mut self, lesson: usize, step: usize) -> Result<(), String> {
+        self.lessons.open = Some((lesson, step));
+        let Some((_, step)) = self.lessons.current() else { return Ok(()) };
+        let settings = &mut self.settings;
+        settings.model = step.preset.map_or(settings.model, |preset| preset.model);
+        for &(parameter, value) in &step.set {
+            settings.parameters[parameter] = value;
+        }
+        settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
+        settings.dphi = step.dphi.unwrap_or(settings.dphi);
+        settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
+        for pane in step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()) {
+            self.panes.show(pane);
+        }
+        match EXAMPLES.iter().find(|example| step.example.as_deref() == Some(example.name)) {
+            Some(example) => self.worker.open_text(example.name.to_owned(), example.text),
+            None => Ok(()),
+        }
+    }
+
     fn remember_window(&mut self, ctx: &egui::Context) {
         let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
         self.window.maximized = maximized.unwrap_or(false);
@@ -487,6 +518,7 @@ impl Explorer {
         egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
             panels::notice_ui(self, ui);
             panels::fault_ui(self, ui);
+            panels::lesson_panel(self, ui);
             panes_ui(self, ui);
         });
         palette_ui(self, ui);

@@ -18,6 +18,10 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
             });
         }
         ui.menu_button(tr!("View"), |ui| view_ui(explorer, ui));
+        ui.menu_button(tr!("Lessons"), |ui| {
+            let items = command::items(explorer);
+            items_ui(&items, Menu::Lesson, &mut explorer.commands, ui);
+        });
         ui.menu_button(tr!("Help"), |ui| {
             let items = command::items(explorer);
             items_ui(&items, Menu::Help, &mut explorer.commands, ui);

@@ -120,7 +120,9 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
         ];
         for (angle, range, name, help) in angles {
             let label = ui.label(name).on_hover_text(help);
-            ui.add(Slider::new(angle, range.clone()).show_value(false).step_by(0.5)).labelled_by(label.id).on_hover_text(help);
+            ui.add(Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never))
+                .labelled_by(label.id)
+                .on_hover_text(help);
             ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(3).suffix("°"))
                 .labelled_by(label.id);
             ui.end_row();

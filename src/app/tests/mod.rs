@@ -3,6 +3,7 @@
 mod commands;
 mod files;
 mod fitting;
+mod lessons;
 mod masks;
 mod options;
 mod panes;

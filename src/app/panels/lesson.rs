@@ -1,0 +1,57 @@
+//! The open lesson, under the panes that it speaks of: what to move, what to watch, why.
+
+use crate::app::command::Command;
+use crate::app::language;
+use crate::app::window::Explorer;
+use egui::{Label, RichText, ScrollArea, Ui};
+use pbrdf::model::Wording;
+use tr::tr;
+
+/// Height of the panel before the user changes it.
+const HEIGHT: f32 = 118.0;
+
+/// The panel, while a lesson is open.
+pub fn lesson_panel(explorer: &mut Explorer, ui: &mut Ui) {
+    if explorer.lessons.current().is_some() {
+        egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(explorer, ui));
+    }
+}
+
+fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { lessons, commands, .. } = explorer;
+    let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
+    let code = language::current().code();
+    ui.horizontal(|ui| {
+        ui.strong(format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code)));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.button(tr!("Close lesson")).clicked() {
+                commands.push(Command::CloseLesson);
+            }
+            let last = lesson.steps.len() - 1;
+            if ui.add_enabled(index < last, egui::Button::new(tr!("Next step"))).clicked() {
+                commands.push(Command::ShowStep(number, index + 1));
+            }
+            if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
+                commands.push(Command::ShowStep(number, index));
+            }
+            if ui.add_enabled(index > 0, egui::Button::new(tr!("Previous step"))).clicked() {
+                commands.push(Command::ShowStep(number, index - 1));
+            }
+            ui.weak(format!("{}/{}", index + 1, last + 1));
+        });
+    });
+    ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+        ui.columns(3, |columns| {
+            for (ui, (heading, text)) in
+                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Watch"), &step.watch), (tr!("Why"), &step.why)])
+            {
+                part_ui(&heading, text, code, ui);
+            }
+        });
+    });
+}
+
+fn part_ui(heading: &str, text: &Wording, code: &str, ui: &mut Ui) {
+    ui.label(RichText::new(heading).weak());
+    ui.add(Label::new(text.in_language(code)).wrap());
+}

@@ -1,0 +1,47 @@
+//! Lessons: every step of every one is shown, and sets what it says.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::language::Language;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::Preset;
+
+#[test]
+fn every_step_of_every_lesson_is_shown() {
+    let mut harness = harness();
+    for lesson in 0..explorer(&mut harness).lessons.all.len() {
+        for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
+            explorer(&mut harness).commands.push(Command::ShowStep(lesson, step));
+            wait(&mut harness);
+            let heading = explorer(&mut harness).lessons.all[lesson].steps[step].heading.in_language("en").to_owned();
+            assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
+            assert_eq!(explorer(&mut harness).notice, None, "{heading}");
+        }
+    }
+}
+
+#[test]
+fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    harness.run();
+    let settings = &explorer(&mut harness).settings;
+    assert_eq!((settings.parameters.n, settings.parameters.k, settings.theta_i), (1.5, 0.0, 56.3));
+    assert_eq!(Some(settings.model), Preset::from_key("fresnel").map(|preset| preset.model));
+    harness.get_by_label("Next step").click();
+    harness.run();
+    assert_eq!(explorer(&mut harness).lessons.open, Some((0, 1)));
+    harness.get_by_label("Close lesson").click();
+    harness.run();
+    assert_eq!(explorer(&mut harness).lessons.open, None);
+}
+
+#[test]
+fn lessons_speak_chinese() {
+    let mut harness = harness();
+    explorer(&mut harness).window.language = Language::Chinese;
+    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    harness.run();
+    assert!(harness.query_by_label_contains("透明表面").is_some());
+    assert!(harness.query_by_label("下一步").is_some());
+}
