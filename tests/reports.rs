@@ -14,8 +14,8 @@ fn text(bytes: &[u8]) -> String {
 }
 
 /// The JSON of a report, its rows checked for exactly these keys.
-fn rows(subject: &str, keys: &[&str]) -> Vec<Value> {
-    let output = run(&["report", subject, "--json"]);
+fn rows(arguments: &[&str], keys: &[&str]) -> Vec<Value> {
+    let output = run(&[&["report", "--json"], arguments].concat());
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert!(json["machine"].is_string() && json["date"].is_string(), "{json}");
@@ -32,17 +32,32 @@ fn rows(subject: &str, keys: &[&str]) -> Vec<Value> {
     rows
 }
 
+/// `error-vs-time` once, for all that is to be said of it: it is the long one.
 #[test]
-fn a_report_goes_into_a_folder_too() {
+fn error_against_time_goes_to_standard_output_and_into_a_folder() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let target = folder.path().join("new").join("folder");
-    let output = run(&["report", "error-vs-time", "-o", &target.display().to_string()]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let rows = rows(
+        &["error-vs-time", "-o", &target.display().to_string()],
+        &["task", "method", "ns_per_point", "elapsed_ms", "worst_relative_error", "median_relative_error", "success_rate"],
+    );
+    let row = |method: &str| rows.iter().find(|row| row["method"] == method).expect("a row of that method");
+    let worst = |method: &str| row(method)["worst_relative_error"].as_f64().expect("a number");
+    assert!(worst("cancellation-free, prepared scene") <= 1e-13 && worst("batch kernel, prepared scene") <= 1e-13);
+    assert_eq!(worst("textbook, f64"), 1.0);
+    assert_eq!(row("this program, many starts")["success_rate"], 1.0);
+    assert!(row("model cauchy")["elapsed_ms"].is_number() && row("model cauchy")["ns_per_point"].is_null());
     let markdown = std::fs::read_to_string(target.join("error-vs-time.md")).expect("the report as Markdown");
-    assert_eq!(markdown, text(&output.stdout));
     assert!(markdown.contains("| task"), "{markdown}");
     let json = std::fs::read(target.join("error-vs-time.json")).expect("the report as JSON");
-    assert!(serde_json::from_slice::<Value>(&json).expect("JSON")["rows"].is_array());
+    let json: Value = serde_json::from_slice(&json).expect("JSON");
+    assert!(json["rows"].is_array() && json["curves"].is_array() && json["profiles"].is_array());
+    for figure in ["evaluate", "fit", "profile", "models"] {
+        let svg = std::fs::read_to_string(target.join(format!("error-vs-time-{figure}.svg"))).expect("a figure");
+        assert!(svg.starts_with("<svg") || svg.starts_with("<?xml"));
+        let png = std::fs::read(target.join(format!("error-vs-time-{figure}.png"))).expect("a figure");
+        assert!(png.starts_with(b"\x89PNG"));
+    }
 }
 
 #[test]
@@ -66,21 +81,9 @@ fn an_unknown_subject_is_refused_with_the_known_ones() {
 }
 
 #[test]
-fn the_cancellation_free_form_holds_its_digits_where_the_textbook_loses_all() {
-    let keys = ["task", "method", "ns_per_point", "worst_relative_error", "median_relative_error", "success_rate"];
-    let rows = rows("error-vs-time", &keys);
-    let worst = |method: &str| {
-        let row = rows.iter().find(|row| row["method"] == method).expect("a row of that method");
-        row["worst_relative_error"].as_f64().expect("a number")
-    };
-    assert!(worst("cancellation-free, prepared scene") <= 1e-13);
-    assert_eq!(worst("textbook, f64"), 1.0);
-}
-
-#[test]
 fn the_stability_gallery_passes_and_the_textbook_does_not() {
     let keys = ["case", "brdf_error", "dolp_error", "gradient_error", "textbook_error", "condition", "outcome", "pass"];
-    let rows = rows("stability", &keys);
+    let rows = rows(&["stability"], &keys);
     let failed: Vec<&Value> = rows.iter().filter(|row| row["pass"] != true).collect();
     assert!(failed.is_empty(), "{failed:#?}");
     let evaluations: Vec<&Value> = rows.iter().filter(|row| row["brdf_error"].is_number()).collect();

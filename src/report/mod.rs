@@ -10,6 +10,8 @@ pub mod figure;
 mod fit_document;
 mod fit_figures;
 mod fit_json;
+mod fit_race;
+mod fit_race;
 mod fitted;
 mod machine;
 mod palette;

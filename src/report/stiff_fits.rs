@@ -20,7 +20,7 @@ enum Bar {
     Covers,
     /// Bring n within a twentieth of the truth.
     SparesOutliers,
-    /// End so, without a standard error.
+    /// End so, without a number that is none.
     Ends(StopReason),
 }
 
@@ -227,7 +227,10 @@ impl Bar {
                     })
             }
             Self::SparesOutliers => near(Parameter::N, 0.05),
-            Self::Ends(reason) => report.stop_reason == reason && report.estimates.iter().all(|estimate| estimate.std_error.is_none()),
+            Self::Ends(reason) => {
+                report.stop_reason == reason
+                    && report.estimates.iter().all(|estimate| estimate.value.is_finite() && estimate.std_error.is_none_or(f64::is_finite))
+            }
         }
     }
 }
