@@ -11,7 +11,6 @@ mod fit_document;
 mod fit_figures;
 mod fit_json;
 mod fit_race;
-mod fit_race;
 mod fitted;
 mod machine;
 mod palette;
