@@ -7,7 +7,7 @@ use super::state::Settings;
 use egui_plot::PlotPoint;
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
-use pbrdf::optics::Facet;
+use pbrdf::optics::{Degrees, Facet};
 
 pub use pbrdf::report::directions;
 
@@ -64,6 +64,29 @@ pub struct Curves {
     pub specular: Pieces,
     pub diffuse: Pieces,
     pub volume: Pieces,
+    /// The specular share of the radiance, 0 to 1.
+    pub share: Pieces,
+}
+
+/// How a BRDF is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BrdfScale {
+    pub log: bool,
+    /// Whether it is multiplied by cos θr: what a detector sees of a spot that it looks at as a whole.
+    pub times_cosine: bool,
+}
+
+impl BrdfScale {
+    pub fn new(settings: &Settings) -> Self {
+        Self { log: settings.log_brdf, times_cosine: settings.shown.times_cosine }
+    }
+
+    /// A value at θr (degrees) as its plot has it; none where a logarithm does not exist.
+    pub fn coordinate(self, theta_r: f64, value: f64) -> Option<f64> {
+        let value = if self.times_cosine { value * Degrees(theta_r.abs()).sin_cos().1 } else { value };
+        let y = if self.log { libm::log10(value) } else { value };
+        y.is_finite().then_some(y)
+    }
 }
 
 /// What the curves depend on.
@@ -73,7 +96,7 @@ pub struct CurveKey {
     pub model: Model,
     pub theta_i: f64,
     pub dphi: f64,
-    pub log_brdf: bool,
+    pub brdf: BrdfScale,
     pub eq17: Eq17,
     /// Whether the backscatter side is drawn.
     pub backscatter: bool,
@@ -87,7 +110,7 @@ impl CurveKey {
             model: settings.model,
             theta_i: settings.theta_i,
             dphi: settings.dphi,
-            log_brdf: settings.log_brdf,
+            brdf: BrdfScale::new(settings),
             eq17: settings.choices.eq17,
             backscatter: settings.show_backscatter || document.has_backscatter(),
             generation: document.generation,
@@ -119,7 +142,7 @@ impl CurveSet {
         };
         let plane = key.dphi.rem_euclid(360.0);
         let own = Series { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        let curves = |series: &Series| Curves::new(&surface, key.eq17, series, key.backscatter, key.log_brdf);
+        let curves = |series: &Series| Curves::new(&surface, key.eq17, series, key.backscatter, key.brdf);
         let series: Vec<Curves> = drawn(document).map(curves).collect();
         let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
@@ -142,13 +165,13 @@ pub struct MarkSet {
 }
 
 impl MarkSet {
-    pub fn new(document: &Document, log_brdf: bool) -> Self {
+    pub fn new(document: &Document, scale: BrdfScale) -> Self {
         let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
         let step = total.div_ceil(MOST_POINTS).max(1);
         let series = drawn(document).map(|series| SeriesMarks {
             name: series.name(),
-            dolp: marks(&series.dolp, step, Some),
-            brdf: marks(&series.brdf, step, |value| brdf_coordinate(value, log_brdf)),
+            dolp: marks(&series.dolp, step, |_, value| Some(value)),
+            brdf: marks(&series.brdf, step, |theta_r, value| scale.coordinate(theta_r, value)),
         });
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         let left_out = match (hidden, step) {
@@ -170,22 +193,16 @@ pub fn drawn(document: &Document) -> impl Iterator<Item = &Series> {
     document.series.iter().take(MOST_SERIES)
 }
 
-/// A BRDF as its plot has it; none where a logarithm does not exist.
-pub fn brdf_coordinate(value: f64, log: bool) -> Option<f64> {
-    let y = if log { libm::log10(value) } else { value };
-    y.is_finite().then_some(y)
-}
-
-fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64) -> Option<f64>) -> Marks {
+fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64, f64) -> Option<f64>) -> Marks {
     let mut marks = Marks::default();
     for mark in measured.iter().step_by(step) {
-        let Some(y) = coordinate(mark.quantity.value) else { continue };
+        let Some(y) = coordinate(mark.theta_r, mark.quantity.value) else { continue };
         let points = if mark.masked { &mut marks.masked } else { &mut marks.used };
         points.push(PlotPoint::new(mark.theta_r, y));
         if let Some(sigma) = mark.quantity.sigma {
-            let high = coordinate(mark.quantity.value + sigma).unwrap_or(y);
+            let high = coordinate(mark.theta_r, mark.quantity.value + sigma).unwrap_or(y);
             // A bar that reaches 0 or below ends beneath any logarithmic axis.
-            let low = coordinate(mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);
+            let low = coordinate(mark.theta_r, mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);
             marks.bars.push(Bar { x: mark.theta_r, low, high });
         }
     }
@@ -193,7 +210,7 @@ fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64) -> Option<f64>
 }
 
 impl Curves {
-    pub fn new(surface: &Pbrdf, eq17: Eq17, series: &Series, backscatter: bool, log: bool) -> Self {
+    pub fn new(surface: &Pbrdf, eq17: Eq17, series: &Series, backscatter: bool, scale: BrdfScale) -> Self {
         let gain = dolp_gain(eq17, surface.parameters());
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles
@@ -204,7 +221,7 @@ impl Curves {
             })
             .collect();
         let brdf =
-            |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, brdf_coordinate(value(reflection), log))));
+            |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, scale.coordinate(*x, value(reflection)))));
         let model = surface.model();
         Self {
             dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(gain * reflection.dolp)))),
@@ -212,6 +229,11 @@ impl Curves {
             total: brdf(|reflection| reflection.brdf),
             specular: if model.specular { brdf(|reflection| reflection.specular) } else { Pieces::new() },
             diffuse: if model.diffuse == Diffuse::Absent { Pieces::new() } else { brdf(|reflection| reflection.diffuse) },
+            share: if model.specular {
+                pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.specular / reflection.brdf))))
+            } else {
+                Pieces::new()
+            },
             volume: if model.volume { brdf(|reflection| reflection.volume) } else { Pieces::new() },
         }
     }

@@ -1,6 +1,6 @@
 //! What more than one part of the window shows and none computes while it draws: curves, points, ΔE, what the data determine.
 
-use super::curves::{CurveKey, CurveSet, MarkSet};
+use super::curves::{BrdfScale, CurveKey, CurveSet, MarkSet};
 use super::document::Document;
 use super::memo::Memo;
 use super::problem::problem;
@@ -11,8 +11,8 @@ use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
 pub struct Derived {
-    /// Measured points, by generation of the document and whether the BRDF is drawn as its logarithm.
-    pub marks: Memo<(u64, bool), MarkSet>,
+    /// Measured points, by generation of the document and how a BRDF is drawn.
+    pub marks: Memo<(u64, BrdfScale), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
     problem: Memo<(u64, Model, Eq17), Option<Problem>>,
@@ -24,7 +24,8 @@ pub struct Derived {
 impl Derived {
     /// The measured points and the curves, for the panes that draw them.
     pub fn refresh_curves(&mut self, settings: &Settings, document: &Document) {
-        self.marks.refresh((document.generation, settings.log_brdf), |_| MarkSet::new(document, settings.log_brdf));
+        let scale = BrdfScale::new(settings);
+        self.marks.refresh((document.generation, scale), |_| MarkSet::new(document, scale));
         self.curves.refresh(CurveKey::new(settings, document), |key| CurveSet::new(key, document));
     }
 

@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 pub enum Pane {
     Dolp,
     Lobes,
+    PolarLobes,
+    Facets,
+    Convergence,
     Data,
     Planner,
     Models,
@@ -48,7 +51,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 5] = [
+pub static PANES: [Entry; 8] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -70,6 +73,39 @@ pub static PANES: [Entry; 5] = [
         refresh: views::lobes_refresh,
         ui: views::lobes_ui,
         options: Some(views::lobes_options_ui),
+    },
+    Entry {
+        pane: Pane::PolarLobes,
+        key: "polar_lobes",
+        title: "Polar lobes",
+        tooltip: "The lobes around the point of incidence, with surface, incident ray and mirror direction",
+        shortcut: Some(Key::Num3),
+        place: Place::Lower,
+        refresh: views::polar_refresh,
+        ui: views::polar_ui,
+        options: Some(views::polar_options_ui),
+    },
+    Entry {
+        pane: Pane::Facets,
+        key: "facets",
+        title: "Facets",
+        tooltip: "Densities of facet tilts for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6)",
+        shortcut: Some(Key::Num4),
+        place: Place::Lower,
+        refresh: views::facets_refresh,
+        ui: views::facets_ui,
+        options: Some(views::facets_options_ui),
+    },
+    Entry {
+        pane: Pane::Convergence,
+        key: "convergence",
+        title: "Convergence",
+        tooltip: "The way of the last fit: ΔE, Eq. (18), against evaluations or time",
+        shortcut: None,
+        place: Place::Upper,
+        refresh: views::convergence_refresh,
+        ui: views::convergence_ui,
+        options: Some(views::convergence_options_ui),
     },
     Entry {
         pane: Pane::Data,

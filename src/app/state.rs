@@ -30,6 +30,39 @@ impl Theme {
     }
 }
 
+/// The other distribution beside the model's own, in the plot of DoLP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Overlay {
+    #[default]
+    Absent,
+    /// With the same σ, which is not the same width.
+    EqualSigma,
+    /// With half of the facets below the same slope.
+    EqualMedian,
+}
+
+/// What panes show beyond what they always show.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Shown {
+    /// The specular share of the radiance beside DoLP.
+    pub share: bool,
+    pub overlay: Overlay,
+    /// Whether lobes are filled.
+    pub filled: bool,
+    /// Whether lobes are multiplied by cos θr.
+    pub times_cosine: bool,
+    /// Whether the radius of the polar diagram is logarithmic.
+    pub polar_log: bool,
+    /// Whether facet densities are drawn as their logarithm.
+    pub facets_log: bool,
+    /// Whether the two facet distributions have the same median slope rather than the same σ.
+    pub facets_equal_median: bool,
+    /// Whether the way of a fit is drawn against time rather than evaluations.
+    pub convergence_by_time: bool,
+}
+
 /// What the user sets: sliders, switches, views. Each change of it is a step of undo.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -62,6 +95,7 @@ pub struct Settings {
     pub show_backscatter: bool,
     /// Whether what is free is fitted again whenever a slider moves.
     pub refit_live: bool,
+    pub shown: Shown,
 }
 
 impl Default for Settings {
@@ -82,6 +116,7 @@ impl Default for Settings {
             show_limit: true,
             show_backscatter: false,
             refit_live: false,
+            shown: Shown::default(),
         }
     }
 }

@@ -114,20 +114,41 @@ fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) 
 fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.strong("Lobes are seen at");
     Grid::new("geometry").num_columns(3).show(ui, |ui| {
-        let angles: [(&mut f64, std::ops::RangeInclusive<f64>, &str, &str); 2] = [
-            (&mut settings.theta_i, 0.0..=89.9, "θi", "Angle of incidence of the lobes, degrees"),
-            (&mut settings.dphi, 0.0..=360.0, "Δφ", "Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence"),
+        let defaults = Settings::default();
+        let angles: [(&mut f64, f64, std::ops::RangeInclusive<f64>, &str, &str); 2] = [
+            (&mut settings.theta_i, defaults.theta_i, 0.0..=89.9, "θi", "Angle of incidence of the lobes, degrees"),
+            (
+                &mut settings.dphi,
+                defaults.dphi,
+                0.0..=360.0,
+                "Δφ",
+                "Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence",
+            ),
         ];
-        for (angle, range, name, help) in angles {
-            let label = ui.label(name).on_hover_text(help);
-            ui.add(Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never))
-                .labelled_by(label.id)
-                .on_hover_text(help);
+        for (angle, default, range, name, help) in angles {
+            let label = name_ui(ui, name, help);
+            let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
+            let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help);
+            if is_double_clicked(ui, &[&label, &slider]) {
+                *angle = default;
+            }
             ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(3).suffix("°"))
                 .labelled_by(label.id);
             ui.end_row();
         }
     });
+}
+
+/// The name of a slider; a double click on it resets what it names.
+fn name_ui(ui: &mut Ui, name: &str, help: &str) -> egui::Response {
+    // Clicks alone: a stop on the way of the Tab key would be one too many.
+    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_text(help)
+}
+
+/// Whether any of them was clicked twice; a slider senses drags alone.
+fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
+    let twice = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
+    twice && responses.iter().any(|response| response.contains_pointer())
 }
 
 fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
@@ -147,16 +168,25 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui,
 fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
     let range = parameter.range();
     let outside = !range.contains(&settings.parameters[parameter]);
-    let help =
-        format!("{} {}: {}\nSlider from {} to {}.", parameter.name(), parameter.symbol(), parameter.help(), range.start(), range.end());
-    let label = ui.label(parameter.symbol()).on_hover_text(&help);
+    let help = format!(
+        "{} {}: {}\nSlider from {} to {}; a double click resets it, arrow keys step it.",
+        parameter.name(),
+        parameter.symbol(),
+        parameter.help(),
+        range.start(),
+        range.end()
+    );
+    let label = name_ui(ui, parameter.symbol(), &help);
 
     let value = &mut settings.parameters[parameter];
     let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
     if parameter.is_logarithmic() {
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
-    ui.add(slider).labelled_by(label.id).on_hover_text(&help);
+    let slider = ui.add(slider).labelled_by(label.id).on_hover_text(&help);
+    if is_double_clicked(ui, &[&label, &slider]) {
+        *value = parameter.default_value();
+    }
 
     // What the formulas do not allow is not taken; what only the slider cannot show is.
     let domain = parameter.domain();

@@ -70,3 +70,12 @@ pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: e
         plot.line(if let Some(style) = style { line.style(style) } else { line });
     }
 }
+
+/// The same, filled down to that height.
+pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: egui::Color32, floor: f64) {
+    #[expect(clippy::cast_possible_truncation, reason = "egui_plot takes a height as f32")]
+    let floor = floor as f32;
+    for piece in pieces {
+        plot.line(Line::new(name.to_owned(), PlotPoints::Borrowed(piece)).color(color).width(1.5).fill(floor).fill_alpha(0.25));
+    }
+}

@@ -71,3 +71,81 @@ fn a_closed_pane_stays_closed_after_a_restart() {
     assert!(!explorer(&mut again).panes.is_on_screen(Pane::Lobes));
     assert!(explorer(&mut again).panes.is_on_screen(Pane::Dolp));
 }
+
+fn shown(pane: Pane) -> egui_kittest::Harness<'static, Option<crate::app::window::Explorer>> {
+    let mut harness = harness();
+    if !explorer(&mut harness).panes.is_on_screen(pane) {
+        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+    }
+    wait(&mut harness);
+    harness
+}
+
+#[test]
+fn every_option_of_every_pane_can_be_switched() {
+    for (pane, options) in [
+        (Pane::Dolp, &["Specular share", "with equal σ", "with equal median slope", "Fresnel limit", "Backscatter side"][..]),
+        (Pane::Lobes, &["Logarithmic BRDF", "Filled lobes", "Times cos θr"]),
+        (Pane::PolarLobes, &["Logarithmic radius", "Filled lobes"]),
+        (Pane::Facets, &["Logarithmic densities", "Equal median slope"]),
+        (Pane::Convergence, &["Against time", "Against evaluations"]),
+    ] {
+        let mut harness = shown(pane);
+        for option in options {
+            let before = explorer(&mut harness).settings.clone();
+            // The menu may have closed.
+            if harness.query_by_label(option).is_none() {
+                harness.get_by_label(&format!("Show in {}", pane.entry().title)).click();
+                harness.run();
+            }
+            harness.get_by_label(option).click();
+            harness.run();
+            assert_ne!(explorer(&mut harness).settings, before, "{option}");
+        }
+    }
+}
+
+#[test]
+fn views_draw_whatever_the_sliders_hold() {
+    use pbrdf::model::{Diffuse, Parameters};
+    let ordinary = Parameters::default();
+    let odd = [
+        Parameters { kd: 0.0, kv: 0.0, ..ordinary },
+        Parameters { ks: 0.0, ..ordinary },
+        Parameters { ks: 0.0, kd: 0.0, kv: 0.0, ..ordinary },
+        Parameters { sigma: 1e-3, q: 20.0, ..ordinary },
+        Parameters { sigma: 3.0, q: 1.0001, ..ordinary },
+        Parameters { sigma: 1e-200, ..ordinary },
+        Parameters { n: 0.0, k: 0.0, ..ordinary },
+        Parameters { c: -40.0, ..ordinary },
+    ];
+    for entry in &PANES {
+        let mut harness = shown(entry.pane);
+        for parameters in odd {
+            for logarithmic in [false, true] {
+                for specular in [true, false] {
+                    let settings = &mut explorer(&mut harness).settings;
+                    settings.parameters = parameters;
+                    settings.model.specular = specular;
+                    settings.model.diffuse = if specular { Diffuse::Minnaert } else { Diffuse::Lambert };
+                    settings.log_brdf = logarithmic;
+                    settings.shown.polar_log = logarithmic;
+                    settings.shown.facets_log = logarithmic;
+                    settings.shown.share = true;
+                    settings.shown.filled = logarithmic;
+                    settings.shown.overlay = crate::app::state::Overlay::EqualMedian;
+                    harness.run();
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_way_of_a_fit_is_drawn_after_it() {
+    let mut harness = shown(Pane::Convergence);
+    harness.get_by_label("There is no fit yet: press Fit, and its way down is drawn here.");
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert!(harness.query_by_label("There is no fit yet: press Fit, and its way down is drawn here.").is_none());
+}

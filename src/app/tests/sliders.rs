@@ -81,3 +81,50 @@ fn what_is_derived_is_not_made_anew_without_need() {
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0].as_ptr(), curve);
 }
+
+/// Clicks twice at the middle of a node.
+fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::window::Explorer>>, at: egui::Pos2) {
+    for _ in 0..2 {
+        for pressed in [true, false] {
+            let button = egui::PointerButton::Primary;
+            harness.input_mut().events.push(egui::Event::PointerMoved(at));
+            harness.input_mut().events.push(egui::Event::PointerButton { pos: at, button, pressed, modifiers: egui::Modifiers::NONE });
+            harness.step();
+        }
+    }
+    harness.run();
+}
+
+#[test]
+fn a_double_click_on_a_slider_or_its_name_resets_it() {
+    for role in [Role::Slider, Role::Label] {
+        let mut harness = harness();
+        explorer(&mut harness).settings.parameters.k = 9.0;
+        harness.run();
+        let at = harness.get_by_role_and_label(role, "k").rect().center();
+        double_click(&mut harness, at);
+        assert_eq!(explorer(&mut harness).settings.parameters, Parameters::default(), "{role:?}");
+    }
+}
+
+#[test]
+fn arrow_keys_step_a_logarithmic_slider_away_from_zero_and_back() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters.kd = 0.0;
+    harness.run();
+    harness.get_by_role_and_label(Role::Slider, "k_d").focus();
+    harness.run();
+    let mut before = 0.0;
+    for _ in 0..3 {
+        harness.key_press(egui::Key::ArrowRight);
+        harness.run();
+        let kd = explorer(&mut harness).settings.parameters.kd;
+        assert!(kd > before, "{kd}");
+        before = kd;
+    }
+    for _ in 0..6 {
+        harness.key_press(egui::Key::ArrowLeft);
+        harness.run();
+    }
+    assert_eq!(explorer(&mut harness).settings.parameters.kd, 0.0);
+}

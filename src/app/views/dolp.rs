@@ -1,17 +1,21 @@
 //! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel limit, the last fit, and under it what
 //! the model misses.
 
+use super::facets::{another, sigma_of_equal_median};
 use super::residuals::{self, Residuals};
-use crate::app::curves::{Curves, Pieces, axis_values, drawn};
+use crate::app::curves::{BrdfScale, Curves, Pieces, axis_values, drawn};
+use crate::app::document::Document;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::state::{Overlay, Settings};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::optics::SlopeDistribution;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -19,12 +23,14 @@ pub struct DolpView {
     axes: Axes,
     range: Following,
     /// DoLP of the last fit along each series, where the sliders have left it.
-    ghost: Memo<Option<GhostKey>, Vec<Pieces>>,
+    ghost: Memo<Option<SurfaceKey>, Vec<Pieces>>,
+    /// DoLP with the other distribution.
+    overlay: Memo<Option<SurfaceKey>, Vec<Pieces>>,
     pub residuals: Residuals,
 }
 
-/// The fit, the reading of Eq. (17), the generation of the document, and whether the backscatter side is drawn.
-type GhostKey = (Parameters, Model, Eq17, u64, bool);
+/// Another surface than the sliders', the reading of Eq. (17), the generation of the document, whether the backscatter side is drawn.
+type SurfaceKey = (Parameters, Model, Eq17, u64, bool);
 
 pub fn dolp_refresh(explorer: &mut Explorer) {
     let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
@@ -32,21 +38,41 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
 
-    let fitted = last_fit.as_ref().map(|fit| (fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
-    let elsewhere = fitted.filter(|(parameters, ..)| *parameters != settings.parameters);
-    let ghost_key = elsewhere.map(|(parameters, model, eq17)| (parameters, model, eq17, document.generation, key.backscatter));
-    view.ghost.refresh(ghost_key, |key| {
-        let Some((parameters, model, eq17, _, backscatter)) = *key else { return Vec::new() };
-        let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
-        drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, false).dolp).collect()
-    });
+    let eq17 = settings.choices.eq17;
+    let key_of = |parameters, model, eq17| (parameters, model, eq17, document.generation, key.backscatter);
+    let fitted = last_fit.as_ref().filter(|fit| fit.report.parameters != settings.parameters);
+    let ghost = fitted.map(|fit| key_of(fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
+    view.ghost.refresh(ghost, |key| along_series(key.as_ref(), document));
+    let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model, eq17));
+    view.overlay.refresh(other, |key| along_series(key.as_ref(), document));
     view.residuals.refresh(settings, document, *dragging);
 
     let limit = settings.show_limit;
     let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
     let bars = marks.series.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high));
     let top = values.chain(bars).fold(0.0, f64::max);
-    view.range.follow(Range { low: 0.0, high: round_up(top).min(1.05) }, *dragging);
+    let high = if settings.shown.share { 1.05 } else { round_up(top).min(1.05) };
+    view.range.follow(Range { low: 0.0, high }, *dragging);
+}
+
+/// DoLP of a surface along each series.
+fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Pieces> {
+    let Some(&(parameters, model, eq17, _, backscatter)) = key else { return Vec::new() };
+    let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
+    drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, BrdfScale::default()).dolp).collect()
+}
+
+/// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.
+fn other_distribution(settings: &Settings) -> Option<(Parameters, Model)> {
+    let Settings { model, mut parameters, shown, .. } = *settings;
+    let other = another(model.distribution);
+    match shown.overlay {
+        _ if !model.specular => return None,
+        Overlay::Absent => return None,
+        Overlay::EqualSigma => {}
+        Overlay::EqualMedian => parameters.sigma = sigma_of_equal_median(model.distribution, parameters.sigma, parameters.q),
+    }
+    Some((parameters, Model { distribution: other, ..model }))
 }
 
 /// Share of the height that the residuals have.
@@ -65,6 +91,19 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 /// What is drawn in the pane.
 pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let shown = &mut explorer.settings.shown;
+    ui.checkbox(&mut shown.share, "Specular share")
+        .on_hover_text("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share");
+    ui.separator();
+    ui.label("The other distribution");
+    for (overlay, name, help) in [
+        (Overlay::Absent, "not shown", "Only the distribution of the model"),
+        (Overlay::EqualSigma, "with equal σ", "The same σ, which is not the same width: compare shapes with equal median slope"),
+        (Overlay::EqualMedian, "with equal median slope", "σ such that half of the facets stay below the same slope"),
+    ] {
+        ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
+    }
+    ui.separator();
     ui.checkbox(&mut explorer.settings.show_limit, "Fresnel limit")
         .on_hover_text("DoLP without any depolarising term: no point can lie above it");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
@@ -76,6 +115,12 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;
     let own_name = format!("θi = {}° (slider)", settings.theta_i);
+    let other_name = match (another(settings.model.distribution), settings.shown.overlay) {
+        (SlopeDistribution::Gauss, Overlay::EqualMedian) => "Gauss, equal median slope",
+        (SlopeDistribution::Gauss, _) => "Gauss, equal σ",
+        (SlopeDistribution::Cauchy, Overlay::EqualMedian) => "Cauchy, equal median slope",
+        (SlopeDistribution::Cauchy, _) => "Cauchy, equal σ",
+    };
     let dashed = Some(LineStyle::dashed_dense());
     let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "DoLP", decimal);
@@ -97,6 +142,17 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                 if curves.own_is_series.is_none() {
                     curve(plot, &curves.own.limit, "Fresnel limit", theme::foreground(dark), dashed, 1.0);
                 }
+            }
+            if settings.shown.share {
+                for (i, curves) in curves.series.iter().enumerate() {
+                    curve(plot, &curves.share, "specular share", theme::series(i, dark), Some(LineStyle::dashed_loose()), 1.0);
+                }
+                if curves.own_is_series.is_none() {
+                    curve(plot, &curves.own.share, "specular share", theme::foreground(dark), Some(LineStyle::dashed_loose()), 1.0);
+                }
+            }
+            for (i, pieces) in view.overlay.get().into_iter().flatten().enumerate() {
+                curve(plot, pieces, other_name, theme::series(i, dark), Some(LineStyle::dotted_loose()), 2.0);
             }
             for (i, pieces) in view.ghost.get().into_iter().flatten().enumerate() {
                 curve(plot, pieces, "last fit", theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);

@@ -2,7 +2,7 @@
 
 use crate::app::curves::{DECADES, axis_values};
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::plots::{Axes, Following, Range, curve, filled, legend, marks_in, plot, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -38,6 +38,9 @@ pub fn lobes_refresh(explorer: &mut Explorer) {
 /// What is drawn in the pane.
 pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     ui.checkbox(&mut explorer.settings.log_brdf, "Logarithmic BRDF");
+    ui.checkbox(&mut explorer.settings.shown.filled, "Filled lobes").on_hover_text("Each term filled down to the axis");
+    ui.checkbox(&mut explorer.settings.shown.times_cosine, "Times cos θr")
+        .on_hover_text("BRDF × cos θr: its integral over all directions is the reflectance");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
 }
 
@@ -49,14 +52,16 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let log = settings.log_brdf;
     let title = format!("θr / °  at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi);
     let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "BRDF / (1/sr)", if log { power_of_ten } else { decimal });
+    let times_cosine = settings.shown.times_cosine;
+    let quantity = if times_cosine { "BRDF × cos θr" } else { "BRDF" };
+    let y = axis(AxisHints::new_y(), ui, &format!("{quantity} / (1/sr)"), if log { power_of_ten } else { decimal });
     let response = plot("lobes", ui, ui.available_height(), x, y)
         .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
         .legend(legend())
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
-                Some(format!("{plot_name}\nθr = {:.2}°\nBRDF = {brdf:.4e} 1/sr", position.x))
+                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr", position.x))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
@@ -69,9 +74,18 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
                     marks_in(plot, &marks.brdf, &marks.name, color, dark);
                 }
             }
-            curve(plot, &curves.own.specular, "specular", theme::specular(dark), None, 1.5);
-            curve(plot, &curves.own.diffuse, "diffuse", theme::diffuse(dark), None, 1.5);
-            curve(plot, &curves.own.volume, "volume", theme::volume(dark), None, 1.5);
+            let floor = if log { view.range.get().map_or(0.0, |range| range.low) } else { 0.0 };
+            for (pieces, name, color) in [
+                (&curves.own.specular, "specular", theme::specular(dark)),
+                (&curves.own.diffuse, "diffuse", theme::diffuse(dark)),
+                (&curves.own.volume, "volume", theme::volume(dark)),
+            ] {
+                if settings.shown.filled {
+                    filled(plot, pieces, name, color, floor);
+                } else {
+                    curve(plot, pieces, name, color, None, 1.5);
+                }
+            }
             curve(plot, &curves.own.total, "total", theme::foreground(dark), None, 2.5);
         });
     view.axes.listen(&response, ui);

@@ -1,23 +1,32 @@
 //! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
 
 mod comparison;
+mod convergence;
 mod dolp;
+mod facets;
 mod lobes;
 mod planner;
+mod polar;
 mod residuals;
 mod table;
 
 pub use comparison::comparison_ui;
+pub use convergence::{convergence_options_ui, convergence_refresh, convergence_ui};
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
+pub use facets::{facets_options_ui, facets_refresh, facets_ui};
 pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
 pub use planner::{planner_refresh, planner_ui};
+pub use polar::{polar_options_ui, polar_refresh, polar_ui};
 pub use table::{table_refresh, table_ui};
 
 /// What the panes keep from frame to frame.
 #[derive(Default)]
 pub struct Views {
+    pub convergence: convergence::ConvergenceView,
     pub dolp: dolp::DolpView,
+    pub facets: facets::FacetsView,
     pub lobes: lobes::LobesView,
     pub planner: planner::PlannerView,
+    pub polar: polar::PolarView,
     pub table: table::TableView,
 }

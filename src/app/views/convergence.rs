@@ -1,0 +1,133 @@
+//! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or time.
+
+use crate::app::curves::{Pieces, pieces};
+use crate::app::memo::Memo;
+use crate::app::past_fits::PastFit;
+use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
+use crate::app::plots::{Axes, Range, curve, plot};
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::Ui;
+use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
+use pbrdf::fit::TracePoint;
+use std::rc::Rc;
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct ConvergenceView {
+    way: Memo<Key, Way>,
+    axes: Axes,
+}
+
+/// The fit that is drawn, by identity, and whether it is drawn against time.
+#[derive(Default)]
+struct Key(Option<Rc<PastFit>>, bool);
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.1 == other.1
+            && match (&self.0, &other.0) {
+                (Some(a), Some(b)) => Rc::ptr_eq(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+    }
+}
+
+/// ΔE along the way, as its decimal logarithm.
+#[derive(Default)]
+struct Way {
+    steps: Pieces,
+    points: Pieces,
+    x: Option<Range>,
+    y: Option<Range>,
+}
+
+impl Way {
+    #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
+    fn new(trace: &[TracePoint], by_time: bool) -> Self {
+        let x = |point: &TracePoint| if by_time { point.elapsed_ms } else { point.evaluations as f64 };
+        let y = |point: &TracePoint| Some(libm::log10(point.objective));
+        // ΔE stays as it is until the next improvement: steps, not slopes.
+        let corners = trace.windows(2).flat_map(|pair| [(x(&pair[0]), y(&pair[0])), (x(&pair[1]), y(&pair[0]))]);
+        let steps = pieces(corners.chain(trace.last().map(|last| (x(last), y(last)))));
+        let points = pieces(trace.iter().map(|point| (x(point), y(point))));
+        let mut heights = points.iter().flatten().map(|point| point.y);
+        let first = heights.next();
+        let (low, high) = heights.fold((first.unwrap_or(0.0), first.unwrap_or(0.0)), |(low, high), y| (low.min(y), high.max(y)));
+        let end = trace.last().map_or(1.0, x);
+        let air = if end > 0.0 { 0.04 * end } else { 1.0 };
+        Self {
+            steps,
+            points,
+            x: Some(Range { low: -air, high: end + air }),
+            y: Some(Range { low: (low - 0.1).floor(), high: (high + 0.1).ceil() }),
+        }
+    }
+}
+
+pub fn convergence_refresh(explorer: &mut Explorer) {
+    let Explorer { last_fit, settings, views, .. } = explorer;
+    views.convergence.way.refresh(Key(last_fit.clone(), settings.shown.convergence_by_time), |Key(fit, by_time)| {
+        fit.as_ref().map_or_else(Way::default, |fit| Way::new(&fit.report.trace, *by_time))
+    });
+}
+
+/// What is drawn in the pane.
+pub fn convergence_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let by_time = &mut explorer.settings.shown.convergence_by_time;
+    ui.radio_value(by_time, false, "Against evaluations").on_hover_text("Evaluations of the residuals, the same on every machine");
+    ui.radio_value(by_time, true, "Against time").on_hover_text("Milliseconds since the fit began, all its starts included");
+}
+
+pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { last_fit, settings, views, .. } = explorer;
+    let view = &mut views.convergence;
+    let (Some(fit), Some(way)) = (last_fit, view.way.get()) else {
+        ui.label("There is no fit yet: press Fit, and its way down is drawn here.");
+        return;
+    };
+    if way.points.is_empty() {
+        ui.label("The fit made no step: ΔE of its start was the best.");
+        return;
+    }
+    let report = &fit.report;
+    ui.weak(format!(
+        "Winning start of {}; {}",
+        report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(),
+        report.stop_reason.text()
+    ));
+    let dark = ui.visuals().dark_mode;
+    let title = if settings.shown.convergence_by_time { "time / ms" } else { "residual evaluations" };
+    let x = axis(AxisHints::new_x(), ui, title, decimal).min_thickness(40.0);
+    let y = axis(AxisHints::new_y(), ui, "ΔE", power_of_ten);
+    let response = plot("convergence", ui, ui.available_height(), x, y)
+        .y_grid_spacer(|input| axis::marks(&input, 5.0, 1.0))
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { position, .. } => {
+                Some(format!("{title}: {}\nΔE = {:.6e}", decimal(position.x, 0.1), libm::exp10(position.y)))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            view.axes.apply(plot, way.x, way.y);
+            curve(plot, &way.steps, "", theme::series(0, dark), None, 1.5);
+            for piece in &way.points {
+                plot.points(Points::new("ΔE", PlotPoints::Borrowed(piece)).color(theme::series(0, dark)).radius(3.0));
+            }
+        });
+    view.axes.listen(&response, ui);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TracePoint, Way};
+
+    #[test]
+    fn a_fit_that_reaches_zero_ends_where_a_logarithm_still_exists() {
+        let point = |evaluations, objective| TracePoint { elapsed_ms: 0.0, evaluations, objective };
+        let way = Way::new(&[point(1, 1e-2), point(2, 1e-9), point(3, 0.0)], false);
+        assert_eq!(way.points.iter().map(Vec::len).sum::<usize>(), 2);
+        let y = way.y.expect("a range");
+        assert!(y.low < -9.0 && y.high > -2.0);
+    }
+}
