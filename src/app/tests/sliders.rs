@@ -89,7 +89,6 @@ fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::
             let button = egui::PointerButton::Primary;
             harness.input_mut().events.push(egui::Event::PointerMoved(at));
             harness.input_mut().events.push(egui::Event::PointerButton { pos: at, button, pressed, modifiers: egui::Modifiers::NONE });
-            harness.step();
         }
     }
     harness.run();
