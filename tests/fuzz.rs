@@ -9,6 +9,7 @@
 //! Samples are made here and damaged by seeded chance; `PBRDF_FUZZ_SEED` draws others. An input that panics is kept in the folder for
 //! temporary files, and its path is in the message.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "how many inputs were tried, with --nocapture")]
 
 use pbrdf::measurement::{self, Mapping, Measurement, TensorGrid, TensorResolution, grid_geometries, is_woollam};
 use pbrdf::measurement::{read_mapped, read_tensor, read_woollam, write_tensor};
