@@ -31,9 +31,9 @@
 //!
 //! Floors of a house; imports run downwards only.
 //!
-//! 1. [`optics`]: angles, geometry, Fresnel, facets, Stokes and Mueller
+//! 1. [`optics`]: angles, geometry, Fresnel, facets, Stokes and Mueller, tabulated metals
 //! 2. [`model`]: the parameters, the lobes, the pBRDF, its gradient, prepared scenes, the ladder of models
-//! 3. [`measurement`]: tables read, written, simulated
+//! 3. [`measurement`]: tables read, written, simulated; foreign files imported, tensors exported
 //! 4. [`fit`]: choices, bounds, residuals, solver and its coordinates, starts, uncertainty, profiles, bootstrap
 //! 5. [`report`]: results as JSON; error against run time, stability, cost
 

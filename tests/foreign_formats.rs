@@ -62,3 +62,71 @@ fn import_turns_woollam_text_into_specular_dolp() {
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }
+
+#[test]
+fn import_offers_a_guess_for_a_foreign_table_and_applies_only_what_is_chosen() {
+    let folder = Folder::new();
+    let file = folder.file("lab.csv", "AOI (deg),View angle,DoLP %\n30,-20,12.5\n");
+    let message = refusal(&["import", &file]);
+    assert!(message.contains("its header suggests --columns theta_i=1,theta_r=2,dolp=3:percent"), "{message}");
+    let out = answer(&["import", &file, "--columns", "theta_i=AOI (deg),theta_r=2,dolp=3:percent"]);
+    assert!(out.contains("\n30,20,0,1.25") && out.contains("# imported_from: lab.csv\n"), "{out}");
+    let nothing = folder.file("nothing.csv", "a,b\n1,2\n");
+    for (arguments, expected) in [
+        (vec!["import", &file, "--columns", "theta_i=AOI,theta_r=2,dolp=3"], "lab.csv: line 1: there is no column \"AOI\""),
+        (vec!["import", &file, "--columns", "theta=1"], "\"theta\" is no field"),
+        (vec!["import", &nothing], "nothing.csv: this is neither Woollam ellipsometry text nor a tensor file"),
+        (vec!["import", "no/such.dat"], "there is no such file"),
+    ] {
+        let message = refusal(&arguments);
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn an_exported_surface_can_be_imported_again() {
+    let folder = Folder::new();
+    let path = folder.path("steel.pbsdf").display().to_string();
+    let surface = "n=2.07,k=2.9,sigma=0.3,kd=0.12,kv=0.2";
+    let export =
+        ["export", "mitsuba", "--model", "gauss", "--set", surface, "--wavelength", "546", "--resolution", "37,31,32", "-o", &path];
+    assert_eq!(answer(&export), "");
+    let out = answer(&["import", &path, "--theta-i", "40", "--theta-r=-30:30:30", "--dphi", "180"]);
+    assert!(out.contains("# wavelength_nm: 546\n"), "{out}");
+    let rows: Vec<Vec<f64>> = out
+        .lines()
+        .filter(|line| line.starts_with("40,"))
+        .map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect())
+        .collect();
+    let dphis: Vec<f64> = rows.iter().map(|row| row[2]).collect();
+    assert_eq!(dphis, [0.0, 180.0, 180.0]);
+    assert!(answer(&["import", &path, "--theta-i", "40", "--theta-r", "30", "--dphi", "90"]).contains("\n40,30,90,"));
+
+    let whole = std::fs::read(&path).expect("the export wrote it");
+    let cut = folder.file("cut.pbsdf", &whole[..whole.len() / 2]);
+    let mut huge = whole.clone();
+    // The number of values of the first field, which the header holds as eight bytes.
+    huge[18 + 2 + 5 + 2 + 1 + 8 + 8..][..8].fill(0xff);
+    let huge = folder.file("huge.pbsdf", &huge);
+    let data = whole.len() - 37 * 31 * 32 * 64;
+    let mut nothing = whole.clone();
+    nothing[data..].chunks_exact_mut(4).for_each(|number| number.copy_from_slice(&f32::NAN.to_le_bytes()));
+    let nothing = folder.file("nothing.pbsdf", &nothing);
+    let nowhere = folder.path("no/such/folder/x.pbsdf").display().to_string();
+    for (arguments, expected) in [
+        (vec!["import", &cut], "cut.pbsdf: byte "),
+        (vec!["import", &huge], "field phi_d: the file ends early"),
+        (vec!["import", &nothing], "nothing.pbsdf: none of the geometries has a value"),
+        (vec!["import", &path, "--wavelength", "650"], "650 nm is outside what the file has: 546 nm"),
+        (vec!["export", "mitsuba", "--model", "fresnel", "-o", &path], "predicts DoLP only"),
+        (vec!["export", "mitsuba", "--set", "n=-1", "-o", &path], "not allowed"),
+        (vec!["export", "mitsuba", "--resolution", "2,2", "-o", &path], "three whole numbers"),
+        (vec!["export", "mitsuba", "--resolution", "2000,2000,2000", "-o", &path], "more than 32000000 matrices"),
+        (vec!["export", "mitsuba"], "--output"),
+    ] {
+        let message = refusal(&arguments);
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+    }
+    assert_eq!(std::fs::read(&path).expect("it stays"), whole);
+    assert_eq!(run(&["export", "mitsuba", "-o", &nowhere]).status.code(), Some(1));
+}

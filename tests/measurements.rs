@@ -1,7 +1,7 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement::{self, Measurement, ReadError, append_columns, exact};
+use pbrdf::measurement::{self, Mapping, Measurement, ReadError, append_columns, exact};
 use std::ops::ControlFlow;
 
 fn read(text: impl AsRef<[u8]>) -> Result<Measurement, ReadError> {
@@ -161,4 +161,39 @@ fn appended_columns_leave_the_rest_as_it_was() {
         .expect("memory takes everything");
     let expected = "\u{feff}# a: b\r\ntheta_i;dolp;theta_r;x;y\r\n\r\n30;0,1;20;1;\r\n# c\r\n30;0,2;25;2;3\n";
     assert_eq!(String::from_utf8_lossy(&out), expected);
+}
+
+#[test]
+fn a_mapped_table_is_the_same_measurement() {
+    let expected = accepted("theta_i,theta_r,dolp,dolp_sigma,brdf\n30,-20,0.125,0.01,2\n40,25,0.25,0.02,\n");
+    let foreign = "AOI;View;note;DoLP %;err;f\n30;-0,3490658503988659;x;12,5;1;2\n40;0,4363323129985824;y;25;2;\n";
+    let mapping = Mapping::from_text("theta_i=AOI,theta_r=2:radians,dolp=DoLP %:percent,dolp_sigma=err:percent,brdf=6").expect("a mapping");
+    let read = measurement::read_mapped(foreign.as_bytes(), &mapping, &mut |_| ControlFlow::Continue(())).expect("a good table");
+    assert_eq!(read.ignored_columns, ["note"]);
+    for (row, expected) in read.rows.iter().zip(&expected.rows) {
+        // An ulp of the conversion from radians and percent.
+        assert!((row.geometry.theta_r().0 - expected.geometry.theta_r().0).abs() < 1e-13);
+        assert_eq!((row.geometry.theta_i(), row.geometry.dphi()), (expected.geometry.theta_i(), expected.geometry.dphi()));
+        assert_eq!((row.dolp, row.brdf), (expected.dolp, expected.brdf));
+    }
+    assert_eq!(read.rows.len(), expected.rows.len());
+}
+
+#[test]
+fn a_mapping_that_does_not_fit_its_table_is_refused_with_its_place() {
+    for (mapping, table, place, reason) in [
+        ("theta_i=AOI,theta_r=2,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column \"AOI\" for theta_i; the columns are a, b, c"),
+        ("theta_i=1,theta_r=0,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column number 0 for theta_r"),
+        ("theta_i=1,theta_r=9,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column number 9 for theta_r"),
+        ("theta_i=1,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column is named for theta_r"),
+        ("theta_i=1,theta_r=2", "a,b,c\n1,2,0.3\n", "line 1", "no column is named for dolp or brdf"),
+        ("theta_i=a,theta_r=2,dolp=3", "a,a,c\n1,2,0.3\n", "line 1, column 2 (a)", "only one is allowed"),
+        ("theta_i=1,theta_r=2,dolp=3:percent", "a,b,c\n1,2,130\n", "line 2, column 3 (c)", "0 to 100 percent"),
+        ("theta_i=1:radians,theta_r=2,dolp=3", "a,b,c\n1.6,2,0.3\n", "line 2, column 1 (a)", "found 1.6"),
+        ("theta_i=1:radians,theta_r=2,dolp=3", "a,b,c\n1e308,2,0.3\n", "line 2, column 1 (a)", "found 1e308"),
+    ] {
+        let mapping = Mapping::from_text(mapping).expect("a mapping");
+        let error = measurement::read_mapped(table.as_bytes(), &mapping, &mut |_| ControlFlow::Continue(())).expect_err(table).to_string();
+        assert!(error.starts_with(place) && error.contains(reason), "{table:?}: {error}");
+    }
 }

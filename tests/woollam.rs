@@ -118,3 +118,11 @@ fn reading_tells_progress_and_can_be_stopped() {
     let stopped = read_woollam(text.as_bytes(), &mut |_| ControlFlow::Break(()));
     assert!(stopped.expect_err("a stop").to_string().contains("cancelled"));
 }
+
+#[test]
+fn a_wavelength_that_no_angle_has_is_refused_and_not_answered_with_an_empty_table() {
+    // Within 400 to 600 nm, but either angle has one of them alone.
+    let file = accepted("x\nnm\n400 60 40 150\n600 70 41 150\n");
+    assert!(matches!(file.specular_dolp(Some(500.0)), Err(WavelengthError::Outside { .. })));
+    assert_eq!(file.specular_dolp(Some(600.0)).map(|found| found.left_out), Ok(vec![60.0]));
+}

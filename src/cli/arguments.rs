@@ -3,7 +3,7 @@
 use super::values::{self, Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit;
-use pbrdf::measurement::{self, TensorResolution};
+use pbrdf::measurement::{self, Mapping, TensorResolution};
 use pbrdf::model::{Parameter, Preset};
 use std::path::PathBuf;
 
@@ -212,11 +212,14 @@ pub struct Angles {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, after_help = IMPORT_HELP)]
 pub struct Import {
-    /// Woollam ellipsometry text, or a tensor of Mueller matrices (.pbsdf).
+    /// Woollam ellipsometry text, a tensor of Mueller matrices (.pbsdf), or with --columns any table.
     pub input: PathBuf,
     /// Vacuum wavelength in nm; the nearest one of the file is taken, with a notice.
     #[arg(long, value_name = "NM", value_parser = values::positive)]
     pub wavelength: Option<f64>,
+    /// Which columns of a table are what, such as theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent.
+    #[arg(long, value_name = "FIELD=COLUMN[:UNIT],...", value_parser = values::mapping)]
+    pub columns: Option<Mapping>,
     /// Angles of incidence of the slices through a tensor, in degrees.
     #[arg(long, default_value = "15:75:15", value_parser = values::grid)]
     pub theta_i: Grid,
@@ -237,7 +240,10 @@ Woollam text (WVASE, its short form, CompleteEASE): psi at several angles become
 with dolp_sigma where the file states sigma_psi. Depolarisation rows are named in the metadata and not applied.
 
 Tensor (.pbsdf, KAIST and Mitsuba 3): BRDF and DoLP for unpolarised light in one band, on the angles of --theta-i, --theta-r and
---dphi, linear between the nodes. Out of plane: --dphi 90 --theta-r 0:80:5.";
+--dphi, linear between the nodes. Out of plane: --dphi 90 --theta-r 0:80:5.
+
+Table with --columns: fields theta_i, theta_r, dphi (degrees, or :radians), dolp, dolp_sigma (fraction, or :percent), brdf, brdf_sigma,
+masked; a column by its name in the header or its number from 1. Without --columns a guess is offered, not applied.";
 
 /// `export`.
 #[derive(Debug, Subcommand)]

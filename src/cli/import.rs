@@ -3,24 +3,46 @@
 use super::arguments::Import;
 use super::failure::Failure;
 use super::{input, interrupt, output};
-use pbrdf::measurement::{self, Measurement, grid_geometries, is_tensor, is_woollam, read_tensor, read_woollam};
+use pbrdf::measurement::{
+    self, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
+};
 use std::process::ExitCode;
 
 pub fn run(task: &Import) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
-    let mut measurement = if is_woollam(&bytes) {
+    let mut measurement = if let Some(mapping) = &task.columns {
+        mapped(task, &bytes, mapping)?
+    } else if is_woollam(&bytes) {
         woollam(task, &bytes)?
     } else if is_tensor(&bytes) {
         tensor(task, &bytes)?
     } else {
-        let expected = "this is not a file that import knows; expected Woollam ellipsometry text or a tensor file (.pbsdf)";
-        return Err(Failure::input(&task.input, expected));
+        return Err(Failure::input(&task.input, unknown(&bytes)));
     };
     let name = task.input.file_name().map(|name| name.to_string_lossy().replace(char::is_control, " "));
     measurement.metadata.push(("imported_from".to_owned(), name.unwrap_or_default()));
     output::write(task.output.as_deref(), |out| measurement::write(&measurement, out))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// What to do with a file that says nothing of itself.
+fn unknown(bytes: &[u8]) -> String {
+    let unknown = "this is neither Woollam ellipsometry text nor a tensor file (.pbsdf); name the columns of a table with --columns";
+    let guess = Table::new(bytes).map(|table| Mapping::guess(table.header())).unwrap_or_default();
+    if guess.columns.is_empty() {
+        format!("{unknown} theta_i=1,theta_r=2,dolp=3")
+    } else {
+        format!("{unknown}; its header suggests --columns {guess}")
+    }
+}
+
+fn mapped(task: &Import, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
+    let measurement = read_mapped(bytes, mapping, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
+    if !measurement.ignored_columns.is_empty() {
+        output::notice(format_args!("{}: {}.", task.input.display(), measurement.ignored_notice()));
+    }
+    Ok(measurement)
 }
 
 fn woollam(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {

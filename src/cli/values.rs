@@ -1,7 +1,7 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
 use crate::export;
-use pbrdf::measurement::TensorResolution;
+use pbrdf::measurement::{Mapping, TensorResolution};
 use pbrdf::model::{PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
 
@@ -78,6 +78,11 @@ pub fn interval(text: &str) -> Result<Interval, String> {
     let (name, range) = text.split_once('=').ok_or_else(expected)?;
     let (low, high) = range.split_once("..").ok_or_else(expected)?;
     Ok((parameter(name)?, number(low)?, number(high)?))
+}
+
+/// `theta_i=AOI,dolp=3:percent`.
+pub fn mapping(text: &str) -> Result<Mapping, String> {
+    Mapping::from_text(text).map_err(|error| error.to_string())
 }
 
 /// `73,61,64`: three numbers of nodes.

@@ -3,6 +3,7 @@
 //! The file format is documented at [`read()`]. Readers take any `impl Read`: opening files, and naming them in messages, is left
 //! to whoever calls.
 
+mod mapping;
 mod read;
 mod series;
 mod simulate;
@@ -13,7 +14,8 @@ mod wavelength;
 mod woollam;
 mod write;
 
-pub use read::read;
+pub use mapping::{ColumnChoice, Field, MappedColumn, Mapping, MappingError, Unit};
+pub use read::{read, read_mapped};
 pub use series::{Mark, Series};
 pub use simulate::{Columns, Simulation, grid_geometries};
 pub use table::{Column, Progress, ReadError, ReadErrorKind, Record, Table};

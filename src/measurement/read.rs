@@ -11,6 +11,7 @@
 //!
 //! Nothing is guessed and no row is dropped: what does not fit is an error that names its place.
 
+use super::mapping::{Field, Mapping, Unit};
 use super::table::{Progress, ReadError, ReadErrorKind, Record, Table};
 use super::{Measurement, Quantity, Row};
 use crate::optics::Geometry;
@@ -18,12 +19,19 @@ use std::io::Read;
 
 /// Which column holds what.
 struct Layout {
-    theta_i: usize,
-    theta_r: usize,
-    dphi: Option<usize>,
+    theta_i: Angle,
+    theta_r: Angle,
+    dphi: Option<Angle>,
     dolp: Option<Source>,
     brdf: Option<Source>,
     masked: Option<usize>,
+}
+
+/// Where an angle stands, and in what.
+#[derive(Clone, Copy)]
+struct Angle {
+    column: usize,
+    is_radians: bool,
 }
 
 /// Where a quantity and its standard deviation stand, and what is allowed there.
@@ -32,6 +40,8 @@ struct Source {
     sigma: Option<usize>,
     /// One over the unit of the value column: 100 for percent.
     per_unit: f64,
+    /// The same of the standard deviation.
+    sigma_per_unit: f64,
     maximum: f64,
     expected: &'static str,
 }
@@ -50,13 +60,30 @@ const KNOWN: [&str; 9] = ["theta_i", "theta_r", "dphi", "dolp", "dolp_percent", 
 pub fn read(source: impl Read, progress: Progress<'_>) -> Result<Measurement, ReadError> {
     let table = Table::new(source)?;
     let layout = Layout::new(&table)?;
+    let ignored_columns = table.header().iter().filter(|name| !KNOWN.contains(&name.as_str())).cloned().collect();
+    read_rows(&table, &layout, ignored_columns, progress)
+}
+
+/// Reads a foreign table whose columns were said to be so; the others are ignored and named.
+pub fn read_mapped(source: impl Read, mapping: &Mapping, progress: Progress<'_>) -> Result<Measurement, ReadError> {
+    let table = Table::new(source)?;
+    let layout = Layout::mapped(&table, mapping)?;
+    let mut used = Vec::new();
+    for field in Field::ALL {
+        used.extend(mapping.place(field, &table)?.map(|(index, _)| index));
+    }
+    let others = table.header().iter().enumerate().filter(|(index, _)| !used.contains(index));
+    let ignored_columns = others.map(|(_, name)| name.clone()).collect();
+    read_rows(&table, &layout, ignored_columns, progress)
+}
+
+fn read_rows(table: &Table, layout: &Layout, ignored_columns: Vec<String>, progress: Progress<'_>) -> Result<Measurement, ReadError> {
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     table.for_each(progress, |record| {
         rows.push(layout.row(record)?);
         lines.push(record.line());
         Ok(())
     })?;
-    let ignored_columns = table.header().iter().filter(|name| !KNOWN.contains(&name.as_str())).cloned().collect();
     Ok(Measurement { metadata: table.metadata().to_vec(), rows, lines, ignored_columns })
 }
 
@@ -69,13 +96,55 @@ impl Layout {
         }
         let (dolp_sigma, brdf_sigma) = (table.find("dolp_sigma")?, table.find("brdf_sigma")?);
         let dolp = fraction
-            .map(|value| Source { value, sigma: dolp_sigma, per_unit: 1.0, maximum: 1.0, expected: DOLP })
-            .or(percent.map(|value| Source { value, sigma: dolp_sigma, per_unit: 100.0, maximum: 100.0, expected: DOLP_PERCENT }));
-        let brdf = table.find("brdf")?.map(|value| Source { value, sigma: brdf_sigma, per_unit: 1.0, maximum: f64::MAX, expected: BRDF });
+            .map(|value| Source { value, sigma: dolp_sigma, per_unit: 1.0, sigma_per_unit: 1.0, maximum: 1.0, expected: DOLP })
+            .or(percent.map(|value| Source {
+                value,
+                sigma: dolp_sigma,
+                per_unit: 100.0,
+                sigma_per_unit: 1.0,
+                maximum: 100.0,
+                expected: DOLP_PERCENT,
+            }));
+        let brdf = table.find("brdf")?.map(|value| Source {
+            value,
+            sigma: brdf_sigma,
+            per_unit: 1.0,
+            sigma_per_unit: 1.0,
+            maximum: f64::MAX,
+            expected: BRDF,
+        });
         if dolp.is_none() && brdf.is_none() {
             return Err(table.header_error(ReadErrorKind::NoQuantity));
         }
-        Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?, dolp, brdf, masked: table.find("masked")? })
+        let degrees = |column| Angle { column, is_radians: false };
+        let (theta_i, theta_r) = (degrees(theta_i), degrees(theta_r));
+        Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?.map(degrees), dolp, brdf, masked: table.find("masked")? })
+    }
+
+    fn mapped(table: &Table, mapping: &Mapping) -> Result<Self, ReadError> {
+        let angle = |field| -> Result<Option<Angle>, ReadError> {
+            Ok(mapping.place(field, table)?.map(|(column, unit)| Angle { column, is_radians: unit == Unit::Radians }))
+        };
+        let require = |field: Field| angle(field)?.ok_or_else(|| table.header_error(ReadErrorKind::NotMapped { field: field.key() }));
+        let source = |field, sigma_field| -> Result<Option<Source>, ReadError> {
+            let (value, sigma) = (mapping.place(field, table)?, mapping.place(sigma_field, table)?);
+            let per_unit = |unit| if unit == Unit::Percent { 100.0 } else { 1.0 };
+            Ok(value.map(|(value, unit)| {
+                let (maximum, expected) = match (field, unit) {
+                    (Field::Brdf, _) => (f64::MAX, BRDF),
+                    (_, Unit::Percent) => (100.0, DOLP_PERCENT),
+                    _ => (1.0, DOLP),
+                };
+                let sigma_per_unit = sigma.map_or(1.0, |(_, unit)| per_unit(unit));
+                Source { value, sigma: sigma.map(|(column, _)| column), per_unit: per_unit(unit), sigma_per_unit, maximum, expected }
+            }))
+        };
+        let (dolp, brdf) = (source(Field::Dolp, Field::DolpSigma)?, source(Field::Brdf, Field::BrdfSigma)?);
+        if dolp.is_none() && brdf.is_none() {
+            return Err(table.header_error(ReadErrorKind::NotMapped { field: "dolp or brdf" }));
+        }
+        let masked = mapping.place(Field::Masked, table)?.map(|(column, _)| column);
+        Ok(Self { theta_i: require(Field::ThetaI)?, theta_r: require(Field::ThetaR)?, dphi: angle(Field::Dphi)?, dolp, brdf, masked })
     }
 
     fn row(&self, record: &Record<'_>) -> Result<Row, ReadError> {
@@ -97,21 +166,29 @@ impl Layout {
     }
 
     fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
-        let theta_i = record.number(self.theta_i, THETA_I)?;
+        let theta_i = self.theta_i.degrees(record, THETA_I)?;
         if !(0.0..90.0).contains(&theta_i) {
-            return Err(record.out_of_range(self.theta_i, THETA_I));
+            return Err(record.out_of_range(self.theta_i.column, THETA_I));
         }
-        let theta_r = record.number(self.theta_r, THETA_R)?;
+        let theta_r = self.theta_r.degrees(record, THETA_R)?;
         if theta_r.abs() >= 90.0 {
-            return Err(record.out_of_range(self.theta_r, THETA_R));
+            return Err(record.out_of_range(self.theta_r.column, THETA_R));
         }
-        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, DPHI))?;
+        let dphi = self.dphi.map_or(Ok(180.0), |angle| angle.degrees(record, DPHI))?;
         if theta_r < 0.0 && dphi != 180.0 {
-            let found = record.text(self.theta_r);
-            return Err(record.error(self.theta_r, ReadErrorKind::NegativeThetaR { found, dphi }));
+            let found = record.text(self.theta_r.column);
+            return Err(record.error(self.theta_r.column, ReadErrorKind::NegativeThetaR { found, dphi }));
         }
         let geometry = if theta_r < 0.0 { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) };
-        geometry.map_err(|_| record.out_of_range(self.theta_r, THETA_R))
+        geometry.map_err(|_| record.out_of_range(self.theta_r.column, THETA_R))
+    }
+}
+
+impl Angle {
+    fn degrees(self, record: &Record<'_>, expected: &'static str) -> Result<f64, ReadError> {
+        let stated = record.number(self.column, expected)?;
+        let degrees = if self.is_radians { stated.to_degrees() } else { stated };
+        if degrees.is_finite() { Ok(degrees) } else { Err(record.out_of_range(self.column, expected)) }
     }
 }
 
@@ -131,6 +208,9 @@ impl Source {
                 return Err(record.error(column, ReadErrorKind::SigmaWithoutValue));
             }
         }
-        Ok(value.map(|value| Quantity { value: value / self.per_unit, sigma }))
+        Ok(value.map(|value| Quantity {
+            value: value / self.per_unit,
+            sigma: sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0),
+        }))
     }
 }

@@ -142,6 +142,22 @@ pub enum ReadErrorKind {
     /// Ellipsometry without a row of ψ and Δ.
     #[error("there is no row of psi and delta")]
     NoPsi,
+    /// A column that a mapping names and the table lacks.
+    #[error("there is no column {found} for {field}; the columns are {names}")]
+    UnknownColumn {
+        /// What it is for.
+        field: &'static str,
+        /// Its name or number.
+        found: String,
+        /// The names in the header.
+        names: String,
+    },
+    /// What a mapping has to name and does not.
+    #[error("no column is named for {field}")]
+    NotMapped {
+        /// What is missing.
+        field: &'static str,
+    },
     /// A NUL byte.
     #[error("found a NUL byte; expected plain text (UTF-8)")]
     Nul,

@@ -11,7 +11,7 @@ pub enum WavelengthError {
         /// They, ascending, in nm.
         available_nm: Vec<f64>,
     },
-    /// Farther from the ends than half a step.
+    /// Farther from the ends than half a step, or in a gap.
     #[error("{wanted_nm} nm is outside what the file has: {}", Offer(.available_nm))]
     Outside {
         /// What was asked for, in nm.

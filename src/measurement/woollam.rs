@@ -299,7 +299,7 @@ impl Ellipsometry {
     }
 
     /// The specular DoLP at every angle of incidence, at the wavelength nearest to the one asked for. Without asking there has to be
-    /// one wavelength only.
+    /// one wavelength only. Where no angle has a wavelength near enough, it is refused.
     pub fn specular_dolp(&self, wanted_nm: Option<f64>) -> Result<SpecularDolp, WavelengthError> {
         let wavelength_nm = choose_wavelength(&self.wavelengths_nm(), wanted_nm)?;
         let wanted_nm = wanted_nm.unwrap_or(wavelength_nm);
@@ -325,6 +325,10 @@ impl Ellipsometry {
                 found.measurement.rows.extend(row.specular());
                 found.measurement.lines.push(row.line);
             }
+        }
+        if found.measurement.rows.is_empty() {
+            // Between the wavelengths of all, but near those of no angle.
+            return Err(WavelengthError::Outside { wanted_nm, available_nm: self.wavelengths_nm() });
         }
         found.wavelengths_nm.sort_by(f64::total_cmp);
         found.wavelengths_nm.dedup();

@@ -1,0 +1,291 @@
+//! Reading a foreign table by saying which of its columns is what, and in which unit.
+//!
+//! As text, `theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent`: a column of [`super::read()`], the name in the header or its number from
+//! 1, and the unit where it is not the usual one. [`Mapping::guess`] proposes; nothing is applied that nobody chose.
+
+use super::table::ReadError;
+use super::{ReadErrorKind, Table};
+
+/// What a column can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Field {
+    /// Angle of incidence.
+    ThetaI,
+    /// Angle of view, negative on the backscatter side.
+    ThetaR,
+    /// Relative azimuth.
+    Dphi,
+    /// Degree of linear polarisation.
+    Dolp,
+    /// Its standard deviation.
+    DolpSigma,
+    /// BRDF in sr⁻¹.
+    Brdf,
+    /// Its standard deviation.
+    BrdfSigma,
+    /// 0 or 1.
+    Masked,
+}
+
+/// In what a column is stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// Degrees; a fraction; sr⁻¹: whatever the field has in this project's own files.
+    Usual,
+    /// Radians, of an angle.
+    Radians,
+    /// Percent, of DoLP or its standard deviation.
+    Percent,
+}
+
+/// Which column.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum ColumnChoice {
+    /// By its name in the header.
+    Name(String),
+    /// By its number, from 1.
+    Number(usize),
+}
+
+/// A column with its meaning.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MappedColumn {
+    /// What it is.
+    pub field: Field,
+    /// Which it is.
+    pub column: ColumnChoice,
+    /// In what it is stated.
+    pub unit: Unit,
+}
+
+/// Which columns of a foreign table mean what.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Mapping {
+    /// The columns, each field at most once.
+    pub columns: Vec<MappedColumn>,
+}
+
+/// Why a text is no mapping.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MappingError {
+    /// Not of the form field=column.
+    #[error("found {0:?}, expected field=column, such as theta_i=AOI or dolp=3:percent")]
+    Form(String),
+    /// A field that there is not.
+    #[error("{0:?} is no field; expected one of {names}", names = FIELDS.map(|(name, _)| name).join(", "))]
+    Field(String),
+    /// A unit that the field does not have.
+    #[error("{unit:?} is no unit of {field}; expected {expected}")]
+    Unit {
+        /// Its name.
+        field: &'static str,
+        /// The unit.
+        unit: String,
+        /// Those it has.
+        expected: &'static str,
+    },
+    /// A field twice.
+    #[error("{0} is given twice")]
+    Repeated(&'static str),
+}
+
+/// Names of the fields.
+const FIELDS: [(&str, Field); 8] = [
+    ("theta_i", Field::ThetaI),
+    ("theta_r", Field::ThetaR),
+    ("dphi", Field::Dphi),
+    ("dolp", Field::Dolp),
+    ("dolp_sigma", Field::DolpSigma),
+    ("brdf", Field::Brdf),
+    ("brdf_sigma", Field::BrdfSigma),
+    ("masked", Field::Masked),
+];
+
+impl Field {
+    /// All, in the order of files.
+    pub const ALL: [Self; 8] =
+        [Self::ThetaI, Self::ThetaR, Self::Dphi, Self::Dolp, Self::DolpSigma, Self::Brdf, Self::BrdfSigma, Self::Masked];
+
+    /// Name of the column in this project's own files.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        FIELDS.iter().find(|(_, field)| *field == self).map_or("", |(name, _)| name)
+    }
+
+    /// The field of that name.
+    #[must_use]
+    pub fn from_key(key: &str) -> Option<Self> {
+        FIELDS.iter().find(|(name, _)| *name == key).map(|(_, field)| *field)
+    }
+
+    /// The units it can be stated in, the usual one first.
+    #[must_use]
+    pub fn units(self) -> &'static [Unit] {
+        match self {
+            Self::ThetaI | Self::ThetaR | Self::Dphi => &[Unit::Usual, Unit::Radians],
+            Self::Dolp | Self::DolpSigma => &[Unit::Usual, Unit::Percent],
+            Self::Brdf | Self::BrdfSigma | Self::Masked => &[Unit::Usual],
+        }
+    }
+
+    fn unit(self, text: &str) -> Result<Unit, MappingError> {
+        let (names, expected): (&[(&str, Unit)], _) = match self {
+            Self::ThetaI | Self::ThetaR | Self::Dphi => (&[("degrees", Unit::Usual), ("radians", Unit::Radians)], "degrees or radians"),
+            Self::Dolp | Self::DolpSigma => (&[("fraction", Unit::Usual), ("percent", Unit::Percent)], "fraction or percent"),
+            Self::Brdf | Self::BrdfSigma | Self::Masked => (&[], "none"),
+        };
+        let found = names.iter().find(|(name, _)| *name == text).map(|(_, unit)| *unit);
+        found.ok_or_else(|| MappingError::Unit { field: self.key(), unit: text.to_owned(), expected })
+    }
+
+    /// What others call it, in small letters and digits alone.
+    fn aliases(self) -> &'static [&'static str] {
+        match self {
+            Self::ThetaI => &["thetai", "aoi", "angleofincidence", "incidence", "incidentangle", "incidenceangle", "sza", "thetain", "ti"],
+            Self::ThetaR => {
+                &["thetar", "thetas", "thetav", "view", "viewangle", "viewingangle", "reflectionangle", "vza", "thetaout", "tr"]
+            }
+            Self::Dphi => &["dphi", "deltaphi", "relativeazimuth", "azimuth", "raa", "phi"],
+            Self::Dolp => &["dolp", "dop", "degreeoflinearpolarization", "degreeoflinearpolarisation", "polarization", "polarisation"],
+            Self::DolpSigma => &["dolpsigma", "dolperr", "dolperror", "dolpstd", "sigmadolp"],
+            Self::Brdf => &["brdf", "fr", "brdf1sr", "brdfsr1"],
+            Self::BrdfSigma => &["brdfsigma", "brdferr", "brdferror", "brdfstd", "sigmabrdf"],
+            Self::Masked => &["masked", "mask"],
+        }
+    }
+}
+
+impl Mapping {
+    /// Reads the form of the module's head.
+    pub fn from_text(text: &str) -> Result<Self, MappingError> {
+        let mut mapping = Self::default();
+        for part in text.split(',') {
+            let (name, column) = part.split_once('=').ok_or_else(|| MappingError::Form(part.trim().to_owned()))?;
+            let field = Field::from_key(name.trim()).ok_or_else(|| MappingError::Field(name.trim().to_owned()))?;
+            let (column, unit) = match column.rsplit_once(':') {
+                Some((column, unit)) => (column.trim(), field.unit(unit.trim())?),
+                None => (column.trim(), Unit::Usual),
+            };
+            if column.is_empty() {
+                return Err(MappingError::Form(part.trim().to_owned()));
+            }
+            if mapping.find(field).is_some() {
+                return Err(MappingError::Repeated(field.key()));
+            }
+            let column = column.parse().map_or_else(|_| ColumnChoice::Name(column.to_owned()), ColumnChoice::Number);
+            mapping.columns.push(MappedColumn { field, column, unit });
+        }
+        Ok(mapping)
+    }
+
+    /// What the names of a header suggest, by number of the column; to be offered, not applied.
+    #[must_use]
+    pub fn guess(header: &[String]) -> Self {
+        let mut mapping = Self::default();
+        for field in Field::ALL {
+            let matches = |name: &String| field.aliases().contains(&stem(name).as_str());
+            if let Some(index) = header.iter().position(matches) {
+                let name = header[index].to_lowercase();
+                let is = |unit: Unit, mark: &str| field.units().contains(&unit) && name.contains(mark);
+                let unit = if is(Unit::Radians, "rad") {
+                    Unit::Radians
+                } else if is(Unit::Percent, "%") || is(Unit::Percent, "percent") {
+                    Unit::Percent
+                } else {
+                    Unit::Usual
+                };
+                mapping.columns.push(MappedColumn { field, column: ColumnChoice::Number(index + 1), unit });
+            }
+        }
+        mapping
+    }
+
+    /// The column of that field.
+    #[must_use]
+    pub fn find(&self, field: Field) -> Option<&MappedColumn> {
+        self.columns.iter().find(|column| column.field == field)
+    }
+
+    /// Index and unit of the column of a field in a table.
+    pub(super) fn place(&self, field: Field, table: &Table) -> Result<Option<(usize, Unit)>, ReadError> {
+        let Some(MappedColumn { column, unit, .. }) = self.find(field) else { return Ok(None) };
+        let header = table.header();
+        let unknown = |found: String| {
+            let names = header.join(", ");
+            table.header_error(ReadErrorKind::UnknownColumn { field: field.key(), found, names })
+        };
+        let index = match column {
+            ColumnChoice::Name(name) => table.find(name)?.ok_or_else(|| unknown(format!("{name:?}")))?,
+            ColumnChoice::Number(number) => {
+                let index = number.checked_sub(1).filter(|&index| index < header.len());
+                index.ok_or_else(|| unknown(format!("number {number}")))?
+            }
+        };
+        Ok(Some((index, *unit)))
+    }
+}
+
+/// The form that [`Mapping::from_text`] reads.
+impl std::fmt::Display for Mapping {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (i, MappedColumn { field, column, unit }) in self.columns.iter().enumerate() {
+            write!(f, "{}{}=", if i == 0 { "" } else { "," }, field.key())?;
+            match column {
+                ColumnChoice::Name(name) => write!(f, "{name}")?,
+                ColumnChoice::Number(number) => write!(f, "{number}")?,
+            }
+            match unit {
+                Unit::Usual => {}
+                Unit::Radians => write!(f, ":radians")?,
+                Unit::Percent => write!(f, ":percent")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A name in small letters and digits, without what stands in brackets and without its unit.
+fn stem(name: &str) -> String {
+    let name = name.split(['(', '[', '/']).next().unwrap_or(name).to_lowercase();
+    let letters: String =
+        name.replace('θ', "theta").replace('φ', "phi").replace('δ', "delta").chars().filter(char::is_ascii_alphanumeric).collect();
+    let without = ["degrees", "deg", "radians", "rad", "percent"].iter().find_map(|unit| letters.strip_suffix(unit));
+    without.unwrap_or(&letters).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ColumnChoice, Field, Mapping, MappingError, Unit};
+
+    #[test]
+    fn a_mapping_as_text_reads_back() {
+        let text = "theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent,brdf=f r";
+        let mapping = Mapping::from_text(text).expect("a mapping");
+        assert_eq!(mapping.to_string(), text);
+        let dolp = mapping.find(Field::Dolp).expect("it is there");
+        assert_eq!((&dolp.column, dolp.unit), (&ColumnChoice::Name("DoLP".to_owned()), Unit::Percent));
+        assert_eq!(mapping.find(Field::ThetaR).map(|column| column.column.clone()), Some(ColumnChoice::Number(3)));
+        for (wrong, part) in [
+            ("", "expected field=column"),
+            ("theta_i", "expected field=column"),
+            ("theta_i=", "expected field=column"),
+            ("psi=1", "\"psi\" is no field"),
+            ("theta_i=1:percent", "expected degrees or radians"),
+            ("brdf=1:percent", "expected none"),
+            ("dolp=1,dolp=2", "dolp is given twice"),
+        ] {
+            let error = Mapping::from_text(wrong).expect_err(wrong);
+            assert!(error.to_string().contains(part), "{wrong}: {error}");
+        }
+        assert_eq!(Mapping::from_text("dolp=1,dolp=2"), Err(MappingError::Repeated("dolp")));
+    }
+
+    #[test]
+    fn a_guess_knows_usual_names_and_units() {
+        let header = ["Sample", "AOI [deg]", "View (rad)", "DoLP %", "BRDF [1/sr]"].map(str::to_owned);
+        assert_eq!(Mapping::guess(&header).to_string(), "theta_i=2,theta_r=3:radians,dolp=4:percent,brdf=5");
+        let own = ["theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"].map(str::to_owned);
+        assert_eq!(Mapping::guess(&own).columns.len(), 8);
+        assert!(Mapping::guess(&["a".to_owned(), "b".to_owned()]).columns.is_empty());
+    }
+}
