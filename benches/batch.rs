@@ -6,7 +6,9 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use pbrdf::model::{Batch, Diffuse, DolpGradients, Instructions, Model, Parameters, Pbrdf, Radiances};
+use pbrdf::fit::{Axis, Bounds, Choices, Landscape, Problem};
+use pbrdf::measurement::{Columns, Simulation};
+use pbrdf::model::{Batch, Diffuse, DolpGradients, Hemisphere, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 
 /// A hemisphere map of 256² directions.
@@ -74,4 +76,41 @@ fn dolp_on_all_cores(bencher: Bencher) {
     let batch = batch(16 * POINTS);
     let (surface, mut out) = (surface(SlopeDistribution::Cauchy), Vec::new());
     bencher.counter(ItemsCount::new(16 * POINTS)).bench_local(|| batch.dolp(black_box(&surface), &mut out));
+}
+
+/// Budget: 40 ms on two cores for 256 × 256 nodes and 27 points.
+#[divan::bench]
+fn landscape_over_two_parameters(bencher: Bencher) {
+    let surface = surface(SlopeDistribution::Cauchy);
+    let simulation = Simulation {
+        model_name: "cauchy".to_owned(),
+        surface,
+        theta_i: vec![30.0, 40.0, 50.0],
+        theta_r: (4..13).map(|i| 5.0 * f64::from(i)).collect(),
+        dphi: 180.0,
+        columns: Columns::Dolp,
+        noise: 0.0,
+        brdf_noise: 0.0,
+        seed: 1,
+    };
+    let measurement = simulation.run().expect("valid angles");
+    let (start, choices) = (Parameters::default(), Choices::default());
+    let problem = Problem::new(&measurement, surface.model(), start, ParameterSet::ALL, Bounds::default(), choices).expect("a problem");
+    let axis = |parameter, low, high| Axis { parameter, low, high, count: 256, logarithmic: false };
+    let (across, up) = (axis(Parameter::N, 0.5, 6.0), axis(Parameter::K, 0.5, 8.0));
+    bencher.bench_local(|| Landscape::new(black_box(&problem), across, up, &|| false));
+}
+
+/// Budget: a frame of 60 Hz, 16 ms, for a map of 256² directions after a slider has moved.
+#[divan::bench]
+fn hemisphere_map_of_another_surface(bencher: Bencher) {
+    let hemisphere = Hemisphere::new(45.0, 256, &|| false).expect("an angle").expect("not cancelled");
+    let surface = surface(SlopeDistribution::Cauchy);
+    bencher.bench_local(|| hemisphere.map(black_box(&surface), &|| false));
+}
+
+/// Budget: 40 ms for another angle of incidence.
+#[divan::bench]
+fn hemisphere_prepared(bencher: Bencher) {
+    bencher.bench_local(|| Hemisphere::new(black_box(45.0), 256, &|| false));
 }

@@ -39,11 +39,6 @@ impl Failure {
         Self { message: "Interrupted.".to_owned(), code: INTERRUPTED }
     }
 
-    /// What is announced but not built.
-    pub fn not_yet(what: &str) -> Self {
-        Self::usage(format!("{what} is not there yet; a later version will bring it."))
-    }
-
     /// Prints the sentence.
     pub fn report(self) -> ExitCode {
         // Nothing can be done about a stderr that is closed.

@@ -6,7 +6,7 @@ use super::output::Progress;
 use super::{interrupt, output};
 use crate::export::now;
 use pbrdf::report::figure::Figure;
-use pbrdf::report::{ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
+use pbrdf::report::{Cost, ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -54,7 +54,7 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
     let answer = match task.subject {
         Subject::ErrorVsTime => Answer::new(ErrorVsTime::run(machine(), now(), surroundings)),
         Subject::Stability => Answer::new(Stability::run(machine(), now(), surroundings)),
-        Subject::Cost => return Err(Failure::not_yet("report cost")),
+        Subject::Cost => Answer::new(Cost::run(machine(), now(), surroundings)),
     };
     drop(progress);
     if task.json {

@@ -409,6 +409,30 @@ impl Problem {
         (!self.is_empty() && self.residuals(parameters, &mut residuals)).then(|| residuals.norm_squared())
     }
 
+    /// The prepared geometries of the rows that are not masked.
+    pub(super) fn facets(&self) -> &[Facet] {
+        self.scene.facets()
+    }
+
+    /// Whether the BRDF is needed.
+    pub(super) fn predicts_brdf(&self) -> bool {
+        self.wanted.brdf
+    }
+
+    /// Sum of the squared residuals of DoLP and BRDF evaluated elsewhere at [`Self::facets`]: without logarithm and loss, so for
+    /// those who ask [`Self::minimises_delta_e`] first. None without data.
+    pub(super) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64], ks: f64) -> Option<f64> {
+        let square = |datum: &Datum| {
+            let reflection = match datum.kind {
+                Kind::Dolp => Reflection { dolp: dolp[datum.point], ..Reflection::default() },
+                Kind::Brdf | Kind::LogBrdf => Reflection { brdf: brdf[datum.point], ..Reflection::default() },
+            };
+            let residual = self.residual(datum, &reflection, ks);
+            residual * residual
+        };
+        (!self.is_empty()).then(|| self.data.iter().map(square).sum())
+    }
+
     /// Whether the sum of squared residuals is ΔE of Eq. (18).
     #[must_use]
     pub fn minimises_delta_e(&self) -> bool {

@@ -3,6 +3,7 @@
 //! A [`Report`] is a value: rows with named columns, shown as Markdown, as JSON, or in the window. Clock, cancel and progress come
 //! from outside ([`Surroundings`]), and so does what is known of the machine.
 
+mod cost;
 mod curves;
 mod document;
 mod error_vs_time;
@@ -21,6 +22,7 @@ mod table;
 mod textbook;
 mod timing;
 
+pub use cost::Cost;
 pub use curves::{CurvePoint, curve, directions, write_curves};
 pub use document::{Block, Document};
 pub use error_vs_time::{ErrorVsTime, TaskKind};
