@@ -23,6 +23,13 @@ pub struct DolpView {
     pub residuals: Residuals,
 }
 
+impl DolpView {
+    /// Ends of the axis of DoLP.
+    pub fn range(&self) -> Option<Range> {
+        self.range.get()
+    }
+}
+
 /// The fit, the reading of Eq. (17), the generation of the document, and whether the backscatter side is drawn.
 type GhostKey = (Parameters, Model, Eq17, u64, bool);
 
