@@ -2,6 +2,7 @@
 
 use super::document::EXAMPLES;
 use super::language::Language;
+use super::leaving::{Outgoing, PLOTS};
 use super::panes::{PANES, Pane};
 use super::state::Theme;
 use super::window::Explorer;
@@ -21,6 +22,18 @@ pub enum Command {
     ChooseSave,
     /// Write the measurement, masks and all, into that file.
     SaveMeasurement(PathBuf),
+    /// Ask the desktop for a session.
+    ChooseSession,
+    OpenSession(PathBuf),
+    /// Into the file that it came from or went to last; asks where there is none.
+    SaveSession,
+    /// Ask the desktop where to write that.
+    ChooseExport(Outgoing),
+    Export(Outgoing, PathBuf),
+    /// The plot of a pane to the clipboard, as an image.
+    CopyPlot(Pane),
+    /// The measurement to the clipboard, as text.
+    CopyTable,
     /// Load the bundled example of that number.
     OpenExample(usize),
     /// The lesson of that number at the step of that number: sliders and views as it wants them.
@@ -104,6 +117,7 @@ pub enum Menu {
     File,
     Example,
     Recent,
+    Export,
     Edit,
     Fit,
     Pane,
@@ -186,6 +200,19 @@ const fn row(
 static ENTRIES: &[Entry] = &[
     row(Command::ChooseMeasurement, Menu::File, "Open measurement…", "A table of DoLP or BRDF against angles", ctrl(Key::O), always),
     row(Command::ChooseSave, Menu::File, "Save measurement as…", "The table with its masks, as CSV", ctrl(Key::S), always),
+    row(Command::ChooseSession, Menu::File, "Open session…", "Sliders, data, masks, fits and layout as they were saved", ctrl_shift(Key::O),
+        always),
+    row(Command::SaveSession, Menu::File, "Save session", "Sliders, data, masks, fits and layout in one file that opens on any machine",
+        ctrl_shift(Key::S), always),
+    row(Command::ChooseExport(Outgoing::Session), Menu::File, "Save session as…", "The session into another file", None, always),
+    row(Command::ChooseExport(Outgoing::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
+        always),
+    row(Command::ChooseExport(Outgoing::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
+        |e| only_if(e.last_fit.is_some())),
+    row(Command::ChooseExport(Outgoing::Report), Menu::Export, "Fit as a report…",
+        "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
+        |e| only_if(e.last_fit.is_some())),
+    row(Command::CopyTable, Menu::Edit, "Copy data table", "The measurement with its masks, as text", None, always),
     row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
     row(Command::ForgetRecent, Menu::Recent, "Forget recent files", "Empty this list; the files stay", None,
         |e| only_if(!e.window.recent.is_empty())),
@@ -271,6 +298,23 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
             switch(on_screen.contains(&entry.pane)),
         )
     });
+    let plots = PLOTS.iter().flat_map(|&pane| {
+        let title = pane.entry().title;
+        let status = only_if(on_screen.contains(&pane));
+        let export = format!("Plot {title} as SVG or PNG…");
+        let copy = format!("Copy plot {title}");
+        [
+            plain(
+                Command::ChooseExport(Outgoing::Plot(pane)),
+                Menu::Export,
+                export.into(),
+                "With axes and legend, for print".into(),
+                status,
+            ),
+            plain(Command::CopyPlot(pane), Menu::Edit, copy.into(), "As an image, to the clipboard".into(), status),
+        ]
+    });
+    let plots: Vec<Item> = plots.collect();
     let current = Preset::of(explorer.settings.model).map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
         let text = format!("Model: {}", preset.name);
@@ -284,7 +328,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let tooltip = "Language of the window".into();
         plain(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
     });
-    fixed.chain(examples).chain(lessons).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
+    fixed.chain(plots).chain(examples).chain(lessons).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
 }
 
 /// The command whose keys are pressed, if it is possible now.

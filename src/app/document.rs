@@ -22,6 +22,8 @@ pub const EXAMPLES: [Example; 3] = [
 #[derive(Debug, Clone)]
 pub struct Document {
     pub name: String,
+    /// SHA-256 of the bytes of its file, where there is one.
+    pub sha256: Option<String>,
     /// Shared with jobs that read it.
     pub measurement: Arc<Measurement>,
     pub series: Vec<Series>,
@@ -42,7 +44,7 @@ impl Document {
     pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
         let series = Series::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
-        Self { name, measurement: Arc::new(measurement), series, number, generation: number << CHANGES, mask }
+        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number << CHANGES, mask }
     }
 
     /// The rows that are masked.

@@ -13,6 +13,7 @@ mod language;
 #[allow(dead_code, reason = "for panes whose contents take longer than a frame")]
 mod latest_job;
 mod layout;
+mod leaving;
 mod lessons;
 mod memo;
 mod palette;
@@ -24,6 +25,7 @@ mod plan;
 mod plots;
 mod problem;
 mod scans;
+mod session;
 mod state;
 mod store;
 #[cfg(test)]
@@ -33,6 +35,7 @@ mod views;
 mod window;
 mod words;
 mod worker;
+mod working;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -57,7 +60,12 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         if let Some(notice) = notice {
             explorer.say(notice);
         }
+        explorer.working_file = store::working_path();
+        let is_alone = file.is_none();
         explorer.begin(file);
+        if is_alone {
+            explorer.resume();
+        }
         Ok(Box::new(explorer))
     });
     quiet_until_started();

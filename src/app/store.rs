@@ -13,6 +13,11 @@ pub fn path() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", APP).map(|folders| folders.config_dir().join("settings.json"))
 }
 
+/// Where the working state is, if the machine has a place for it.
+pub fn working_path() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", APP).map(|folders| folders.data_local_dir().join("working.pbrdf.json"))
+}
+
 /// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
 pub fn load() -> (Stored, Option<String>) {
     path().map_or_else(|| (Stored::default(), None), |path| load_from(&path))

@@ -16,7 +16,8 @@ use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Stored, Theme, WindowSettings};
 use super::views::Views;
 use super::worker::{Event, Rung, Worker};
-use super::{language, panels, parameter_text, store, theme};
+use super::working::Working;
+use super::{language, leaving, panels, parameter_text, store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters};
@@ -54,7 +55,7 @@ pub struct Explorer {
     /// Whether the panel shows what the data would determine.
     pub outlook_is_shown: bool,
     /// Where the last refit left the sliders: what differs from it was moved since.
-    refitted: Option<Parameters>,
+    pub(super) refitted: Option<Parameters>,
     pub notice: Option<String>,
     pub views: Views,
     pub panes: Panes,
@@ -66,6 +67,16 @@ pub struct Explorer {
     pub dragging: bool,
     /// A path typed by hand, where there is no file dialog.
     pub typed_path: String,
+    /// A path to export to, typed by hand.
+    pub typed_export: String,
+    /// The file of the session that is open.
+    pub session_file: Option<PathBuf>,
+    /// Where the working state goes; nowhere in tests.
+    pub working_file: Option<PathBuf>,
+    /// The working state as it was written last.
+    pub(super) autosaved: Option<Working>,
+    /// Since when it is another one.
+    pub(super) unsaved_since: Option<Instant>,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
     generation: u64,
@@ -74,7 +85,7 @@ pub struct Explorer {
 }
 
 /// How long settings rest before they are written.
-const SAVE_AFTER: Duration = Duration::from_millis(1500);
+pub(super) const SAVE_AFTER: Duration = Duration::from_millis(1500);
 
 impl Explorer {
     pub fn new(ctx: &egui::Context, stored: Stored) -> Self {
@@ -107,6 +118,11 @@ impl Explorer {
             background: Background::new(ctx),
             dragging: false,
             typed_path: String::new(),
+            typed_export: String::new(),
+            session_file: None,
+            working_file: None,
+            autosaved: None,
+            unsaved_since: None,
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
             generation: 0,
@@ -187,10 +203,11 @@ impl Explorer {
         self.refresh();
         self.remember_window(ctx);
         self.save_when_rested(ctx);
+        self.autosave_when_rested(ctx);
     }
 
     /// Everything the user has set.
-    fn setup(&self) -> Setup {
+    pub(super) fn setup(&self) -> Setup {
         Setup { settings: self.settings.clone(), mask: self.document.mask().clone(), number: self.document.number }
     }
 
@@ -205,16 +222,30 @@ impl Explorer {
         }
     }
 
-    fn receive(&mut self, event: Event) {
+    pub(super) fn receive(&mut self, event: Event) {
         match event {
             Event::Chosen(path) => self.commands.extend(path.map(Command::OpenMeasurement)),
             Event::ChosenSave(path) => self.commands.extend(path.map(Command::SaveMeasurement)),
+            Event::ChosenSession(path) => self.commands.extend(path.map(Command::OpenSession)),
+            Event::ChosenExport(what, path) => {
+                self.commands.extend(path.map(|path| Command::Export(what, what.with_ending(path))));
+            }
+            Event::Exported(what, result) => self.exported(what, result),
+            Event::Autosaved(result) => {
+                if let Err(sentence) = result {
+                    self.working_file = None;
+                    self.say(sentence);
+                }
+            }
+            Event::SessionRead { path, result } => self.session_read(&path, result),
             Event::Saved(Ok(path)) => self.say(format!("The measurement is saved to {}.", path.display())),
             Event::Saved(Err(sentence)) => self.say(sentence),
-            Event::Loaded { name, path, result: Ok(measurement) } => {
+            Event::Loaded { name, path, sha256, result: Ok(measurement) } => {
                 self.notice = None;
                 path.iter().for_each(|path| self.window.remember(path));
                 self.take(name, measurement);
+                self.document.sha256 = sha256;
+                self.session_file = None;
             }
             Event::Loaded { path, result: Err(sentence), .. } => {
                 path.iter().for_each(|path| self.window.forget(path));
@@ -292,7 +323,24 @@ impl Explorer {
     fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         match command {
             Command::ChooseMeasurement => self.worker.choose()?,
+            Command::OpenMeasurement(path) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+                self.worker.open_session(path)?;
+            }
             Command::OpenMeasurement(path) => self.worker.open(path)?,
+            Command::ChooseSession => self.worker.choose_session()?,
+            Command::OpenSession(path) => self.worker.open_session(path)?,
+            Command::SaveSession => self.save_session()?,
+            Command::ChooseExport(what) => self.choose_export(what)?,
+            Command::Export(what, path) => {
+                let write = what.taken_from(self)?;
+                self.worker.export(what, path, write)?;
+            }
+            Command::CopyPlot(pane) => ctx.copy_image(leaving::image(self, pane)?),
+            Command::CopyTable => {
+                let mut table = Vec::new();
+                pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| format!("{error}."))?;
+                ctx.copy_text(String::from_utf8_lossy(&table).into_owned());
+            }
             Command::ChooseSave => self.worker.choose_save(self.document.file_name())?,
             Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
@@ -408,7 +456,7 @@ impl Explorer {
     }
 
     /// Shows a fit; scans around another one end.
-    fn show_fit(&mut self, fit: Option<Rc<PastFit>>) {
+    pub(super) fn show_fit(&mut self, fit: Option<Rc<PastFit>>) {
         self.last_fit = fit;
         self.scans.forget();
         self.worker.abandon_scan();
@@ -549,5 +597,6 @@ impl eframe::App for Explorer {
         if self.is_changed() {
             self.save();
         }
+        self.autosave_now();
     }
 }

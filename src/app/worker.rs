@@ -3,11 +3,15 @@
 //! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
 //! that was replaced meanwhile are dropped by its number.
 
+use super::leaving::{Outgoing, Write};
+use super::session::{Recipe, Session};
+use crate::export;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
-use pbrdf::model::{Parameter, Preset};
+use pbrdf::model::{Parameter, Parameters, Preset};
+use sha2::{Digest as _, Sha256};
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -24,11 +28,26 @@ pub enum Event {
     ChosenSave(Option<PathBuf>),
     /// A measurement was written there, or why not.
     Saved(Result<PathBuf, String>),
+    /// A session was chosen, or none.
+    ChosenSession(Option<PathBuf>),
+    /// A place for an export was chosen, or none.
+    ChosenExport(Outgoing, Option<PathBuf>),
+    /// It was written there, or why not.
+    Exported(Outgoing, Result<PathBuf, String>),
+    /// The working state was written, or why not.
+    Autosaved(Result<(), String>),
+    /// A session was read, or why not.
+    SessionRead {
+        path: PathBuf,
+        result: Result<Box<Opened>, String>,
+    },
     /// A measurement was read, or why not.
     Loaded {
         name: String,
         /// The file it came from, if it did.
         path: Option<PathBuf>,
+        /// SHA-256 of its bytes, of a file.
+        sha256: Option<String>,
         result: Result<Measurement, String>,
     },
     Fitted {
@@ -45,6 +64,43 @@ pub enum Event {
         replicates: usize,
         scatter: Vec<Scatter>,
     },
+}
+
+/// A session with its fits made again, the newest first.
+pub struct Opened {
+    pub session: Session,
+    pub fits: Vec<(FitReport, Arc<Problem>, Parameters)>,
+}
+
+impl Opened {
+    /// Reads a session; the error is a sentence.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let mut text = String::new();
+        let said = |reason: &dyn std::fmt::Display| format!("{}: {reason}.", path.display());
+        let mut file = open_file(path).map_err(|reason| said(&reason))?;
+        file.read_to_string(&mut text).map_err(|error| said(&format!("the file cannot be read: {error}")))?;
+        let session = Session::read(&text).map_err(|error| said(&error))?;
+        let again = |recipe: &Recipe| {
+            let (report, problem) = recipe.again(session.measurement.as_ref()?)?;
+            Some((report, Arc::new(problem), recipe.before))
+        };
+        let fits = session.fits.iter().filter_map(again).collect();
+        Ok(Self { session, fits })
+    }
+}
+
+/// A reader that takes the hash of what goes through it.
+struct Hashing<R> {
+    source: R,
+    hash: Sha256,
+}
+
+impl<R: Read> Read for Hashing<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let read = self.source.read(buffer)?;
+        self.hash.update(&buffer[..read]);
+        Ok(read)
+    }
 }
 
 /// A model of the ladder with its fit, or why there is none.
@@ -87,6 +143,9 @@ pub struct Worker {
     pub refit: Option<Job<()>>,
     pub comparison: Option<Job<&'static str>>,
     pub save: Option<Job<()>>,
+    pub export: Option<Job<()>>,
+    pub autosave: Option<Job<()>>,
+    pub session: Option<Job<()>>,
     pub scan: Option<Job<()>>,
     dialog: Option<u64>,
     /// Asks for a path; no dialog where there is nobody to answer it.
@@ -99,6 +158,10 @@ pub enum Question {
     Open,
     /// Where to save the measurement, with a name to begin with.
     Save(String),
+    /// The session to open.
+    OpenSession,
+    /// Where to write an export, with a name to begin with and the endings there are.
+    Export(String, &'static [&'static str]),
 }
 
 /// Asks in a dialog of the desktop, and waits for the answer.
@@ -109,6 +172,11 @@ pub fn ask_desktop(question: Question) -> Option<PathBuf> {
             let dialog = dialog.set_title("Open measurement").add_filter("Tables", &["csv", "tsv", "txt"]);
             dialog.add_filter("All files", &["*"]).pick_file()
         }
+        Question::OpenSession => dialog.set_title("Open session").add_filter("Sessions", &["json"]).pick_file(),
+        Question::Export(name, endings) => endings
+            .iter()
+            .fold(dialog.set_title("Export").set_file_name(name), |dialog, ending| dialog.add_filter(*ending, &[*ending]))
+            .save_file(),
         Question::Save(name) => dialog.set_title("Save measurement as").add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
     }
 }
@@ -145,6 +213,9 @@ impl Worker {
             refit: None,
             comparison: None,
             save: None,
+            export: None,
+            autosave: None,
+            session: None,
             scan: None,
             dialog: None,
             ask: |_| None,
@@ -194,6 +265,57 @@ impl Worker {
         Ok(())
     }
 
+    /// Asks the desktop for a session.
+    pub fn choose_session(&mut self) -> Result<(), String> {
+        if self.dialog.is_none() {
+            let ask = self.ask;
+            let job: Job<()> = self.spawn("choose session", move |_, _| Event::ChosenSession(ask(Question::OpenSession)))?;
+            self.dialog = Some(job.number);
+        }
+        Ok(())
+    }
+
+    /// Asks the desktop where to write an export, with a name to begin with.
+    pub fn choose_export(&mut self, what: Outgoing, name: String) -> Result<(), String> {
+        if self.dialog.is_none() {
+            let ask = self.ask;
+            let question = Question::Export(name, what.extensions());
+            let job: Job<()> = self.spawn("choose where to export", move |_, _| Event::ChosenExport(what, ask(question)))?;
+            self.dialog = Some(job.number);
+        }
+        Ok(())
+    }
+
+    /// Writes an export, one at a time.
+    pub fn export(&mut self, what: Outgoing, path: PathBuf, write: Write) -> Result<(), String> {
+        if self.export.is_some() {
+            return Err("The export before this one is still being written.".to_owned());
+        }
+        let job = self.spawn("export", move |_: &Teller<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
+        self.export = Some(job);
+        Ok(())
+    }
+
+    /// Writes the working state.
+    pub fn autosave(&mut self, path: PathBuf, session: Session) -> Result<(), String> {
+        let job = self.spawn("autosave", move |_: &Teller<()>, _| Event::Autosaved(save_session(&path, &session)))?;
+        self.autosave = Some(job);
+        Ok(())
+    }
+
+    /// Reads a session.
+    pub fn open_session(&mut self, path: PathBuf) -> Result<(), String> {
+        if let Some(job) = self.load.take() {
+            job.cancel();
+        }
+        let job = self.spawn("read session", move |_: &Teller<()>, _| {
+            let result = Opened::read(&path).map(Box::new);
+            Event::SessionRead { path, result }
+        })?;
+        self.session = Some(job);
+        Ok(())
+    }
+
     /// Writes a measurement in one move; one at a time, so that the last one asked for is the last one written.
     pub fn save(&mut self, path: PathBuf, measurement: Arc<Measurement>) -> Result<(), String> {
         if self.save.is_some() {
@@ -234,13 +356,21 @@ impl Worker {
         if let Some(job) = self.load.take() {
             job.cancel();
         }
+        // A session that is still being read is not wanted any more.
+        self.session = None;
         let job = self.spawn("read measurement", move |teller: &Teller<f64>, stop| {
             let mut progress = |done| {
                 teller.tell(done);
                 if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let result = source().and_then(|(at, source)| measurement::read(source, &mut progress).map_err(|error| sentence(&at, &error)));
-            Event::Loaded { name, path, result }
+            let mut sha256 = None;
+            let result = source().and_then(|(at, source)| {
+                let mut source = Hashing { source, hash: Sha256::new() };
+                let measurement = measurement::read(&mut source, &mut progress).map_err(|error| sentence(&at, &error))?;
+                sha256 = Some(export::hexadecimal(&source.hash.finalize()));
+                Ok(measurement)
+            });
+            Event::Loaded { name, sha256: sha256.filter(|_| path.is_some()), path, result }
         })?;
         self.load = Some(job);
         Ok(())
@@ -346,7 +476,12 @@ impl Worker {
     pub fn next(&mut self) -> Option<Event> {
         while let Ok((number, event)) = self.receiver.try_recv() {
             let matters = match event {
-                Event::Chosen(_) | Event::ChosenSave(_) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+                Event::Exported(..) => self.export.take_if(|job| job.number == number).is_some(),
+                Event::Autosaved(_) => self.autosave.take_if(|job| job.number == number).is_some(),
+                Event::SessionRead { .. } => self.session.take_if(|job| job.number == number).is_some(),
+                Event::Chosen(_) | Event::ChosenSave(_) | Event::ChosenSession(_) | Event::ChosenExport(..) => {
+                    self.dialog.take_if(|dialog| *dialog == number).is_some()
+                }
                 Event::Profiled(_) | Event::Scattered { .. } => self.scan.take_if(|job| job.number == number).is_some(),
                 Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
                 Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
@@ -367,10 +502,21 @@ impl Worker {
         self.fit.is_some()
             || self.load.is_some()
             || self.save.is_some()
+            || self.export.is_some()
+            || self.autosave.is_some()
+            || self.session.is_some()
+            || self.dialog.is_some()
             || self.scan.is_some()
             || self.refit.is_some()
             || self.comparison.is_some()
     }
+}
+
+/// Writes a session in one move; the error is a sentence.
+pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
+    written.map_err(|error| format!("{} cannot be written: {error}.", path.display()))
 }
 
 fn sentence(path: &Path, error: &measurement::ReadError) -> String {

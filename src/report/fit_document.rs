@@ -6,7 +6,7 @@ use super::fit_figures::FitFigures;
 use super::fitted::dolp_divisor;
 use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
 use crate::measurement::{Measurement, Series};
-use crate::model::{Diffuse, Model, Parameter, Pbrdf, Preset};
+use crate::model::{Audit, Check, Diffuse, Finding, Model, Parameter, Pbrdf, Preset};
 use crate::optics::SlopeDistribution;
 
 /// Where measured data come from.
@@ -97,6 +97,7 @@ impl FitDocument<'_> {
         blocks.extend(self.goodness());
         blocks.extend(self.data());
         blocks.extend(self.model());
+        blocks.extend(self.audit());
         blocks.push(heading("Program"));
         let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
         blocks.push(Block::Paragraph(format!("{}{date}.", self.program)));
@@ -303,6 +304,21 @@ impl FitDocument<'_> {
         vec![heading("Model and choices"), pairs(rows)]
     }
 
+    /// What the physics says of the fitted surface.
+    fn audit(&self) -> Vec<Block> {
+        let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
+        let row = |finding: &Finding| {
+            let Finding { check, value, bar, pass, at } = *finding;
+            let place =
+                at.map_or_else(String::new, |at| format!("θi = {}°, θr = {}°, Δφ = {}°", at.theta_i().0, at.theta_r().0, at.dphi().0));
+            let verdict = if pass { "pass" } else { "fail" };
+            let cells = [name_of(check).to_owned(), significant(value, 4), significant(bar, 2), verdict.to_owned(), place];
+            cells.into_iter().chain([finding.why().to_owned()]).collect()
+        };
+        let head = ["check", "number", "bar", "verdict", "where", "why"].map(str::to_owned).to_vec();
+        vec![heading("Audit"), Block::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
+    }
+
     fn choice_rows(&self) -> Vec<(&'static str, String)> {
         let Choices { weights, brdf_residuals, loss, loss_scale, eq17, dolp_only } = self.choices();
         let weights = match weights {
@@ -332,6 +348,19 @@ impl FitDocument<'_> {
         }
         rows.extend([("loss", loss), ("reading of Eq. (17)", reading.to_owned())]);
         rows
+    }
+}
+
+/// A check in words.
+fn name_of(check: Check) -> &'static str {
+    match check {
+        Check::SpecularReciprocity => "reciprocity of the specular term, relative defect",
+        Check::DiffuseReciprocity => "reciprocity of the diffuse term, relative defect",
+        Check::VolumeReciprocity => "reciprocity of the volume term, relative defect",
+        Check::Reflectance => "directional-hemispherical reflectance, largest",
+        Check::FresnelLimit => "DoLP above the Fresnel limit, largest",
+        Check::Admissibility => "eigenvalue of the coherency matrix over m00, smallest",
+        Check::Normalisation => "projected area of the facets",
     }
 }
 

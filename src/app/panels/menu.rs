@@ -31,10 +31,16 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let items = command::items(explorer);
-    let Explorer { commands, typed_path, window, .. } = explorer;
+    let Explorer { commands, typed_path, typed_export, window, .. } = explorer;
     ui.menu_button("Examples", |ui| items_ui(&items, Menu::Example, commands, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
         ui.menu_button("Recent", |ui| items_ui(&items, Menu::Recent, commands, ui));
+    });
+    ui.menu_button("Export", |ui| {
+        items_ui(&items, Menu::Export, commands, ui);
+        ui.separator();
+        let label = ui.label("Or type a path first, and then choose above:");
+        ui.add(egui::TextEdit::singleline(typed_export).desired_width(260.0)).labelled_by(label.id);
     });
     let label = ui.label("Or type a path and press Enter:");
     let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);

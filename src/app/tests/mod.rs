@@ -3,12 +3,14 @@
 mod commands;
 mod files;
 mod fitting;
+mod leaving;
 mod lessons;
 mod masks;
 mod options;
 mod panes;
 mod planning;
 mod scans;
+mod sessions;
 mod sliders;
 
 use super::state::{Settings, Stored, WindowSettings};

@@ -31,6 +31,12 @@ pub struct DolpView {
 
 /// Another surface than the sliders', the reading of Eq. (17), the generation of the document, whether the backscatter side is drawn.
 type SurfaceKey = (Parameters, Model, Eq17, u64, bool);
+impl DolpView {
+    /// Ends of the axis of DoLP.
+    pub fn range(&self) -> Option<Range> {
+        self.range.get()
+    }
+}
 
 pub fn dolp_refresh(explorer: &mut Explorer) {
     let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;

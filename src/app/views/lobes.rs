@@ -15,6 +15,13 @@ pub struct LobesView {
     range: Following,
 }
 
+impl LobesView {
+    /// Ends of the axis of BRDF, in the coordinates of the plot.
+    pub fn range(&self) -> Option<Range> {
+        self.range.get()
+    }
+}
+
 pub fn lobes_refresh(explorer: &mut Explorer) {
     let Explorer { derived, settings, document, views, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);

@@ -1,0 +1,240 @@
+//! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
+
+use super::curves::{Curves, Marks, Pieces};
+use super::panes::Pane;
+use super::session::{Recipe, Session};
+use super::window::Explorer;
+use crate::export;
+use crate::write_file::write_file;
+use egui_plot::PlotPoint;
+use pbrdf::model::Pbrdf;
+use pbrdf::report::figure::{Axis, Dash, Drawn, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
+use pbrdf::report::{FitDocument, Source, write_curves, write_fitted};
+use std::path::{Path, PathBuf};
+
+/// Something that can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outgoing {
+    Plot(Pane),
+    /// The model along every measured θi.
+    Curves,
+    /// The measurement with the fit beside it.
+    Fitted,
+    Report,
+    Session,
+}
+
+/// Writes it into that file; the error is a sentence.
+pub type Write = Box<dyn FnOnce(&Path) -> Result<(), String> + Send>;
+
+/// The panes with a plot that can be exported.
+pub const PLOTS: [Pane; 2] = [Pane::Dolp, Pane::Lobes];
+
+const FOREGROUND: Rgb = Rgb(20, 20, 20);
+const MUTED: Rgb = Rgb(150, 150, 150);
+/// Resolution of a plot on the clipboard.
+const SCREEN_DPI: f64 = 150.0;
+
+impl Outgoing {
+    /// What it is called in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plot(_) => "The plot",
+            Self::Curves => "The table of curves",
+            Self::Fitted => "The table of the fit",
+            Self::Report => "The report",
+            Self::Session => "The session",
+        }
+    }
+
+    /// Endings of its files, the usual one first.
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Plot(_) => &["svg", "png"],
+            Self::Curves | Self::Fitted => &["csv"],
+            Self::Report => &["html", "md"],
+            Self::Session => &["pbrdf.json"],
+        }
+    }
+
+    /// A name to begin with.
+    pub fn file_name(self, explorer: &Explorer) -> String {
+        let name = explorer.document.file_name();
+        let stem = name.trim_end_matches(".csv");
+        let what = match self {
+            Self::Plot(pane) => format!("-{}", pane.entry().key),
+            Self::Curves => "-curves".to_owned(),
+            Self::Fitted => "-fitted".to_owned(),
+            Self::Report => "-report".to_owned(),
+            Self::Session => String::new(),
+        };
+        format!("{stem}{what}.{}", self.extensions()[0])
+    }
+
+    /// The path with the usual ending, if it has none.
+    pub fn with_ending(self, path: PathBuf) -> PathBuf {
+        match path.extension() {
+            Some(_) => path,
+            None => path.with_extension(self.extensions()[0]),
+        }
+    }
+
+    /// What is needed to write it, taken from the window as it is now; the error is a sentence.
+    pub fn taken_from(self, explorer: &Explorer) -> Result<Write, String> {
+        match self {
+            Self::Plot(pane) => {
+                let figure = figure(explorer, pane).ok_or("There is no plot to export.")?;
+                Ok(Box::new(move |path| {
+                    let kind = export::picture_kind(path).map_err(|reason| format!("{reason}."))?;
+                    export::write_picture(path, kind, &figure).map_err(|error| failure(path, &error))
+                }))
+            }
+            Self::Curves => {
+                let surface = surface(explorer)?;
+                let series = explorer.document.series.clone();
+                let backscatter = explorer.settings.show_backscatter || explorer.document.has_backscatter();
+                Ok(written(move |out| write_curves(&surface, &series, backscatter, out)))
+            }
+            Self::Fitted => {
+                let fit = explorer.last_fit.as_ref().ok_or(NO_FIT)?;
+                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| format!("{error}."))?;
+                let (choices, measurement) = (*fit.problem.choices(), explorer.document.measurement.clone());
+                Ok(written(move |out| write_fitted(&measurement, &surface, choices.eq17, choices.dolp_only, out)))
+            }
+            Self::Report => report(explorer),
+            Self::Session => {
+                let session = session(explorer);
+                Ok(written(move |out| session.write(out)))
+            }
+        }
+    }
+}
+
+const NO_FIT: &str = "There is no fit yet.";
+
+fn failure(path: &Path, error: &std::io::Error) -> String {
+    format!("{} cannot be written: {error}.", path.display())
+}
+
+fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + Send + 'static) -> Write {
+    Box::new(move |path| write_file(path, body).map_err(|error| failure(path, &error)))
+}
+
+fn surface(explorer: &Explorer) -> Result<Pbrdf, String> {
+    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| format!("There are no curves: {error}."))
+}
+
+fn report(explorer: &Explorer) -> Result<Write, String> {
+    let fit = explorer.last_fit.clone().ok_or(NO_FIT)?;
+    let (report, problem) = (fit.report.clone(), fit.problem.clone());
+    let (measurement, document) = (explorer.document.measurement.clone(), &explorer.document);
+    let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
+    Ok(Box::new(move |path| {
+        let kind = export::report_kind(path).map_err(|reason| format!("{reason}."))?;
+        let (program, date) = (export::program(), export::now());
+        let document =
+            FitDocument { measurement: &measurement, source: &source, problem: &problem, report: &report, program: &program, date: &date };
+        export::write_report(path, kind, &document.document()).map_err(|error| failure(path, &error))
+    }))
+}
+
+/// The session as it is now.
+pub fn session(explorer: &Explorer) -> Session {
+    let document = &explorer.document;
+    let fits = explorer.past_fits.iter().filter(|fit| fit.number == document.number);
+    Session {
+        settings: explorer.settings.clone(),
+        layout: explorer.window.layout.clone(),
+        name: document.name.clone(),
+        sha256: document.sha256.clone(),
+        measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
+        fits: fits.map(|fit| Recipe::new(fit)).collect(),
+    }
+}
+
+/// The plot of a pane as an image for the clipboard.
+pub fn image(explorer: &Explorer, pane: Pane) -> Result<egui::ColorImage, String> {
+    let figure = figure(explorer, pane).ok_or("There is no plot to copy.")?;
+    let image = figure.image(SCREEN_DPI).map_err(|error| format!("The plot cannot be drawn: {error}."))?;
+    Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
+}
+
+/// The figure of a pane, of the same curves and points that are drawn.
+pub fn figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
+    match pane {
+        Pane::Dolp => dolp(explorer),
+        Pane::Lobes => lobes(explorer),
+        _ => None,
+    }
+}
+
+/// Coordinates of a curve; a gap between pieces stays one.
+fn points(pieces: &Pieces, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let gap = [[f64::NAN; 2]];
+    pieces.iter().flat_map(|piece| piece.iter().map(|point| [point.x, y(point.y)]).chain(gap)).collect()
+}
+
+fn measured(marks: &Marks, name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Vec<Series> {
+    let bar = |point: &PlotPoint| marks.bars.iter().find(|bar| bar.x == point.x && (bar.low..=bar.high).contains(&point.y));
+    let point = |point: &PlotPoint| Point { x: point.x, y: y(point.y), bar: bar(point).map(|bar| (y(bar.low), y(bar.high))) };
+    let used = Series::measured(name, marks.used.iter().map(point).collect(), Symbol::Disc).colored(color);
+    let masked = Series::measured("masked", marks.masked.iter().map(point).collect(), Symbol::Circle).colored(MUTED);
+    let is_there = |series: &Series| matches!(&series.drawn, Drawn::Points { points, .. } if !points.is_empty());
+    [used, masked].into_iter().filter(is_there).collect()
+}
+
+fn dolp(explorer: &Explorer) -> Option<Figure> {
+    let Explorer { derived, settings, views, document, .. } = explorer;
+    let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
+    let plain = |y: f64| y;
+    let limit = |curves: &Curves, color| Series::dashed("Fresnel limit", points(&curves.limit, plain), Dash::Dashed).colored(color);
+    let mut series = Vec::new();
+    for ((curves, marks), color) in curves.series.iter().zip(&marks.series).zip(SERIES) {
+        if settings.show_limit {
+            series.push(limit(curves, color));
+        }
+        series.push(Series::line(&marks.name, points(&curves.dolp, plain)).colored(color));
+        series.extend(measured(&marks.dolp, &marks.name, color, plain));
+    }
+    if curves.own_is_series.is_none() {
+        if settings.show_limit {
+            series.push(limit(&curves.own, FOREGROUND));
+        }
+        let name = format!("θi = {}° (slider)", settings.theta_i);
+        series.push(Series::line(name, points(&curves.own.dolp, plain)).colored(FOREGROUND));
+    }
+    let range = views.dolp.range()?;
+    let y = Axis::linear("DoLP", "").between(range.low, range.high);
+    let x = key.x();
+    let panel = Panel { x: Axis::linear("θr", "°").between(x.low, x.high), y, series, ..Panel::default() };
+    Some(Figure { title: document.name.clone(), panels: vec![panel], ..Figure::default() })
+}
+
+fn lobes(explorer: &Explorer) -> Option<Figure> {
+    let Explorer { derived, settings, views, document, .. } = explorer;
+    let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
+    let log = key.log_brdf;
+    let value = |y: f64| if log { libm::exp10(y) } else { y };
+    let mut series = Vec::new();
+    for ((curves, marks), color) in curves.series.iter().zip(&marks.series).zip(SERIES).filter(|((_, marks), _)| marks.brdf.is_there()) {
+        series.push(Series::line(&marks.name, points(&curves.total, value)).colored(color));
+        series.extend(measured(&marks.brdf, &marks.name, color, value));
+    }
+    let own = &curves.own;
+    let terms = [("specular", &own.specular, 3), ("diffuse", &own.diffuse, 4), ("volume", &own.volume, 5)];
+    for (name, pieces, color) in terms.into_iter().filter(|(_, pieces, _)| !pieces.is_empty()) {
+        series.push(Series::dashed(name, points(pieces, value), Dash::Solid).colored(SERIES[color]));
+    }
+    series.push(Series::line("total", points(&own.total, value)).colored(FOREGROUND));
+    let range = views.lobes.range()?;
+    let axis = if log { Axis::log("BRDF", "sr⁻¹") } else { Axis::linear("BRDF", "sr⁻¹") };
+    let x = key.x();
+    let panel = Panel {
+        title: format!("θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi),
+        x: Axis::linear("θr", "°").between(x.low, x.high),
+        y: axis.between(value(range.low), value(range.high)),
+        series,
+        ..Panel::default()
+    };
+    Some(Figure { title: document.name.clone(), panels: vec![panel], ..Figure::default() })
+}

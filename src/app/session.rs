@@ -1,0 +1,205 @@
+//! A session as a file: everything that the user set, the data with their masks, and the fits, so that it opens on another machine.
+//!
+//! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurement` and `fits`. The
+//! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
+//! about and where it ended; residuals, errors and what is open follow from that when the file is opened.
+
+use super::layout::Layout;
+use super::past_fits::PastFit;
+use super::state::Settings;
+use crate::export::program;
+use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watch, fit};
+use pbrdf::measurement::{self, Measurement, ReadError};
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+const FORMAT: &str = "pbrdf-session";
+/// Files of a later version are refused: they may mean something else.
+const VERSION: u32 = 1;
+
+/// What the first look at a file asks.
+#[derive(Deserialize)]
+struct Header {
+    format: Option<String>,
+    version: Option<u32>,
+}
+
+/// The file, key by key.
+#[derive(Serialize, Deserialize)]
+struct Contents {
+    format: String,
+    version: u32,
+    program: String,
+    settings: Settings,
+    #[serde(deserialize_with = "Layout::lenient")]
+    layout: Layout,
+    measurement: Option<Data>,
+    fits: Vec<Recipe>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Data {
+    name: String,
+    sha256: Option<String>,
+    /// The lines of a measurement file.
+    table: Vec<String>,
+}
+
+/// What a fit was about, and where it ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recipe {
+    model: Model,
+    start: Parameters,
+    free: Vec<Parameter>,
+    bounds: Vec<(Parameter, f64, f64)>,
+    choices: Choices,
+    /// The solution.
+    parameters: Parameters,
+    /// The sliders before it.
+    pub before: Parameters,
+}
+
+/// A session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    pub settings: Settings,
+    pub layout: Layout,
+    /// Name of the measurement.
+    pub name: String,
+    /// Hash of the file that the measurement came from.
+    pub sha256: Option<String>,
+    pub measurement: Option<Arc<Measurement>>,
+    /// The newest first.
+    pub fits: Vec<Recipe>,
+}
+
+/// Why a file is no session.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    #[error("this is no session: expected JSON with \"format\": \"{FORMAT}\"")]
+    Format,
+    #[error("the session is of version {found}; this program reads version {VERSION}")]
+    Version { found: u32 },
+    #[error("line {line}, column {column}{at}: {reason}")]
+    Json { line: usize, column: usize, at: String, reason: String },
+    #[error("settings.parameters: {0}")]
+    Parameters(#[from] ParameterError),
+    #[error("settings: a value is outside its range")]
+    Settings,
+    #[error("measurement.table: {0}")]
+    Measurement(#[from] ReadError),
+    #[error("fits, number {number}: {reason}")]
+    Fit { number: usize, reason: String },
+}
+
+impl SessionError {
+    fn json(path: &str, error: &serde_json::Error) -> Self {
+        let text = error.to_string();
+        // The place stands at the end of serde's sentence; here it comes first.
+        let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason).to_owned();
+        let at = if path.is_empty() || path == "." || path == "?" { String::new() } else { format!(", {path}") };
+        Self::Json { line: error.line(), column: error.column(), at, reason }
+    }
+}
+
+impl Recipe {
+    pub fn new(fit: &PastFit) -> Self {
+        let problem = &fit.problem;
+        let bounds = problem.free().iter().map(|&parameter| {
+            let (low, high) = problem.bounds().of(parameter);
+            (parameter, low, high)
+        });
+        Self {
+            model: problem.model(),
+            start: *problem.start(),
+            free: problem.free().to_vec(),
+            bounds: bounds.collect(),
+            choices: *problem.choices(),
+            parameters: fit.report.parameters,
+            before: fit.before,
+        }
+    }
+
+    fn problem(&self, measurement: &Measurement) -> Result<Problem, String> {
+        let mut bounds = Bounds::default();
+        for &(parameter, low, high) in &self.bounds {
+            bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
+        }
+        for parameters in [&self.start, &self.parameters, &self.before] {
+            parameters.validate(self.model.parameters()).map_err(|error| error.to_string())?;
+        }
+        let free: ParameterSet = self.free.iter().copied().collect();
+        let problem = Problem::new(measurement, self.model, self.start, free, bounds, self.choices);
+        problem.map_err(|error: ProblemError| error.to_string())
+    }
+
+    /// The fit again: from its solution, where it stays. None where the data of the session are no longer such that there is one.
+    pub fn again(&self, measurement: &Measurement) -> Option<(FitReport, Problem)> {
+        let problem = self.problem(measurement).ok()?;
+        let mut report = fit(&problem.with_start(self.parameters), Starts::One, 0, Watch::NOBODY);
+        for estimate in &mut report.estimates {
+            estimate.start = self.start[estimate.parameter];
+        }
+        report.start_objective = problem.delta_e(&self.start);
+        report.start_sum_of_squares = problem.sum_of_squares(&self.start).map(|sum| sum * problem.sum_of_squares_scale());
+        Some((report, problem))
+    }
+}
+
+impl Session {
+    /// Writes it: one key, and one row of the table, a line.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let table = |measurement: &Arc<Measurement>| -> io::Result<Vec<String>> {
+            let mut bytes = Vec::new();
+            measurement::write(measurement, &mut bytes)?;
+            Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
+        };
+        let data = |measurement| -> io::Result<Data> {
+            Ok(Data { name: self.name.clone(), sha256: self.sha256.clone(), table: table(measurement)? })
+        };
+        let contents = Contents {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            program: program(),
+            settings: self.settings.clone(),
+            layout: self.layout.clone(),
+            measurement: self.measurement.as_ref().map(data).transpose()?,
+            fits: self.fits.clone(),
+        };
+        serde_json::to_writer_pretty(&mut *out, &contents)?;
+        writeln!(out)
+    }
+
+    /// Reads it, and checks that every value means something.
+    pub fn read(text: &str) -> Result<Self, SessionError> {
+        let header: Header = serde_json::from_str(text).map_err(|error| SessionError::json("", &error))?;
+        match (header.format.as_deref(), header.version) {
+            (Some(FORMAT), Some(VERSION)) => {}
+            (Some(FORMAT), Some(found)) => return Err(SessionError::Version { found }),
+            _ => return Err(SessionError::Format),
+        }
+        let mut json = serde_json::Deserializer::from_str(text);
+        let contents: Contents =
+            serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
+        contents.settings.parameters.validate(ParameterSet::ALL)?;
+        if !contents.settings.are_sound() {
+            return Err(SessionError::Settings);
+        }
+        let (name, sha256, measurement) = match contents.measurement {
+            Some(Data { name, sha256, table }) => {
+                let text = table.join("\n");
+                (name, sha256, Some(measurement::read(text.as_bytes(), &mut |_| ControlFlow::Continue(()))?))
+            }
+            None => (String::new(), None, None),
+        };
+        for (index, recipe) in contents.fits.iter().enumerate() {
+            let problem = recipe.problem(measurement.as_ref().unwrap_or(&Measurement::default()));
+            problem.map_err(|reason| SessionError::Fit { number: index + 1, reason })?;
+        }
+        let measurement = measurement.map(Arc::new);
+        Ok(Self { settings: contents.settings, layout: contents.layout, name, sha256, measurement, fits: contents.fits })
+    }
+}

@@ -1,0 +1,213 @@
+//! Sessions: saved, opened on another machine, damaged, killed while they are written.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::leaving::{self, Outgoing};
+use crate::app::panes::Pane;
+use crate::app::session::Session;
+use crate::app::window::Explorer;
+use crate::app::worker::save_session;
+use egui_kittest::Harness;
+use pbrdf::model::Parameter;
+use std::path::{Path, PathBuf};
+use std::process::{Command as Process, Stdio};
+use std::time::Duration;
+
+fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+    explorer(harness).commands.push(command);
+    wait(harness);
+}
+
+/// A window that somebody worked in.
+fn worked_in() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    order(&mut harness, Command::Mask { rows: vec![3, 5], masked: true });
+    explorer(&mut harness).settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    order(&mut harness, Command::StartFit);
+    order(&mut harness, Command::ClosePane(Pane::Lobes));
+    explorer(&mut harness).settings.theta_i = 35.5;
+    explorer(&mut harness).settings.parameters.k = 4.25;
+    harness.run();
+    harness
+}
+
+fn saved(harness: &mut Harness<'static, Option<Explorer>>, folder: &Path) -> PathBuf {
+    let path = folder.join("work.pbrdf.json");
+    order(harness, Command::Export(Outgoing::Session, path.clone()));
+    path
+}
+
+#[test]
+fn a_session_opens_with_everything_that_was_in_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut before = worked_in();
+    let path = saved(&mut before, folder.path());
+    let mut after = harness();
+    order(&mut after, Command::OpenSession(path.clone()));
+    let (before, after) = (explorer(&mut before), explorer(&mut after));
+    assert_eq!(after.notice, None);
+    assert_eq!(after.settings, before.settings);
+    assert_eq!(after.document.measurement.rows, before.document.measurement.rows);
+    assert_eq!(after.document.measurement.metadata, before.document.measurement.metadata);
+    assert_eq!(after.document.mask(), before.document.mask());
+    assert_eq!(after.document.name, before.document.name);
+    assert!(!after.panes.is_on_screen(Pane::Lobes));
+    let (old, new) = (before.last_fit.as_ref().expect("a fit"), after.last_fit.as_ref().expect("the fit again"));
+    assert_eq!((old.before, old.problem.start()), (new.before, new.problem.start()));
+    assert_eq!(old.problem.free(), new.problem.free());
+    for (old, new) in old.report.estimates.iter().zip(&new.report.estimates) {
+        assert_eq!((old.parameter, old.start, old.free, old.at_bound), (new.parameter, new.start, new.free, new.at_bound));
+    }
+    // The solution stays where it is: a fit from there finds nothing better than rounding.
+    let (old, new) = (old.report.objective.expect("a ΔE"), new.report.objective.expect("a ΔE"));
+    assert!((new - old).abs() <= 1e-6 * old, "{old} {new}");
+    assert_eq!(after.session_file.as_deref(), Some(path.as_path()));
+}
+
+#[test]
+fn saving_again_goes_into_the_same_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = worked_in();
+    let path = saved(&mut harness, folder.path());
+    explorer(&mut harness).settings.parameters.n = 1.875;
+    order(&mut harness, Command::SaveSession);
+    let text = std::fs::read_to_string(&path).expect("the session");
+    assert_eq!(Session::read(&text).expect("a session").settings.parameters.n, 1.875);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing else is left behind");
+}
+
+#[test]
+fn a_session_is_readable_row_by_row() {
+    let mut harness = worked_in();
+    let mut bytes = Vec::new();
+    leaving::session(explorer(&mut harness)).write(&mut bytes).expect("memory");
+    let text = String::from_utf8(bytes).expect("text");
+    assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 1,\n"));
+    assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
+    assert!(text.lines().all(|line| line.len() < 250));
+}
+
+#[test]
+fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut source = worked_in();
+    let good = std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session");
+    let parameter = |key: &str| {
+        let at = good.find(&format!("\"{key}\": ")).expect("the key");
+        good[at..].split(",\n").next().expect("its value").to_owned()
+    };
+    let row = good.lines().find(|line| line.contains("e-2,") && line.ends_with("0\",")).expect("a row of data").trim().to_owned();
+    let bad_angle = row.replacen("\"30,", "\"95,", 1).replacen("\"40,", "\"95,", 1).replacen("\"50,", "\"95,", 1);
+    let cases = [
+        (String::new(), "line 1"),
+        ("{}".to_owned(), "no session"),
+        ("theta_i,theta_r,dolp\n30,20,0.1\n".to_owned(), "line 1"),
+        (good[..good.len() / 2].to_owned(), "line"),
+        (good.replacen("\"version\": 1", "\"version\": 99", 1), "version 99"),
+        (good.replacen(&parameter("sigma"), "\"sigma\": 1e999", 1), "out of range"),
+        (good.replacen(&parameter("sigma"), "\"sigma\": null", 1), "settings.parameters.sigma"),
+        (good.replacen(&parameter("sigma"), "\"sigma\": -3.0", 1), "sigma = -3"),
+        (good.replacen(&parameter("theta_i"), "\"theta_i\": 90.0", 1), "outside its range"),
+        (good.replacen(&row, &bad_angle, 1), "measurement.table: line"),
+        (good.replacen(&row, &row.replacen("0\",", "2\",", 1), 1), "masked"),
+        (good.replacen("\"fits\": [", "\"fits\": [7, ", 1), "fits[0]"),
+    ];
+    let mut harness = harness();
+    let before = explorer(&mut harness).settings.clone();
+    let rows = explorer(&mut harness).document.measurement.rows.clone();
+    for (text, expected) in cases {
+        assert_ne!(text, good, "{expected}: the damage is there");
+        let path = folder.path().join("bad.pbrdf.json");
+        std::fs::write(&path, &text).expect("a writable folder");
+        order(&mut harness, Command::OpenMeasurement(path));
+        let explorer = explorer(&mut harness);
+        let notice = explorer.notice.take().expect("a sentence");
+        assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");
+        assert_eq!((&explorer.settings, &explorer.document.measurement.rows), (&before, &rows));
+    }
+}
+
+#[test]
+fn the_working_state_is_kept_and_comes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("new folder/working.pbrdf.json");
+    let mut first = worked_in();
+    explorer(&mut first).working_file = Some(path.clone());
+    explorer(&mut first).autosave_now();
+    let mut second = harness();
+    explorer(&mut second).working_file = Some(path.clone());
+    explorer(&mut second).resume();
+    wait(&mut second);
+    assert_eq!(explorer(&mut second).settings, explorer(&mut first).settings);
+    assert_eq!(explorer(&mut second).session_file, None, "what is kept without being asked is no session of the user's");
+    // Damaged, it is set aside with a sentence.
+    std::fs::write(&path, "{").expect("a writable folder");
+    let mut third = harness();
+    explorer(&mut third).working_file = Some(path.clone());
+    explorer(&mut third).resume();
+    wait(&mut third);
+    let notice = explorer(&mut third).notice.take().expect("a sentence");
+    assert!(notice.contains("cannot be restored") && notice.contains("line 1"), "{notice}");
+    assert!(folder.path().join("new folder/working.pbrdf.damaged.json").exists());
+}
+
+#[test]
+fn a_full_disk_leaves_the_old_session() {
+    // /dev/full takes nothing; a folder that is not there cannot take a temporary file either.
+    let mut harness = worked_in();
+    let session = leaving::session(explorer(&mut harness));
+    if Path::new("/dev/full").exists() {
+        assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
+    }
+    order(&mut harness, Command::Export(Outgoing::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
+    assert!(explorer(&mut harness).notice.take().expect("a sentence").contains("cannot be written"));
+}
+
+/// How often a saving process is killed.
+const KILLS: u32 = 100;
+/// Tells the process that is killed where to save.
+const SAVE_TO: &str = "PBRDF_TEST_SAVE_TO";
+
+/// The process that is killed: saves two states in turn until then.
+#[test]
+fn saver() {
+    let Some(path) = std::env::var_os(SAVE_TO).map(PathBuf::from) else { return };
+    let text = std::fs::read_to_string(&path).expect("the state before");
+    let mut session = Session::read(&text).expect("a session");
+    for turn in 0_u32.. {
+        session.settings.parameters.n = if turn % 2 == 0 { 2.0 } else { 3.0 };
+        save_session(&path, &session).expect("a place to save");
+    }
+}
+
+#[test]
+fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut source = worked_in();
+    let path = saved(&mut source, folder.path());
+    let program = std::env::current_exe().expect("this test");
+    let mut seen = [0_u32; 2];
+    for kill in 0..KILLS {
+        let mut child = Process::new(&program)
+            .args(["app::tests::sessions::saver", "--exact"])
+            .env(SAVE_TO, &path)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("this test again");
+        // From before the first save to some tens of saves, at moments that nothing ties to the writing.
+        std::thread::sleep(Duration::from_micros(u64::from(kill * 7919 % 60_000)));
+        child.kill().expect("a running process");
+        child.wait().expect("its end");
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let session = Session::read(&text).unwrap_or_else(|error| panic!("kill {kill}: {error}"));
+        match session.settings.parameters.n {
+            2.0 => seen[0] += 1,
+            3.0 => seen[1] += 1,
+            // The state before the first save of all.
+            _ => {}
+        }
+        assert_eq!(session.measurement.expect("its data").rows, explorer(&mut source).document.measurement.rows);
+    }
+    assert!(seen.iter().all(|&times| times > 0), "both states were seen, {seen:?}: the kills met a process at work");
+}

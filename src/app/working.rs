@@ -1,0 +1,153 @@
+//! Sessions in the window: opened, saved, and the working state kept without being asked.
+
+use super::command::Command;
+use super::layout::Layout;
+use super::leaving::{self, Outgoing};
+use super::panes::Panes;
+use super::past_fits::PastFit;
+use super::state::Settings;
+use super::window::{Explorer, SAVE_AFTER};
+use super::worker::{Opened, save_session};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What the working state depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Working {
+    settings: Settings,
+    layout: Layout,
+    generation: u64,
+    fits: usize,
+}
+
+/// Rows that are kept without being asked: more would be written again and again at every change.
+const MOST_ROWS: usize = 20_000;
+
+impl Explorer {
+    /// Goes on where the program ended the last time, if it left something.
+    pub fn resume(&mut self) {
+        if let Some(path) = self.working_file.clone().filter(|path| path.exists()) {
+            self.commands.push(Command::OpenSession(path));
+        }
+    }
+
+    fn working(&self) -> Working {
+        Working {
+            settings: self.settings.clone(),
+            layout: self.window.layout.clone(),
+            generation: self.document.generation,
+            fits: self.past_fits.made(),
+        }
+    }
+
+    /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
+    fn due(&self) -> Option<(PathBuf, Working)> {
+        let path = self.working_file.clone().filter(|_| self.document.measurement.rows.len() <= MOST_ROWS)?;
+        let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
+        let working = self.working();
+        (!is_waiting && self.autosaved.as_ref() != Some(&working)).then_some((path, working))
+    }
+
+    pub fn autosave_when_rested(&mut self, ctx: &egui::Context) {
+        let Some((path, working)) = self.due() else {
+            self.unsaved_since = None;
+            return;
+        };
+        let begun = *self.unsaved_since.get_or_insert_with(Instant::now);
+        if begun.elapsed() < SAVE_AFTER {
+            ctx.request_repaint_after(SAVE_AFTER);
+            return;
+        }
+        self.unsaved_since = None;
+        self.autosaved = Some(working);
+        if let Err(sentence) = self.worker.autosave(path, leaving::session(self)) {
+            self.say(sentence);
+        }
+    }
+
+    /// Writes the working state before the window closes.
+    pub fn autosave_now(&mut self) {
+        if let Some((path, working)) = self.due()
+            && save_session(&path, &leaving::session(self)).is_ok()
+        {
+            self.autosaved = Some(working);
+        }
+    }
+
+    pub fn save_session(&mut self) -> Result<(), String> {
+        match self.session_file.clone() {
+            Some(path) => self.commands.push(Command::Export(Outgoing::Session, path)),
+            None => self.choose_export(Outgoing::Session)?,
+        }
+        Ok(())
+    }
+
+    /// Asks where to, unless a path was typed.
+    pub fn choose_export(&mut self, what: Outgoing) -> Result<(), String> {
+        let typed = std::mem::take(&mut self.typed_export);
+        if typed.trim().is_empty() {
+            return self.worker.choose_export(what, what.file_name(self));
+        }
+        self.commands.push(Command::Export(what, what.with_ending(PathBuf::from(typed.trim()))));
+        Ok(())
+    }
+
+    pub fn exported(&mut self, what: Outgoing, result: Result<PathBuf, String>) {
+        match result {
+            Ok(path) => {
+                self.say(format!("{} is saved to {}.", what.name(), path.display()));
+                if what == Outgoing::Session {
+                    self.session_file = Some(path);
+                }
+            }
+            Err(sentence) => self.say(sentence),
+        }
+    }
+
+    /// Puts a session in the place of everything there is; where it cannot be read, all stays.
+    pub fn session_read(&mut self, path: &Path, result: Result<Box<Opened>, String>) {
+        let is_working = self.working_file.as_deref() == Some(path);
+        match result {
+            Ok(opened) => {
+                self.notice = None;
+                self.show_session(*opened);
+                self.session_file = (!is_working).then(|| path.to_owned());
+                if is_working {
+                    self.autosaved = Some(self.working());
+                } else {
+                    self.window.remember(path);
+                }
+            }
+            Err(sentence) if is_working => {
+                // The next autosave would write over it.
+                let aside = path.with_extension("damaged.json");
+                let kept = std::fs::rename(path, &aside)
+                    .map_or_else(|error| format!("it could not be set aside ({error})"), |()| format!("it is kept as {}", aside.display()));
+                self.say(format!("The state of the last time cannot be restored; {kept}. {sentence}"));
+            }
+            Err(sentence) => {
+                self.window.forget(path);
+                self.say(sentence);
+            }
+        }
+    }
+
+    fn show_session(&mut self, opened: Opened) {
+        let Opened { session, fits } = opened;
+        let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
+        self.take(session.name, measurement);
+        self.document.sha256 = session.sha256;
+        self.settings = session.settings;
+        self.window.layout = session.layout;
+        self.panes = Panes::new(&self.window.layout);
+        self.refitted = Some(self.settings.parameters);
+        for (report, problem, before) in fits.into_iter().rev() {
+            let fit = PastFit { report, problem, before, document: self.document.name.clone(), number: self.document.number };
+            let fit = self.past_fits.push(fit);
+            self.show_fit(Some(fit));
+        }
+        let setup = self.setup();
+        self.history.replace(setup);
+    }
+}
