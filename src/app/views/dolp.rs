@@ -2,10 +2,11 @@
 //! the model misses.
 
 use super::residuals::{self, Residuals};
+use crate::app::band::{BandKey, Ribbons, band_key, dolp_bands};
 use crate::app::curves::{Curves, Pieces, axis_values, drawn};
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
-use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, legend, marks_in, plot, ribbons_in, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -20,6 +21,8 @@ pub struct DolpView {
     range: Following,
     /// DoLP of the last fit along each series, where the sliders have left it.
     ghost: Memo<Option<GhostKey>, Vec<Pieces>>,
+    /// One standard error around the last fit along each series.
+    pub band: Memo<BandKey, Vec<Ribbons>>,
     pub residuals: Residuals,
 }
 
@@ -40,12 +43,19 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
         let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
         drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, false).dolp).collect()
     });
+    let fit = last_fit.as_deref();
+    let band_key = band_key(fit, document, key.backscatter, false, settings.show_band);
+    view.band.refresh(band_key, |key| match (key, fit) {
+        (Some((_, _, backscatter, _)), Some(fit)) => dolp_bands(&fit.report, document, *backscatter),
+        _ => Vec::new(),
+    });
     view.residuals.refresh(settings, document, *dragging);
 
     let limit = settings.show_limit;
     let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
     let bars = marks.series.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high));
-    let top = values.chain(bars).fold(0.0, f64::max);
+    let points = marks.series.iter().flat_map(|marks| marks.dolp.used.iter().map(|point| point.y));
+    let top = values.chain(bars).chain(points).fold(0.0, f64::max);
     view.range.follow(Range { low: 0.0, high: round_up(top).min(1.05) }, *dragging);
 }
 
@@ -65,13 +75,14 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 /// What is drawn in the pane.
 pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
     ui.checkbox(&mut explorer.settings.show_limit, "Fresnel limit")
         .on_hover_text("DoLP without any depolarising term: no point can lie above it");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
 }
 
 fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { derived, settings, views, .. } = explorer;
+    let Explorer { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;
@@ -84,12 +95,15 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         .legend(legend())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}", position.x, position.y))
+                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}\n{MASK_HINT}", position.x, position.y))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
             view.axes.apply(plot, Some(key.x()), view.range.get());
+            for (i, ribbons) in view.band.get().into_iter().flatten().enumerate() {
+                ribbons_in(plot, ribbons, theme::series(i, dark));
+            }
             if settings.show_limit {
                 for (i, curves) in curves.series.iter().enumerate() {
                     curve(plot, &curves.limit, "Fresnel limit", theme::series(i, dark), dashed, 1.0);
@@ -111,4 +125,5 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
         });
     view.axes.listen(&response, ui);
+    commands.extend(clicked_mask(&response, ui, document, |series| &series.dolp, Some));
 }

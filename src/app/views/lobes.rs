@@ -1,8 +1,10 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
-use crate::app::curves::{DECADES, axis_values};
+use crate::app::band::{BandKey, Ribbons, band_key, brdf_bands};
+use crate::app::curves::{DECADES, axis_values, brdf_coordinate};
+use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, legend, marks_in, plot, ribbons_in, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -13,12 +15,14 @@ use egui_plot::{AxisHints, HoverPosition};
 pub struct LobesView {
     axes: Axes,
     range: Following,
+    /// One standard error around the last fit along each series.
+    pub band: Memo<BandKey, Vec<Ribbons>>,
 }
 
 pub fn lobes_refresh(explorer: &mut Explorer) {
-    let Explorer { derived, settings, document, views, dragging, .. } = explorer;
+    let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
-    let (Some(curves), Some(marks)) = (derived.curves.get(), derived.marks.get()) else { return };
+    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
     let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
     let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
@@ -33,16 +37,25 @@ pub fn lobes_refresh(explorer: &mut Explorer) {
         Range { low: 0.0, high: round_up(top) }
     };
     views.lobes.range.follow(wanted, *dragging);
+    // Where no BRDF was measured there is no fitted lobe.
+    let shown = settings.show_band && document.measurement.has_brdf();
+    let fit = last_fit.as_deref();
+    let band_key = band_key(fit, document, key.backscatter, settings.log_brdf, shown);
+    views.lobes.band.refresh(band_key, |key| match (key, fit) {
+        (Some((_, _, backscatter, log)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *log),
+        _ => Vec::new(),
+    });
 }
 
 /// What is drawn in the pane.
 pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     ui.checkbox(&mut explorer.settings.log_brdf, "Logarithmic BRDF");
+    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
 }
 
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { derived, settings, views, .. } = explorer;
+    let Explorer { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.lobes;
     let dark = ui.visuals().dark_mode;
@@ -56,7 +69,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
-                Some(format!("{plot_name}\nθr = {:.2}°\nBRDF = {brdf:.4e} 1/sr", position.x))
+                Some(format!("{plot_name}\nθr = {:.2}°\nBRDF = {brdf:.4e} 1/sr\n{MASK_HINT}", position.x))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
@@ -65,6 +78,9 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
                 if marks.brdf.is_there() {
                     let color = theme::series(i, dark);
+                    if let Some(ribbons) = view.band.get().and_then(|bands| bands.get(i)) {
+                        ribbons_in(plot, ribbons, color);
+                    }
                     curve(plot, &curves.total, &marks.name, color, None, 1.5);
                     marks_in(plot, &marks.brdf, &marks.name, color, dark);
                 }
@@ -75,4 +91,5 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             curve(plot, &curves.own.total, "total", theme::foreground(dark), None, 2.5);
         });
     view.axes.listen(&response, ui);
+    commands.extend(clicked_mask(&response, ui, document, |series| &series.brdf, |value| brdf_coordinate(value, log)));
 }
