@@ -199,7 +199,7 @@ fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64, f64) -> Option
         let Some(y) = coordinate(mark.theta_r, mark.quantity.value) else { continue };
         let points = if mark.masked { &mut marks.masked } else { &mut marks.used };
         points.push(PlotPoint::new(mark.theta_r, y));
-        if let Some(sigma) = mark.quantity.sigma {
+        if let Some(sigma) = mark.quantity.sigma.filter(|_| !mark.masked) {
             let high = coordinate(mark.theta_r, mark.quantity.value + sigma).unwrap_or(y);
             // A bar that reaches 0 or below ends beneath any logarithmic axis.
             let low = coordinate(mark.theta_r, mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);

@@ -56,7 +56,7 @@ pub static PANES: [Entry; 8] = [
         pane: Pane::Dolp,
         key: "dolp",
         title: "DoLP",
-        tooltip: "Degree of linear polarisation against the angle of view, Eq. (17), with the measured points and what the model misses",
+        tooltip: "Degree of linear polarisation against the angle of view, Eq. (17), with the measured points and what the model misses; Ctrl+click masks a point",
         shortcut: Some(Key::Num1),
         place: Place::Upper,
         refresh: views::dolp_refresh,

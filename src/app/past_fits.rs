@@ -8,6 +8,8 @@ use std::sync::Arc;
 
 /// A fit as the window remembers it.
 pub struct PastFit {
+    /// Its number in the session, from 1.
+    pub id: usize,
     pub report: FitReport,
     /// What was fitted, for scans around the solution.
     pub problem: Arc<Problem>,
@@ -17,6 +19,8 @@ pub struct PastFit {
     pub document: String,
     /// Which measurement of the session it was.
     pub number: u64,
+    /// The state of that measurement: its mask may have changed since.
+    pub generation: u64,
 }
 
 /// Fits that are kept.
@@ -35,8 +39,8 @@ pub struct PastFits {
 impl PastFits {
     /// Takes a fit in, and gives it back to be shown.
     pub fn push(&mut self, fit: PastFit) -> Rc<PastFit> {
-        let fit = Rc::new(fit);
         self.made += 1;
+        let fit = Rc::new(PastFit { id: self.made, ..fit });
         self.fits.push_front(fit.clone());
         self.fits.truncate(MOST_FITS);
         let residuals = |fits: &VecDeque<Rc<PastFit>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
@@ -61,10 +65,5 @@ impl PastFits {
 
     pub fn is_empty(&self) -> bool {
         self.fits.is_empty()
-    }
-
-    /// How many fits were made: the number of the newest.
-    pub fn made(&self) -> usize {
-        self.made
     }
 }

@@ -91,6 +91,8 @@ pub struct Settings {
     pub log_brdf: bool,
     /// Whether the Fresnel limit is plotted.
     pub show_limit: bool,
+    /// Whether the standard error of fitted curves is plotted.
+    pub show_band: bool,
     /// Whether the backscatter side is plotted though nothing was measured there.
     pub show_backscatter: bool,
     /// Whether what is free is fitted again whenever a slider moves.
@@ -114,6 +116,7 @@ impl Default for Settings {
             dphi: 180.0,
             log_brdf: false,
             show_limit: true,
+            show_band: true,
             show_backscatter: false,
             refit_live: false,
             shown: Shown::default(),

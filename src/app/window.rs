@@ -77,6 +77,8 @@ pub struct Explorer {
     pub(super) autosaved: Option<Working>,
     /// Since when it is another one.
     pub(super) unsaved_since: Option<Instant>,
+    /// The same for a place to save.
+    pub typed_save_path: String,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
     generation: u64,
@@ -123,6 +125,7 @@ impl Explorer {
             working_file: None,
             autosaved: None,
             unsaved_since: None,
+            typed_save_path: String::new(),
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
             generation: 0,
@@ -266,11 +269,14 @@ impl Explorer {
                 self.scans.profile = self.last_fit.as_ref().map(curve);
             }
             Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
-            Event::Fitted { report, problem } => {
+            Event::Fitted { report, problem, generation } => {
                 let before = self.settings.parameters;
                 self.settings.parameters = report.parameters;
                 self.refitted = Some(report.parameters);
-                let fit = PastFit { report: *report, problem, before, document: self.document.name.clone(), number: self.document.number };
+                let Document { name, number, .. } = &self.document;
+                let (document, number) = (name.clone(), *number);
+                // The list of past fits numbers them.
+                let fit = PastFit { id: 0, report: *report, problem, before, document, number, generation };
                 let fit = self.past_fits.push(fit);
                 self.show_fit(Some(fit));
             }
@@ -486,7 +492,7 @@ impl Explorer {
         parameters.validate(model.parameters()).map_err(|error| format!("The fit cannot begin: {error}."))?;
         let measurement = &self.document.measurement;
         match problem(&self.settings, measurement, model, self.free(), choices) {
-            Ok(problem) => self.worker.start_fit(problem, starts, seed),
+            Ok(problem) => self.worker.start_fit(problem, self.document.generation, starts, seed),
             Err(error) => Err(format!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }

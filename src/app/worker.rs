@@ -53,6 +53,7 @@ pub enum Event {
     Fitted {
         report: Box<FitReport>,
         problem: Arc<Problem>,
+        generation: u64,
     },
     /// A fit from the sliders while they move.
     Refitted(Box<FitReport>),
@@ -376,8 +377,8 @@ impl Worker {
         Ok(())
     }
 
-    /// Fits.
-    pub fn start_fit(&mut self, problem: Problem, starts: Starts, seed: u64) -> Result<(), String> {
+    /// Fits a document in that state.
+    pub fn start_fit(&mut self, problem: Problem, generation: u64, starts: Starts, seed: u64) -> Result<(), String> {
         if let Some(job) = self.fit.take() {
             job.cancel();
         }
@@ -389,7 +390,7 @@ impl Worker {
                 progress: &|point| teller.tell(point),
             };
             let report = Box::new(fit(&problem, starts, seed, watch));
-            Event::Fitted { report, problem: Arc::new(problem) }
+            Event::Fitted { report, problem: Arc::new(problem), generation }
         })?;
         self.fit = Some(job);
         Ok(())

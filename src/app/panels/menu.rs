@@ -31,7 +31,7 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let items = command::items(explorer);
-    let Explorer { commands, typed_path, typed_export, window, .. } = explorer;
+    let Explorer { commands, typed_path, typed_export, typed_save_path, window, .. } = explorer;
     ui.menu_button("Examples", |ui| items_ui(&items, Menu::Example, commands, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
         ui.menu_button("Recent", |ui| items_ui(&items, Menu::Recent, commands, ui));
@@ -42,10 +42,16 @@ fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
         let label = ui.label("Or type a path first, and then choose above:");
         ui.add(egui::TextEdit::singleline(typed_export).desired_width(260.0)).labelled_by(label.id);
     });
-    let label = ui.label("Or type a path and press Enter:");
+    let label = ui.label("Type a path to open and press Enter:");
     let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
     if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
         commands.push(Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
+        ui.close();
+    }
+    let label = ui.label("Type a path to save to and press Enter:");
+    let field = ui.add(egui::TextEdit::singleline(typed_save_path).desired_width(260.0)).labelled_by(label.id);
+    if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_save_path.trim().is_empty() {
+        commands.push(Command::SaveMeasurement(PathBuf::from(typed_save_path.trim())));
         ui.close();
     }
     ui.separator();

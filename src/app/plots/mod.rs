@@ -3,11 +3,15 @@
 pub mod axis;
 mod error_bars;
 mod marks;
+mod picking;
 mod range;
+mod ribbon;
 
 pub use error_bars::ErrorBars;
 pub use marks::marks_in;
+pub use picking::{MASK_HINT, clicked_mask};
 pub use range::{Following, Range, round_up};
+pub use ribbon::{Ribbon, ribbons_in};
 
 use super::curves::Pieces;
 use super::theme;

@@ -57,7 +57,7 @@ fn keys_work_while_a_slider_has_the_focus_and_not_while_a_field_is_typed_into() 
     assert!(explorer(&mut harness).settings.log_brdf);
     harness.get_by_label("File").click();
     harness.run();
-    harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Or type a path and press Enter:").focus();
+    harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Type a path to open and press Enter:").focus();
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();

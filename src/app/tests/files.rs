@@ -74,7 +74,7 @@ fn a_path_can_be_typed_into_the_menu_after_a_click() {
     let mut harness = harness();
     harness.get_by_label("File").click();
     harness.run();
-    let label = "Or type a path and press Enter:";
+    let label = "Type a path to open and press Enter:";
     let field = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).rect().center();
     harness.hover_at(field);
     harness.run();

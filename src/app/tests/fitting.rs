@@ -136,3 +136,49 @@ fn a_fixed_parameter_stays() {
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).settings.parameters.sigma, Parameters::default().sigma);
 }
+
+#[test]
+fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
+    let mut harness = harness();
+    let bands = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::window::Explorer>>| {
+        explorer(harness).views.dolp.band.get().cloned().unwrap_or_default()
+    };
+    assert!(bands(&mut harness).is_empty());
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    let around = bands(&mut harness);
+    assert_eq!(around.len(), 3);
+    for ribbon in around.iter().flatten() {
+        assert!(ribbon.low.iter().zip(&ribbon.high).all(|(low, high)| *low <= *high && *low >= 0.0));
+    }
+    // Where the points lie the curve is known better than a single point, whose noise is 0.005.
+    let ribbon = &around[0][0];
+    let middle = ribbon.x.iter().position(|x| *x == 40.0).expect("a direction at 40°");
+    let error = 0.5 * (ribbon.high[middle] - ribbon.low[middle]);
+    assert!((1e-4..5e-3).contains(&error), "{error}");
+    explorer(&mut harness).settings.show_band = false;
+    harness.run();
+    assert!(bands(&mut harness).is_empty());
+    explorer(&mut harness).settings.show_band = true;
+    let rows = (*explorer(&mut harness).document.measurement).clone();
+    explorer(&mut harness).take("another".to_owned(), rows);
+    harness.run();
+    assert!(bands(&mut harness).is_empty());
+}
+
+#[test]
+fn measured_lobes_have_a_band_of_their_own() {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::OpenExample(2));
+    wait(&mut harness);
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    for log in [false, true] {
+        explorer(&mut harness).settings.log_brdf = log;
+        harness.run();
+        let explorer = explorer(&mut harness);
+        assert!(explorer.document.measurement.has_brdf());
+        let bands = explorer.views.lobes.band.get().expect("the lobes are on screen");
+        assert!(bands.iter().flatten().any(|ribbon| !ribbon.is_empty()), "log {log}");
+    }
+}

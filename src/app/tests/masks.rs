@@ -137,3 +137,49 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
     assert!(seen.len() < 100, "{seen:?}");
     assert_eq!(view.predicted.get().map(Vec::len), Some(seen.len()));
 }
+
+/// Clicks there with those keys held.
+fn click_with(harness: &mut Harness<'static, Option<Explorer>>, at: egui::Pos2, modifiers: egui::Modifiers) {
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    harness.hover_at(at);
+    harness.step();
+    for pressed in [true, false] {
+        harness.event(egui::Event::PointerButton { pos: at, button: egui::PointerButton::Primary, pressed, modifiers });
+        harness.step();
+    }
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    harness.step();
+}
+
+#[test]
+fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
+    let mut harness = harness();
+    // Points are 5° apart, which is less than three times the distance that a click may miss them by.
+    let places = [650.0, 660.0, 670.0_f32].into_iter().flat_map(|x| (8..38).map(move |y| egui::pos2(x, 10.0 * y as f32)));
+    let hit = places.into_iter().find(|&at| {
+        click_with(&mut harness, at, egui::Modifiers::COMMAND);
+        !masked(&mut harness).is_empty()
+    });
+    let hit = hit.expect("a point");
+    let one = masked(&mut harness);
+    assert_eq!(one.len(), 1);
+    // A plain click leaves it, a second one with the key takes it back.
+    click_with(&mut harness, hit, egui::Modifiers::NONE);
+    assert_eq!(masked(&mut harness), one);
+    click_with(&mut harness, hit, egui::Modifiers::COMMAND);
+    assert!(masked(&mut harness).is_empty());
+    click_with(&mut harness, hit, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT);
+    let series = masked(&mut harness);
+    assert!(series.len() == 9 && series.contains(&one[0]), "{series:?}");
+}
+
+#[test]
+fn a_mask_changed_after_a_fit_is_told() {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert!(harness.query_by_label("The mask has changed since this fit.").is_none());
+    explorer(&mut harness).commands.push(Command::Mask { rows: vec![4], masked: true });
+    harness.run();
+    harness.get_by_label("The mask has changed since this fit.");
+}

@@ -3,11 +3,12 @@
 
 use super::facets::{another, sigma_of_equal_median};
 use super::residuals::{self, Residuals};
+use crate::app::band::{BandKey, Ribbons, band_key, dolp_bands};
 use crate::app::curves::{BrdfScale, Curves, Pieces, axis_values, drawn};
 use crate::app::document::Document;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
-use crate::app::plots::{Axes, Following, Range, curve, legend, marks_in, plot, round_up};
+use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, legend, marks_in, plot, ribbons_in, round_up};
 use crate::app::state::{Overlay, Settings};
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -26,6 +27,8 @@ pub struct DolpView {
     ghost: Memo<Option<SurfaceKey>, Vec<Pieces>>,
     /// DoLP with the other distribution.
     overlay: Memo<Option<SurfaceKey>, Vec<Pieces>>,
+    /// One standard error around the last fit along each series.
+    pub band: Memo<BandKey, Vec<Ribbons>>,
     pub residuals: Residuals,
 }
 
@@ -51,12 +54,19 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
     view.ghost.refresh(ghost, |key| along_series(key.as_ref(), document));
     let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model, eq17));
     view.overlay.refresh(other, |key| along_series(key.as_ref(), document));
+    let fit = last_fit.as_deref();
+    let band_key = band_key(fit, document, key.backscatter, BrdfScale::default(), settings.show_band);
+    view.band.refresh(band_key, |key| match (key, fit) {
+        (Some((_, _, backscatter, _)), Some(fit)) => dolp_bands(&fit.report, document, *backscatter),
+        _ => Vec::new(),
+    });
     view.residuals.refresh(settings, document, *dragging);
 
     let limit = settings.show_limit;
     let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
     let bars = marks.series.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high));
-    let top = values.chain(bars).fold(0.0, f64::max);
+    let points = marks.series.iter().flat_map(|marks| marks.dolp.used.iter().map(|point| point.y));
+    let top = values.chain(bars).chain(points).fold(0.0, f64::max);
     let high = if settings.shown.share { 1.05 } else { round_up(top).min(1.05) };
     view.range.follow(Range { low: 0.0, high }, *dragging);
 }
@@ -110,13 +120,14 @@ pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
     }
     ui.separator();
+    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
     ui.checkbox(&mut explorer.settings.show_limit, "Fresnel limit")
         .on_hover_text("DoLP without any depolarising term: no point can lie above it");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
 }
 
 fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { derived, settings, views, .. } = explorer;
+    let Explorer { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;
@@ -135,12 +146,15 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         .legend(legend())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}", position.x, position.y))
+                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}\n{MASK_HINT}", position.x, position.y))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
             view.axes.apply(plot, Some(key.x()), view.range.get());
+            for (i, ribbons) in view.band.get().into_iter().flatten().enumerate() {
+                ribbons_in(plot, ribbons, theme::series(i, dark));
+            }
             if settings.show_limit {
                 for (i, curves) in curves.series.iter().enumerate() {
                     curve(plot, &curves.limit, "Fresnel limit", theme::series(i, dark), dashed, 1.0);
@@ -173,4 +187,5 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
         });
     view.axes.listen(&response, ui);
+    commands.extend(clicked_mask(&response, ui, document, |series| &series.dolp, |mark| Some(mark.quantity.value)));
 }

@@ -1,8 +1,10 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
-use crate::app::curves::{DECADES, axis_values};
+use crate::app::band::{BandKey, Ribbons, band_key, brdf_bands};
+use crate::app::curves::{BrdfScale, DECADES, axis_values};
+use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{Axes, Following, Range, curve, filled, legend, marks_in, plot, round_up};
+use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, filled, legend, marks_in, plot, ribbons_in, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -13,6 +15,8 @@ use egui_plot::{AxisHints, HoverPosition};
 pub struct LobesView {
     axes: Axes,
     range: Following,
+    /// One standard error around the last fit along each series.
+    pub band: Memo<BandKey, Vec<Ribbons>>,
 }
 
 impl LobesView {
@@ -23,9 +27,9 @@ impl LobesView {
 }
 
 pub fn lobes_refresh(explorer: &mut Explorer) {
-    let Explorer { derived, settings, document, views, dragging, .. } = explorer;
+    let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
-    let (Some(curves), Some(marks)) = (derived.curves.get(), derived.marks.get()) else { return };
+    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
     let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
     let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
@@ -40,6 +44,14 @@ pub fn lobes_refresh(explorer: &mut Explorer) {
         Range { low: 0.0, high: round_up(top) }
     };
     views.lobes.range.follow(wanted, *dragging);
+    // Where no BRDF was measured there is no fitted lobe.
+    let shown = settings.show_band && document.measurement.has_brdf();
+    let fit = last_fit.as_deref();
+    let band_key = band_key(fit, document, key.backscatter, BrdfScale::new(settings), shown);
+    views.lobes.band.refresh(band_key, |key| match (key, fit) {
+        (Some((_, _, backscatter, scale)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *scale),
+        _ => Vec::new(),
+    });
 }
 
 /// What is drawn in the pane.
@@ -48,15 +60,17 @@ pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     ui.checkbox(&mut explorer.settings.shown.filled, "Filled lobes").on_hover_text("Each term filled down to the axis");
     ui.checkbox(&mut explorer.settings.shown.times_cosine, "Times cos θr")
         .on_hover_text("BRDF × cos θr: its integral over all directions is the reflectance");
+    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
     ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
 }
 
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { derived, settings, views, .. } = explorer;
+    let Explorer { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.lobes;
     let dark = ui.visuals().dark_mode;
     let log = settings.log_brdf;
+    let scale = BrdfScale::new(settings);
     let title = format!("θr / °  at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi);
     let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
     let times_cosine = settings.shown.times_cosine;
@@ -68,7 +82,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
-                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr", position.x))
+                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr\n{MASK_HINT}", position.x))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
@@ -77,6 +91,9 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
                 if marks.brdf.is_there() {
                     let color = theme::series(i, dark);
+                    if let Some(ribbons) = view.band.get().and_then(|bands| bands.get(i)) {
+                        ribbons_in(plot, ribbons, color);
+                    }
                     curve(plot, &curves.total, &marks.name, color, None, 1.5);
                     marks_in(plot, &marks.brdf, &marks.name, color, dark);
                 }
@@ -96,4 +113,11 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             curve(plot, &curves.own.total, "total", theme::foreground(dark), None, 2.5);
         });
     view.axes.listen(&response, ui);
+    commands.extend(clicked_mask(
+        &response,
+        ui,
+        document,
+        |series| &series.brdf,
+        |mark| scale.coordinate(mark.theta_r, mark.quantity.value),
+    ));
 }

@@ -58,6 +58,9 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 if fit.report.model != settings.model {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), "This fit is of another model than the sliders show.");
                 }
+                if fit.generation != document.generation {
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), "The mask has changed since this fit.");
+                }
                 result::result_ui(fit, scans.scatter.as_ref(), commands, ui);
                 scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
             }

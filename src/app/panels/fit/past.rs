@@ -24,7 +24,7 @@ pub fn past_fits_ui(fits: &PastFits, shown: Option<&Rc<PastFit>>, number: u64, c
                 let elsewhere = if fit.number == number { String::new() } else { "\nof another measurement than the open one".to_owned() };
                 let is_shown = shown.is_some_and(|shown| Rc::ptr_eq(shown, fit));
                 let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.text());
-                if ui.selectable_label(is_shown, format!("{}. {model}", fits.made() - index)).on_hover_text(help).clicked() {
+                if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Command::ReturnTo(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));

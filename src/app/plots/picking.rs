@@ -1,0 +1,34 @@
+//! Clicks on measured points.
+
+use crate::app::command::Command;
+use crate::app::curves::drawn;
+use crate::app::document::{Document, Mark, Series};
+use egui::Ui;
+use egui_plot::{PlotPoint, PlotResponse};
+
+/// How far from a point, in points of the screen, a click still means it.
+const NEAR: f32 = 12.0;
+
+/// What hovering a point says of it.
+pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
+
+/// Ctrl+click on a measured point masks it or takes it back; with Shift it does so to its whole series.
+pub fn clicked_mask<R>(
+    response: &PlotResponse<R>,
+    ui: &Ui,
+    document: &Document,
+    marks: impl Fn(&Series) -> &[Mark],
+    coordinate: impl Fn(&Mark) -> Option<f64>,
+) -> Option<Command> {
+    let modifiers = ui.input(|input| input.modifiers);
+    let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked() && modifiers.command)?;
+    let distance = |mark: &Mark| {
+        let point = PlotPoint::new(mark.theta_r, coordinate(mark)?);
+        Some(response.transform.position_from_point(&point).distance(at))
+    };
+    let near = drawn(document).flat_map(|series| marks(series).iter().map(move |mark| (series, mark)));
+    let near = near.filter_map(|(series, mark)| Some((series, mark, distance(mark)?))).filter(|(.., distance)| *distance < NEAR);
+    let (series, mark, _) = near.min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let rows = if modifiers.shift { series.rows.clone() } else { vec![mark.row] };
+    Some(Command::Mask { rows, masked: !mark.masked })
+}
