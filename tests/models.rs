@@ -140,3 +140,15 @@ fn the_distribution_that_made_the_data_wins_and_a_held_gauss_is_no_better_than_a
     // Cauchy tends to Gauss for large q: it is not beaten by much, but it has a parameter more to answer for.
     assert!(on_gauss.aicc_gain.is_some_and(|gain| gain < 0.0), "{on_gauss:?}");
 }
+
+#[test]
+fn no_distribution_wins_against_the_evidence() {
+    let near = Contest { gauss: 2.561_8e-3, cauchy: 2.561_799e-3, aicc_gain: Some(-4.6), is_delta_e: true };
+    assert!(near.winner().is_none() && near.text().contains("alike") && !near.text().contains("wins"), "{}", near.text());
+    let costly = Contest { cauchy: 2.5e-3, ..near };
+    assert!(
+        costly.text().starts_with("Cauchy comes nearer than Gauss") && costly.text().contains("lower by 4.6 for Gauss"),
+        "{}",
+        costly.text()
+    );
+}

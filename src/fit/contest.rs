@@ -35,8 +35,8 @@ pub struct HeldGauss {
     pub equal_median: (f64, f64),
 }
 
-/// Sums of squares whose ratio is nearer to 1 are the same.
-const SAME: f64 = 1e-9;
+/// Sums of squares whose ratio is nearer to 1 are the same: two descents along one flat valley end no nearer to each other.
+const SAME: f64 = 1e-4;
 
 impl Contest {
     /// Of two fits of the same data by the same choices; none where a sum is not finite.
@@ -88,7 +88,8 @@ impl Contest {
     pub fn text(&self) -> String {
         let measure = if self.is_delta_e { "ΔE" } else { "sum of squares" };
         let Some(winner) = self.winner() else {
-            return format!("Gauss and Cauchy describe these data alike ({measure} {:.4e}).", self.gauss);
+            let fewer = if self.aicc_gain.is_some_and(|gain| gain < 0.0) { ": Cauchy's tail exponent buys nothing here" } else { "" };
+            return format!("Gauss and Cauchy describe these data alike ({measure} {:.4e}){fewer}.", self.gauss);
         };
         let (name, other) = match winner {
             SlopeDistribution::Gauss => ("Gauss", "Cauchy"),
@@ -102,7 +103,10 @@ impl Contest {
             }
         };
         let ratio = if self.ratio().is_finite() { format!("{:.4} times smaller", self.ratio()) } else { "0".to_owned() };
-        format!("{name} wins over {other}: {measure} {ratio}; {by}{}.", self.evidence())
+        // A smaller sum that AICc does not think worth its parameter is no victory.
+        let is_confirmed = self.aicc_gain.is_none_or(|gain| (gain > 0.0) == (winner == SlopeDistribution::Cauchy));
+        let verb = if is_confirmed { "wins over" } else { "comes nearer than" };
+        format!("{name} {verb} {other}: {measure} {ratio}; {by}{}.", self.evidence())
     }
 }
 
