@@ -213,7 +213,8 @@ fn dolp(explorer: &Explorer) -> Option<Figure> {
 fn lobes(explorer: &Explorer) -> Option<Figure> {
     let Explorer { derived, settings, views, document, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
-    let log = key.log_brdf;
+    let log = key.brdf.log;
+    let quantity = if key.brdf.times_cosine { "BRDF × cos θr" } else { "BRDF" };
     let value = |y: f64| if log { libm::exp10(y) } else { y };
     let mut series = Vec::new();
     for ((curves, marks), color) in curves.series.iter().zip(&marks.series).zip(SERIES).filter(|((_, marks), _)| marks.brdf.is_there()) {
@@ -227,7 +228,7 @@ fn lobes(explorer: &Explorer) -> Option<Figure> {
     }
     series.push(Series::line("total", points(&own.total, value)).colored(FOREGROUND));
     let range = views.lobes.range()?;
-    let axis = if log { Axis::log("BRDF", "sr⁻¹") } else { Axis::linear("BRDF", "sr⁻¹") };
+    let axis = if log { Axis::log(quantity, "sr⁻¹") } else { Axis::linear(quantity, "sr⁻¹") };
     let x = key.x();
     let panel = Panel {
         title: format!("θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi),

@@ -55,6 +55,11 @@ impl PastFits {
         self.fits.get(index).cloned()
     }
 
+    /// How many fits the session has made, those no longer kept among them.
+    pub fn made(&self) -> usize {
+        self.made
+    }
+
     pub fn iter(&self) -> impl Iterator<Item = &Rc<PastFit>> {
         self.fits.iter()
     }

@@ -143,7 +143,8 @@ impl Explorer {
         self.panes = Panes::new(&self.window.layout);
         self.refitted = Some(self.settings.parameters);
         for (report, problem, before) in fits.into_iter().rev() {
-            let fit = PastFit { report, problem, before, document: self.document.name.clone(), number: self.document.number };
+            let (document, number, generation) = (self.document.name.clone(), self.document.number, self.document.generation);
+            let fit = PastFit { id: 0, report, problem, before, document, number, generation };
             let fit = self.past_fits.push(fit);
             self.show_fit(Some(fit));
         }
