@@ -342,11 +342,7 @@ impl Explorer {
                 self.worker.export(what, path, write)?;
             }
             Command::CopyPlot(pane) => ctx.copy_image(leaving::image(self, pane)?),
-            Command::CopyTable => {
-                let mut table = Vec::new();
-                pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| format!("{error}."))?;
-                ctx.copy_text(String::from_utf8_lossy(&table).into_owned());
-            }
+            Command::CopyTable => self.copy_table(ctx)?,
             Command::ChooseSave => self.worker.choose_save(self.document.file_name())?,
             Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
@@ -368,17 +364,13 @@ impl Explorer {
             }
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
             Command::DismissNotice => self.notice = None,
-            Command::Undo | Command::Redo => {
-                let step = if command == Command::Undo { self.history.undo() } else { self.history.redo() };
-                if let Some(Setup { settings, mask, number }) = step {
-                    self.settings = settings;
-                    self.refitted = Some(self.settings.parameters);
-                    // The rows of another measurement are other rows.
-                    if number == self.document.number {
-                        self.document.restore_mask(&mask);
-                    }
-                    self.history.replace(self.setup());
-                }
+            Command::Undo => {
+                let step = self.history.undo();
+                self.go_to(step);
+            }
+            Command::Redo => {
+                let step = self.history.redo();
+                self.go_to(step);
             }
             Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.settings.parameters)),
             Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
@@ -389,18 +381,8 @@ impl Explorer {
                 self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
             }
             Command::ReturnTo(index) => self.return_to(index),
-            Command::Profile(parameter) => {
-                self.scans.profile = None;
-                if let Some((problem, report)) = self.shown_fit() {
-                    self.worker.start_profile(problem, report, parameter)?;
-                }
-            }
-            Command::Bootstrap => {
-                self.scans.scatter = None;
-                if let Some((problem, report)) = self.shown_fit() {
-                    self.worker.start_bootstrap(problem, report, self.scans.replicates, self.settings.seed)?;
-                }
-            }
+            Command::Profile(parameter) => self.start_profile(parameter)?,
+            Command::Bootstrap => self.start_bootstrap()?,
             Command::CancelScan => self.worker.scan.iter().for_each(super::worker::Job::cancel),
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
@@ -423,6 +405,42 @@ impl Explorer {
             Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
         }
         Ok(())
+    }
+
+    /// The measurement to the clipboard, as its file would be.
+    fn copy_table(&self, ctx: &egui::Context) -> Result<(), String> {
+        let mut table = Vec::new();
+        pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| format!("{error}."))?;
+        ctx.copy_text(String::from_utf8_lossy(&table).into_owned());
+        Ok(())
+    }
+
+    /// Everything the user sets as a step of undo has it.
+    fn go_to(&mut self, step: Option<Setup>) {
+        let Some(Setup { settings, mask, number }) = step else { return };
+        self.settings = settings;
+        self.refitted = Some(self.settings.parameters);
+        // The rows of another measurement are other rows.
+        if number == self.document.number {
+            self.document.restore_mask(&mask);
+        }
+        self.history.replace(self.setup());
+    }
+
+    fn start_bootstrap(&mut self) -> Result<(), String> {
+        self.scans.scatter = None;
+        match self.shown_fit() {
+            Some((problem, report)) => self.worker.start_bootstrap(problem, report, self.scans.replicates, self.settings.seed),
+            None => Ok(()),
+        }
+    }
+
+    fn start_profile(&mut self, parameter: Parameter) -> Result<(), String> {
+        self.scans.profile = None;
+        match self.shown_fit() {
+            Some((problem, report)) => self.worker.start_profile(problem, report, parameter),
+            None => Ok(()),
+        }
     }
 
     /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
