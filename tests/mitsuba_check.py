@@ -7,10 +7,11 @@ Run by hand, since it needs Mitsuba:
     cargo build --release --no-default-features --features cli
     python3 tests/mitsuba_check.py target/release/pbrdf-explorer [--resolution 145,121,128]
 
-The model's values come from `pbrdf-explorer evaluate --mueller`. Radiance is that of a surface under unit irradiance from one direction
-times the cosine of the light, as the plugin's eval() has it, divided by it again; polarisation is the first column of the Mueller
-matrix. Only lengths such as that of (M10, M20) are free of the bases that Mitsuba chooses for itself, so these are compared: DoLP, and the
-circular part of what was linear, the length of (M31, M32); besides them the sign of M33.
+The model's values come from `pbrdf-explorer evaluate --mueller`. Every direction is asked twice. First the plugin's eval(), divided by the
+cosine of the light. Only lengths such as that of (M10, M20) are free of the bases that Mitsuba chooses for itself, so these are compared:
+DoLP, and the circular part of what was linear, the length of (M31, M32); besides them the sign of M33. Then a render: a rectangle of
+the surface under a directional light, seen by a radiance meter, with Mitsuba's Stokes integrator; a white Lambertian rectangle under the
+same light and sampler gives the unit.
 """
 import csv
 import math
@@ -69,6 +70,22 @@ def model_values(program, options, rows, folder):
     return list(csv.DictReader(text.splitlines()))
 
 
+def render(bsdf, light, eye):
+    """Stokes components S0, S1, S2 of what the eye sees, in the film's first channel."""
+    film = {"type": "hdrfilm", "width": 1, "height": 1, "pixel_format": "rgb", "component_format": "float32", "rfilter": {"type": "box"}}
+    scene = mi.load_dict({
+        "type": "scene",
+        "integrator": {"type": "stokes", "nested": {"type": "direct"}},
+        "surface": {"type": "rectangle", "bsdf": bsdf},
+        "light": {"type": "directional", "direction": -light, "irradiance": {"type": "uniform", "value": 1.0}},
+        "eye": {"type": "radiancemeter", "origin": 0.5 * eye, "direction": -eye, "film": film,
+                "sampler": {"type": "independent", "sample_count": 4}},
+    })
+    # Three channels of the image, then three of each Stokes component.
+    channels = [float(value) for value in mi.render(scene, seed=1).array]
+    return channels[3], channels[6], channels[9]
+
+
 def quantile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))]
 
@@ -76,6 +93,7 @@ def quantile(values, share):
 def main():
     program, more = sys.argv[1], sys.argv[2:]
     good = True
+    white = mi.load_dict({"type": "diffuse", "reflectance": {"type": "uniform", "value": 1.0}})
     for name, options in SURFACES.items():
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "surface.pbsdf"
@@ -84,7 +102,7 @@ def main():
             bsdf = mi.load_dict({"type": "measured_polarized", "filename": str(path)})
             sigma = float(options.split("sigma=")[1].split(",")[0])
             rows = directions(100, sigma)
-            brdf_errors, dolp_errors, circular_errors = [], [], []
+            brdf_errors, dolp_errors, circular_errors, rendered, rendered_dolp = [], [], [], [], []
             context = mi.BSDFContext()
             for (theta_i, theta_r, dphi), row in zip(rows, model_values(program, options, rows, Path(folder))):
                 interaction = mi.SurfaceInteraction3f()
@@ -99,11 +117,19 @@ def main():
                 dolp_errors.append(abs(math.hypot(m[1][0], m[2][0]) / m[0][0] - dolp))
                 circular = [math.hypot(float(row["m31"]), float(row["m32"])) / brdf, math.hypot(m[3][1], m[3][2]) / m[0][0]]
                 circular_errors.append(abs(circular[0] - circular[1]))
+                s0, s1, s2 = render(bsdf, light, interaction.wi)
+                rendered.append(abs(s0 / render(white, light, interaction.wi)[0] / math.pi / brdf - 1))
+                rendered_dolp.append(abs(math.hypot(s1, s2) / s0 - dolp))
                 signs = float(row["m33"]), m[3][3]
                 good &= signs[0] * signs[1] >= 0 or abs(signs[0] / brdf) < 0.02
-        print(f"{name} ({size:.1f} MB): radiance, relative: median {quantile(brdf_errors, .5):.2e}, 90 % {quantile(brdf_errors, .9):.2e}, worst "
-              f"{max(brdf_errors):.2e}; DoLP: median {quantile(dolp_errors, .5):.2e}, worst {max(dolp_errors):.2e}; circular: worst {max(circular_errors):.2e}")
-        good &= quantile(brdf_errors, 0.5) < 0.01 and max(dolp_errors) < 0.02
+        print(f"{name} ({size:.1f} MB)")
+        for what, errors in {
+            "radiance, relative": brdf_errors, "DoLP": dolp_errors, "circular": circular_errors,
+            "rendered radiance, relative": rendered, "rendered DoLP": rendered_dolp,
+        }.items():
+            print(f"  {what}: median {quantile(errors, .5):.2e}, 90 % {quantile(errors, .9):.2e}, worst {max(errors):.2e}")
+        good &= all(quantile(errors, 0.5) < 0.01 for errors in (brdf_errors, rendered))
+        good &= all(max(errors) < 0.02 for errors in (dolp_errors, rendered_dolp))
     sys.exit(0 if good else 1)
 
 
