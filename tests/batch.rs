@@ -225,3 +225,34 @@ fn threads_and_widths_do_not_change_a_bit() {
         }
     }
 }
+
+/// Some seconds in release: `cargo test --release --no-default-features --features threads --test batch -- --ignored`.
+#[test]
+#[ignore = "10⁸ evaluations, for a release build"]
+fn a_hundred_million_evaluations_without_one_that_is_not_a_number() {
+    let batch = Batch::new(geometries(100_000));
+    let (mut radiances, mut gradients, mut infinite) = (Radiances::default(), DolpGradients::default(), 0_usize);
+    for i in 0..1000_usize {
+        let mut parameters = Parameters::default();
+        for (j, parameter) in Parameter::ALL.into_iter().enumerate() {
+            let (low, high) = (*parameter.range().start(), *parameter.range().end());
+            parameters[parameter] = match (i + 3 * j) % 23 {
+                0 => low,
+                1 => high,
+                2 => low.next_up(),
+                3 => high.next_down(),
+                _ => low + (high - low) * spread(i * 9 + j, 0.618_034),
+            };
+        }
+        let surface = Pbrdf::new(Model::full(SlopeDistribution::ALL[i % 2]), parameters).expect("the box lies in the domain");
+        batch.radiances(&surface, &mut radiances);
+        batch.dolp_gradients(&surface, &mut gradients);
+        assert!(radiances.dolp.iter().all(|dolp| (0.0..=1.0).contains(dolp)), "{surface:?}");
+        assert!(radiances.brdf.iter().all(|brdf| *brdf >= 0.0 && brdf.is_finite()), "{surface:?}");
+        for column in &gradients.by {
+            assert!(column.iter().all(|derivative| !derivative.is_nan()), "{surface:?}");
+            infinite += column.iter().filter(|derivative| derivative.is_infinite()).count();
+        }
+    }
+    println!("{infinite} of 9·10⁸ derivatives beyond f64");
+}

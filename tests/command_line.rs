@@ -217,11 +217,6 @@ fn what_is_said_of_a_parameter_that_the_model_lacks_is_ignored_with_a_notice() {
 }
 
 #[test]
-fn what_is_not_there_yet_is_refused_and_not_ignored() {
-    assert!(refusal(&["report", "cost"]).contains("not there yet"));
-}
-
-#[test]
 fn output_that_cannot_be_written_ends_with_one() {
     let folder = Folder::new();
     let nowhere = folder.path("no/such/folder/out.csv").display().to_string();

@@ -90,3 +90,24 @@ fn the_stability_gallery_agrees_with_sixty_digits() {
     values_agree("stability_gallery.csv");
     gradients_agree("stability_gallery.csv");
 }
+
+#[test]
+fn what_is_not_wanted_is_left_out_and_changes_nothing_else() {
+    for row in table("golden_jacobian.csv").iter().step_by(5) {
+        let (surface, facet) = (row.surface(), Facet::new(row.geometry()));
+        let (whole, all) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        for bits in 0_u16..512 {
+            let by = Parameter::ALL.into_iter().filter(|&parameter| bits & (1 << parameter as u16) != 0).collect();
+            for (brdf, dolp) in [(true, true), (true, false), (false, true)] {
+                let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted { by, brdf, dolp });
+                assert_eq!(reflection.brdf, if brdf { whole.brdf } else { 0.0 });
+                assert_eq!(reflection.dolp, if dolp { whole.dolp } else { 0.0 });
+                for parameter in Parameter::ALL {
+                    let (j, wanted) = (parameter as usize, by.contains(parameter));
+                    assert_eq!(gradient.brdf[j], if brdf && wanted { all.brdf[j] } else { 0.0 }, "{parameter:?}");
+                    assert_eq!(gradient.dolp[j], if dolp && wanted { all.dolp[j] } else { 0.0 }, "{parameter:?}");
+                }
+            }
+        }
+    }
+}

@@ -61,6 +61,44 @@ fn error_against_time_goes_to_standard_output_and_into_a_folder() {
 }
 
 #[test]
+fn the_cost_of_scenes_comes_with_what_they_leave_out_and_how_exact_they_stay() {
+    let keys = [
+        "scene",
+        "distribution",
+        "kernel",
+        "threads",
+        "output",
+        "terms",
+        "points",
+        "ns_per_point",
+        "left_out",
+        "max_ulp",
+        "max_relative_error",
+    ];
+    let rows = rows(&["cost"], &keys);
+    assert!(rows.len() >= 12, "{}", rows.len());
+    for row in &rows {
+        assert!(row["ns_per_point"].as_f64().expect("a time") > 0.0, "{row}");
+        let everything = row["scene"].as_str().expect("a name").starts_with("everything");
+        assert_eq!(row["left_out"].as_str().expect("words").is_empty(), everything, "{row}");
+        if row["kernel"] == "scalar" {
+            // The same operations without those of what is left out: rotations alone round anew.
+            assert!(row["max_ulp"].as_f64().expect("a number") <= 4.0, "{row}");
+        } else {
+            // Elementary functions of the kernel's own; squares and a sum of 27 more in the landscape.
+            assert!(row["max_ulp"].is_null() && row["max_relative_error"].as_f64().expect("a number") <= 1e-13, "{row}");
+        }
+    }
+    let has = |kernel: &str, output: &str| {
+        rows.iter().any(|row| {
+            let named = row["kernel"] == kernel && row["output"] == output && row["threads"] == 1;
+            named && row["distribution"] == "cauchy" && row["terms"] == "specular+diffuse+volume"
+        })
+    };
+    assert!(has("batch", "dolp") && has("batch", "gradient") && has("scalar", "gradient"));
+}
+
+#[test]
 fn a_folder_that_cannot_be_written_is_found_out_before_the_work() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let file = folder.path().join("file");

@@ -12,7 +12,7 @@ use super::bounds::Bounds;
 use super::choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
 use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
-use crate::optics::Facet;
+use crate::optics::{Facet, RefractiveIndex};
 use nalgebra::{DMatrix, DVector};
 
 /// Huber's constant: 95 % efficient where the noise is Gaussian.
@@ -153,7 +153,7 @@ impl Problem {
         problem.normalise();
         problem.wanted.dolp = problem.data.iter().any(|datum| datum.kind == Kind::Dolp);
         problem.wanted.brdf = problem.data.iter().any(|datum| datum.kind != Kind::Dolp);
-        Ok(problem)
+        Ok(problem.prepared())
     }
 
     fn add(&mut self, point: usize, row: usize, kind: Kind, quantity: Quantity) -> Result<(), ProblemError> {
@@ -274,7 +274,17 @@ impl Problem {
     /// The same problem from another start.
     #[must_use]
     pub fn with_start(&self, start: Parameters) -> Self {
-        Self { start, ..self.clone() }
+        Self { start, ..self.clone() }.prepared()
+    }
+
+    /// With the Fresnel reflection prepared where n and k are held.
+    fn prepared(mut self) -> Self {
+        let is_held = !self.free.contains(&Parameter::N) && !self.free.contains(&Parameter::K);
+        self.scene = match RefractiveIndex::new(self.start.n, self.start.k) {
+            Ok(index) if is_held => self.scene.with_index(index),
+            _ => self.scene.without_index(),
+        };
+        self
     }
 
     /// The same problem with other parameters free.
@@ -285,6 +295,7 @@ impl Problem {
             wanted: Wanted { by: free, ..self.wanted },
             ..self.clone()
         }
+        .prepared()
     }
 
     /// The same problem with other data: the values at its start plus residuals drawn from its own, within each quantity, by
@@ -316,9 +327,11 @@ impl Problem {
         for (slot, datum) in out.iter_mut().zip(&self.data) {
             if datum.point != point {
                 point = datum.point;
-                let facet = &self.scene.facets()[point];
-                reflection =
-                    if self.wanted.brdf { surface.reflection(facet) } else { Reflection { dolp: surface.dolp(facet), ..reflection } };
+                reflection = if self.wanted.brdf {
+                    self.scene.reflection(&surface, point)
+                } else {
+                    Reflection { dolp: self.scene.dolp(&surface, point), ..reflection }
+                };
             }
             *slot = self.loss(datum, self.residual(datum, &reflection, parameters.ks)).0;
             finite &= slot.is_finite();
@@ -335,7 +348,7 @@ impl Problem {
         for (i, datum) in self.data.iter().enumerate() {
             if datum.point != point {
                 point = datum.point;
-                at = surface.reflection_and_gradient(&self.scene.facets()[point], self.wanted);
+                at = self.scene.reflection_and_gradient(&surface, point, self.wanted);
             }
             let slope = self.loss(datum, self.residual(datum, &at.0, parameters.ks)).1;
             for (j, &parameter) in self.free.iter().enumerate() {
@@ -452,7 +465,7 @@ impl Problem {
         let surface = Pbrdf::new(self.model, *parameters).ok()?;
         let mut sums = [0.0; 2];
         for datum in &self.data {
-            let reflection = surface.reflection(&self.scene.facets()[datum.point]);
+            let reflection = self.scene.reflection(&surface, datum.point);
             let (index, difference) = match datum.kind {
                 Kind::Dolp => (0, self.dolp(reflection.dolp, parameters.ks) - datum.measured),
                 Kind::Brdf => (1, reflection.brdf - datum.measured),

@@ -26,7 +26,7 @@ pub struct Gradient {
     pub dolp: [f64; 9],
 }
 
-/// Which derivatives are wanted; the others are left out and stay 0.
+/// Which derivatives are wanted; the others are left out and stay 0, and so do BRDF with its terms, or DoLP, where no derivative of them is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wanted {
     /// By these parameters.
@@ -56,6 +56,8 @@ fn join(derivative: &mut f64, other: f64) {
 
 /// What the derivatives of DoLP share.
 struct Mixture {
+    /// R, the mean reflectance.
+    mean: f64,
     /// DoLP_s.
     limit: f64,
     /// r, the specular share of the radiance.
@@ -67,51 +69,68 @@ struct Mixture {
 }
 
 impl Pbrdf {
-    /// BRDF, DoLP and terms with their derivatives at a prepared geometry.
+    /// BRDF, DoLP and terms with their derivatives at a prepared geometry: those that are wanted.
     #[must_use]
     pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
+        self.reflection_and_gradient_with(facet, wanted, || Fresnel::new(self.index(), facet))
+    }
+
+    /// The same with a Fresnel reflection that may be at hand already.
+    pub(super) fn reflection_and_gradient_with(
+        &self,
+        facet: &Facet,
+        wanted: Wanted,
+        fresnel: impl FnOnce() -> Fresnel,
+    ) -> (Reflection, Gradient) {
         let p = self.parameters();
         let lobes = self.lobes(facet);
-        let mut reflection = Reflection {
-            diffuse: lobes.diffuse.weighted(self.diffuse_weight()),
-            volume: lobes.volume.weighted(p.kv),
-            ..Reflection::default()
-        };
+        let mut reflection = Reflection::default();
         let mut gradient = Gradient::default();
+        if wanted.brdf {
+            reflection.diffuse = lobes.diffuse.weighted(self.diffuse_weight());
+            reflection.volume = lobes.volume.weighted(p.kv);
+        }
         if self.model().specular {
-            let fresnel = Fresnel::new(self.index(), facet);
+            let fresnel = fresnel();
             let mean = fresnel.mean();
-            let depolarised = self.depolarised_over_specular(&lobes);
-            let share = self.specular_share(mean, depolarised);
-            reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
-            reflection.dolp = fresnel.dolp() * share;
             let by_index = if wanted.by.contains(Parameter::N) || wanted.by.contains(Parameter::K) {
                 fresnel.gradient()
             } else {
                 FresnelGradient { mean: [0.0; 2], dolp: [0.0; 2] }
             };
             if wanted.brdf {
-                self.specular_brdf_gradient(&lobes, mean, reflection.specular, by_index, &mut gradient.brdf);
+                reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
+                self.specular_brdf_gradient(&lobes, mean, reflection.specular, by_index, wanted.by, &mut gradient.brdf);
             }
-            if wanted.dolp && self.reflects_or_depolarises(&lobes) {
-                let total = self.raised(p.ks) * mean + depolarised;
-                let rest = if depolarised == 0.0 {
-                    1.0 - share
-                } else if total.is_finite() {
-                    depolarised / total
-                } else {
-                    1.0
-                };
-                let mixture = Mixture { limit: fresnel.dolp(), share, rest, total };
-                self.dolp_gradient(&lobes, facet, mean, &mixture, by_index, &mut gradient.dolp);
+            if wanted.dolp {
+                let mixture = self.mixture(&lobes, &fresnel, mean);
+                reflection.dolp = mixture.limit * mixture.share;
+                if self.reflects_or_depolarises(&lobes) {
+                    self.dolp_gradient(&lobes, facet, &mixture, by_index, wanted.by, &mut gradient.dolp);
+                }
             }
         }
-        reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
         if wanted.brdf {
-            self.depolarised_brdf_gradient(&lobes, facet, &reflection, &mut gradient.brdf);
+            reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
+            self.depolarised_brdf_gradient(&lobes, facet, &reflection, wanted.by, &mut gradient.brdf);
         }
         mask(&mut gradient, wanted.by);
         (reflection, gradient)
+    }
+
+    /// Specular and depolarised light.
+    fn mixture(&self, lobes: &Lobes, fresnel: &Fresnel, mean: f64) -> Mixture {
+        let depolarised = self.depolarised_over_specular(lobes);
+        let share = self.specular_share(mean, depolarised);
+        let total = self.raised(self.parameters().ks) * mean + depolarised;
+        let rest = if depolarised == 0.0 {
+            1.0 - share
+        } else if total.is_finite() {
+            depolarised / total
+        } else {
+            1.0
+        };
+        Mixture { mean, limit: fresnel.dolp(), share, rest, total }
     }
 
     /// Whether there is any light, so that DoLP has a derivative.
@@ -120,27 +139,41 @@ impl Pbrdf {
         self.reflects_specularly() || self.diffuse_weight() * lobes.diffuse.factor > 0.0 || p.kv * lobes.volume.factor > 0.0
     }
 
-    fn specular_brdf_gradient(&self, lobes: &Lobes, mean: f64, specular: f64, by_index: FresnelGradient, out: &mut [f64; 9]) {
+    fn specular_brdf_gradient(
+        &self,
+        lobes: &Lobes,
+        mean: f64,
+        specular: f64,
+        by_index: FresnelGradient,
+        by: ParameterSet,
+        out: &mut [f64; 9],
+    ) {
         let p = self.parameters();
         let distribution = self.model().distribution;
-        let unit = lobes.specular.value();
-        let weighted = lobes.specular.weighted(p.ks);
-        out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
-        out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
+        if by.contains(Parameter::N) || by.contains(Parameter::K) {
+            let weighted = lobes.specular.weighted(p.ks);
+            out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
+            out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
+        }
         out[Parameter::Sigma as usize] = fading(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
-        out[Parameter::Ks as usize] = unit * mean;
-        let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
-        out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.w, p.q));
+        if by.contains(Parameter::Ks) {
+            out[Parameter::Ks as usize] = lobes.specular.value() * mean;
+        }
+        if by.contains(Parameter::Q) {
+            let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
+            out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.w, p.q));
+        }
     }
 
-    fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, out: &mut [f64; 9]) {
+    fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, by: ParameterSet, out: &mut [f64; 9]) {
         let p = self.parameters();
-        out[Parameter::Kv as usize] = lobes.volume.value();
+        let value = |parameter: Parameter, lobe: Lobe| if by.contains(parameter) { lobe.value() } else { 0.0 };
+        out[Parameter::Kv as usize] = value(Parameter::Kv, lobes.volume);
         match self.model().diffuse {
             Diffuse::Absent => {}
-            Diffuse::Lambert => out[Parameter::Kd as usize] = lobes.diffuse.value(),
+            Diffuse::Lambert => out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse),
             Diffuse::Minnaert => {
-                out[Parameter::Kd as usize] = lobes.diffuse.value();
+                out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse);
                 out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
             }
             Diffuse::Hyde if self.model().specular => {
@@ -156,9 +189,17 @@ impl Pbrdf {
         }
     }
 
-    fn dolp_gradient(&self, lobes: &Lobes, facet: &Facet, mean: f64, mixture: &Mixture, by_index: FresnelGradient, out: &mut [f64; 9]) {
+    fn dolp_gradient(
+        &self,
+        lobes: &Lobes,
+        facet: &Facet,
+        mixture: &Mixture,
+        by_index: FresnelGradient,
+        by: ParameterSet,
+        out: &mut [f64; 9],
+    ) {
         let p = self.parameters();
-        let &Mixture { limit, share, rest, total } = mixture;
+        let &Mixture { mean, limit, share, rest, total } = mixture;
         let distribution = self.model().distribution;
         // ∂r/∂R and ∂r/∂k_s, without r/R or r/k_s, which are 0/0 in the dark.
         let by_mean = fading(rest * self.raised(p.ks), 1.0 / total);
@@ -168,18 +209,21 @@ impl Pbrdf {
         out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
         let both = limit * (share * rest);
         out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
-        out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
+        if by.contains(Parameter::Q) {
+            out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
+        }
 
         // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
         let gains = [-limit * share, 1.0 / total];
         let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gains);
-        out[Parameter::Kv as usize] = darken(lobes.volume, 1.0);
+        let darken_for = |parameter: Parameter, lobe: Lobe, weight: f64| if by.contains(parameter) { darken(lobe, weight) } else { 0.0 };
+        out[Parameter::Kv as usize] = darken_for(Parameter::Kv, lobes.volume, 1.0);
         match self.model().diffuse {
             Diffuse::Absent => {}
-            Diffuse::Lambert => out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0),
+            Diffuse::Lambert => out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0),
             Diffuse::Minnaert => {
-                out[Parameter::Kd as usize] = darken(lobes.diffuse, 1.0);
-                out[Parameter::C as usize] = darken(lobes.diffuse, p.kd) * facet.ln_cosines;
+                out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0);
+                out[Parameter::C as usize] = darken_for(Parameter::C, lobes.diffuse, p.kd) * facet.ln_cosines;
             }
             Diffuse::Hyde => {
                 let loss = self.loss(facet);
@@ -193,7 +237,8 @@ impl Pbrdf {
             }
         }
         if self.model().volume {
-            out[Parameter::SigmaV as usize] = fading(darken(lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
+            out[Parameter::SigmaV as usize] =
+                fading(darken_for(Parameter::SigmaV, lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
         }
     }
 }

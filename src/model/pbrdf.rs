@@ -168,6 +168,11 @@ impl Pbrdf {
     /// BRDF, DoLP and the terms at a prepared geometry.
     #[must_use]
     pub fn reflection(&self, facet: &Facet) -> Reflection {
+        self.reflection_with(facet, || Fresnel::new(self.index, facet))
+    }
+
+    /// The same with a Fresnel reflection that may be at hand already.
+    pub(super) fn reflection_with(&self, facet: &Facet, fresnel: impl FnOnce() -> Fresnel) -> Reflection {
         let p = &self.parameters;
         let lobes = self.lobes(facet);
         let mut reflection = Reflection {
@@ -176,7 +181,7 @@ impl Pbrdf {
             ..Reflection::default()
         };
         if self.model.specular {
-            let fresnel = Fresnel::new(self.index, facet);
+            let fresnel = fresnel();
             let mean = fresnel.mean();
             reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
             reflection.dolp = fresnel.dolp() * self.specular_share(mean, self.depolarised_over_specular(&lobes));
@@ -188,10 +193,15 @@ impl Pbrdf {
     /// DoLP at a prepared geometry, and nothing else.
     #[must_use]
     pub fn dolp(&self, facet: &Facet) -> f64 {
+        self.dolp_with(facet, || Fresnel::new(self.index, facet))
+    }
+
+    /// The same with a Fresnel reflection that may be at hand already.
+    pub(super) fn dolp_with(&self, facet: &Facet, fresnel: impl FnOnce() -> Fresnel) -> f64 {
         if !self.model.specular {
             return 0.0;
         }
-        let fresnel = Fresnel::new(self.index, facet);
+        let fresnel = fresnel();
         if self.model.diffuse == Diffuse::Absent && !self.model.volume {
             return if self.reflects_specularly() { fresnel.dolp() } else { 0.0 };
         }

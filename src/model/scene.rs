@@ -1,19 +1,38 @@
-//! A list of geometries prepared once for many evaluations.
+//! A list of geometries prepared once for many evaluations, and, where the index stays the same, their Fresnel reflection as well.
 
 use super::{Gradient, Pbrdf, Reflection, Wanted};
-use crate::optics::{Facet, Geometry};
+use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex};
+use std::sync::Arc;
 
 /// Geometries, prepared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
     facets: Vec<Facet>,
+    /// Of each facet, for surfaces of that index.
+    fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
 }
 
 impl Scene {
     /// Prepares geometries, keeping their order.
     #[must_use]
     pub fn new(geometries: impl IntoIterator<Item = Geometry>) -> Self {
-        Self { facets: geometries.into_iter().map(Facet::new).collect() }
+        Self { facets: geometries.into_iter().map(Facet::new).collect(), fresnel: None }
+    }
+
+    /// With the Fresnel reflection of all facets prepared for surfaces of one index; others are evaluated as before.
+    #[must_use]
+    pub fn with_index(self, index: RefractiveIndex) -> Self {
+        if self.fresnel.as_ref().is_some_and(|(prepared, _)| *prepared == index) {
+            return self;
+        }
+        let fresnel = self.facets.iter().map(|facet| Fresnel::new(index, facet)).collect();
+        Self { fresnel: Some((index, fresnel)), ..self }
+    }
+
+    /// Without any Fresnel reflection prepared.
+    #[must_use]
+    pub fn without_index(self) -> Self {
+        Self { fresnel: None, ..self }
     }
 
     /// How many geometries.
@@ -34,9 +53,27 @@ impl Scene {
         &self.facets
     }
 
+    /// DoLP of the geometry of that number, as [`Pbrdf::dolp`] has it.
+    #[must_use]
+    pub fn dolp(&self, surface: &Pbrdf, point: usize) -> f64 {
+        surface.dolp_with(&self.facets[point], || self.fresnel(surface, point))
+    }
+
+    /// BRDF, DoLP and terms of the geometry of that number, as [`Pbrdf::reflection`] has them.
+    #[must_use]
+    pub fn reflection(&self, surface: &Pbrdf, point: usize) -> Reflection {
+        surface.reflection_with(&self.facets[point], || self.fresnel(surface, point))
+    }
+
+    /// The same with derivatives, as [`Pbrdf::reflection_and_gradient`] has them.
+    #[must_use]
+    pub fn reflection_and_gradient(&self, surface: &Pbrdf, point: usize, wanted: Wanted) -> (Reflection, Gradient) {
+        surface.reflection_and_gradient_with(&self.facets[point], wanted, || self.fresnel(surface, point))
+    }
+
     /// BRDF, DoLP and terms of each.
     pub fn reflections<'a>(&'a self, surface: &'a Pbrdf) -> impl Iterator<Item = Reflection> + 'a {
-        self.facets.iter().map(|facet| surface.reflection(facet))
+        (0..self.len()).map(|point| self.reflection(surface, point))
     }
 
     /// The same with derivatives.
@@ -45,6 +82,39 @@ impl Scene {
         surface: &'a Pbrdf,
         wanted: Wanted,
     ) -> impl Iterator<Item = (Reflection, Gradient)> + 'a {
-        self.facets.iter().map(move |facet| surface.reflection_and_gradient(facet, wanted))
+        (0..self.len()).map(move |point| self.reflection_and_gradient(surface, point, wanted))
+    }
+
+    fn fresnel(&self, surface: &Pbrdf, point: usize) -> Fresnel {
+        match &self.fresnel {
+            Some((index, fresnel)) if *index == surface.index() => fresnel[point],
+            _ => Fresnel::new(surface.index(), &self.facets[point]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Scene;
+    use crate::model::{Model, Parameters, Pbrdf, Wanted};
+    use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
+
+    #[test]
+    fn a_prepared_index_serves_its_own_surfaces_and_no_others() {
+        let geometries = [(30.0, 50.0, 180.0), (0.0, 0.0, 0.0), (80.0, 10.0, 75.0)];
+        let geometries = geometries.map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
+        let defaults = Parameters::default();
+        let index = RefractiveIndex::new(defaults.n, defaults.k).expect("an index");
+        let scene = Scene::new(geometries).with_index(index);
+        for parameters in [defaults, Parameters { sigma: 0.1, ..defaults }, Parameters { n: 1.5, ..defaults }] {
+            let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), parameters).expect("in range");
+            for (point, geometry) in geometries.into_iter().enumerate() {
+                let facet = Facet::new(geometry);
+                assert_eq!(scene.dolp(&surface, point), surface.dolp(&facet));
+                assert_eq!(scene.reflection(&surface, point), surface.reflection(&facet));
+                let expected = surface.reflection_and_gradient(&facet, Wanted::ALL);
+                assert_eq!(scene.reflection_and_gradient(&surface, point, Wanted::ALL), expected);
+            }
+        }
     }
 }

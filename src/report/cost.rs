@@ -6,8 +6,10 @@
 use super::{Cell, Machine, Report, Row, Surroundings, Timing, gradient_error, relative_error};
 use crate::fit::{Axis, Bounds, Choices, Landscape, Problem};
 use crate::measurement::{Columns, Measurement, Simulation};
-use crate::model::{Batch, Diffuse, DolpGradients, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances, Wanted};
-use crate::optics::{Facet, Geometry, SlopeDistribution};
+use crate::model::{
+    self, Batch, Diffuse, DolpGradients, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances, Wanted,
+};
+use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
 use std::hint::black_box;
 
 /// Points of the scalar rows.
@@ -173,17 +175,17 @@ fn scenes() -> Vec<Scene> {
         Scene {
             name: "all terms, DoLP and nine derivatives",
             asked: Gradient,
-            left_out: "BRDF derivatives, rotations",
+            left_out: "BRDF and its derivatives, rotations",
             means: widest,
             ..full
         },
         Scene {
             name: "all terms, derivatives, n and k fixed",
             asked: GradientOfLobes,
-            left_out: "derivatives by n and k, BRDF derivatives, rotations",
+            left_out: "Fresnel reflection (once per fit), derivatives by n and k, BRDF and its derivatives, rotations",
             ..full
         },
-        Scene { name: "all terms, DoLP and nine derivatives", asked: Gradient, left_out: "BRDF derivatives, rotations", ..full },
+        Scene { name: "all terms, DoLP and nine derivatives", asked: Gradient, left_out: "BRDF and its derivatives, rotations", ..full },
         Scene {
             name: "landscape of ΔE over n and k, 27 points, all threads",
             in_plane: true,
@@ -287,7 +289,13 @@ impl Scene {
             Means::AllThreads => MANY_POINTS,
         };
         let facets = facets(count, self.in_plane);
-        let time = if self.means == Means::Scalar {
+        let time = if self.asked == Asked::GradientOfLobes {
+            let index = RefractiveIndex::new(surface.parameters().n, surface.parameters().k).ok()?;
+            let prepared = model::Scene::new(facets.iter().map(|(geometry, _)| *geometry)).with_index(index);
+            Timing::of(surroundings.clock, || {
+                prepared.reflections_and_gradients(black_box(surface), self.wanted()).for_each(|at| _ = black_box(at));
+            })
+        } else if self.means == Means::Scalar {
             Timing::of(surroundings.clock, || {
                 for (geometry, facet) in &facets {
                     self.evaluate(black_box(surface), *geometry, facet);
