@@ -217,7 +217,7 @@ impl Cost {
              full scalar evaluation, over a dozen surfaces: in units of the last place where terms or derivatives are only left out, relative \
              for the batch kernel, whose exponential and logarithm are its own (gradients: an error relative to the largest component counts too)."
                 .to_owned(),
-            "Instructions per point are counted by `valgrind --tool=callgrind --toggle-collect='*Pbrdf*dolp*' pbrdf-explorer report cost`.".to_owned(),
+            "Instructions per point are counted by valgrind's callgrind; the commands are at the top of benches/cost.rs.".to_owned(),
         ];
         Report::new("What a scene costs", machine, date, rows, notes)
     }
