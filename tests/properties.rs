@@ -1,11 +1,14 @@
-//! What must hold everywhere: never NaN, 0 ≤ DoLP ≤ DoLP_s ≤ 1, BRDF ≥ 0, admissible Mueller matrices, reciprocity.
-#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+//! What must hold everywhere: never NaN, 0 ≤ DoLP ≤ DoLP_s ≤ 1, BRDF ≥ 0, admissible Mueller matrices, reciprocity, derivatives
+//! that are those of the values.
+#![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
 
 use nalgebra::Complex;
 use nalgebra::Matrix4;
 use pbrdf::model::{Diffuse, Model, Parameter, Parameters, Pbrdf, Wanted};
 use pbrdf::optics::{Facet, Geometry, Mueller, SlopeDistribution};
-use proptest::prelude::*;
+use proptest::prelude::{Just, ProptestConfig, Strategy, prop, prop_assert, prop_oneof, proptest};
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 
 /// A value in a range, its edges and their nearest neighbours included.
 fn in_range(low: f64, high: f64) -> impl Strategy<Value = f64> {
@@ -18,7 +21,17 @@ fn in_range(low: f64, high: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
+/// The box, its edges, and now and then a surface that light hardly sees, some units in the last place from N = 1.
 fn in_box() -> impl Strategy<Value = Parameters> {
+    let near_one = (0..4_u64, prop::bool::ANY).prop_map(|(ulps, up)| {
+        let bits = 1.0_f64.to_bits();
+        f64::from_bits(if up { bits + ulps } else { bits - ulps })
+    });
+    let faint = (anywhere_in_box(), near_one).prop_map(|(parameters, n)| Parameters { n, k: 0.0, ..parameters });
+    prop_oneof![9 => anywhere_in_box(), 1 => faint]
+}
+
+fn anywhere_in_box() -> impl Strategy<Value = Parameters> {
     let of = |parameter: Parameter| in_range(*parameter.range().start(), *parameter.range().end());
     Parameter::ALL.map(of).prop_map(|values| {
         let mut parameters = Parameters::default();
@@ -50,15 +63,26 @@ fn in_domain() -> impl Strategy<Value = Parameters> {
     )
 }
 
+/// Two directions; now and then the same twice, the mirror direction, or a neighbour of either.
 fn geometry() -> impl Strategy<Value = Geometry> {
     let zenith = || in_range(0.0, 90.0_f64.next_down());
-    let azimuth = prop_oneof![Just(0.0), Just(180.0), Just(-180.0), -720.0..720.0_f64];
-    (zenith(), zenith(), azimuth).prop_map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"))
+    let azimuth = || prop_oneof![Just(0.0), Just(180.0), Just(-180.0), Just(180.0_f64.next_up()), Just(5e-324), -720.0..720.0_f64];
+    let anywhere = (zenith(), zenith(), azimuth());
+    let neighbours = (zenith(), 0..3_u8, azimuth()).prop_map(|(theta, step, dphi)| {
+        let other = match step {
+            0 => theta,
+            1 => theta.next_up().min(90.0_f64.next_down()),
+            _ => theta.next_down().max(0.0),
+        };
+        (theta, other, dphi)
+    });
+    prop_oneof![4 => anywhere, 1 => neighbours]
+        .prop_map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"))
 }
 
 /// The nine-parameter model, or with Hyde's balance for its diffuse term.
 fn model() -> impl Strategy<Value = Model> {
-    (distribution(), prop_oneof![3 => Just(Diffuse::Minnaert), 1 => Just(Diffuse::Hyde)], any::<bool>())
+    (distribution(), prop_oneof![3 => Just(Diffuse::Minnaert), 1 => Just(Diffuse::Hyde)], prop::bool::ANY)
         .prop_map(|(distribution, diffuse, volume)| Model { diffuse, volume, ..Model::full(distribution) })
 }
 
@@ -93,6 +117,11 @@ fn admissibility(mueller: &Mueller) -> f64 {
 const EIGENVALUE: f64 = 1e-12;
 /// DoLP and its limit are rounded apart.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Derivatives below this count as 0, as in the measure of the reference tables.
+const NEGLIGIBLE: f64 = 1e-30;
+/// Relative step of the numerical derivatives: ε^(1/4), between rounding and curvature.
+const DIFFERENCE: f64 = 1e-4;
 
 /// Half a second of them; `PROPTEST_CASES` does not reach here, so that CI and users try the same number.
 const CASES: u32 = 20_000;
@@ -138,5 +167,96 @@ proptest! {
         // The same products in another order.
         prop_assert!((there.brdf - again.brdf).abs() <= 1e-12 * there.brdf, "{} {}", there.brdf, again.brdf);
         prop_assert!((there.dolp - again.dolp).abs() <= 1e-12, "{} {}", there.dolp, again.dolp);
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_values(parameters in in_box(), geometry in geometry(), distribution in distribution()) {
+        let model = Model::full(distribution);
+        let facet = Facet::new(geometry);
+        let at = |parameters: Parameters| {
+            let reflection = Pbrdf::new(model, parameters).expect("the box lies well inside the domain").reflection(&facet);
+            [reflection.brdf, reflection.dolp]
+        };
+        let (_, gradient) = Pbrdf::new(model, parameters).expect("the box lies in the domain").reflection_and_gradient(&facet, Wanted::ALL);
+        let (n, k) = (parameters.n, parameters.k);
+        for parameter in model.parameters() {
+            let value = parameters[parameter];
+            let step = DIFFERENCE * if parameter == Parameter::Q { value - 1.0 } else { value.abs().max(DIFFERENCE) };
+            // Where a parameter ends there are one-sided derivatives; at the critical angle infinite ones; around N = 1 a dip that
+            // may be far narrower than the step.
+            let ends = value - 2.0 * step < 0.0 && parameter != Parameter::C;
+            let critical = libm::hypot((n - k) * (n + k) - facet.sin_beta_sq, 2.0 * n * k) < 20.0 * DIFFERENCE * (n * n + k * k);
+            let dark = libm::hypot(n - 1.0, k) < 20.0 * DIFFERENCE;
+            let of_index = parameter == Parameter::N || parameter == Parameter::K;
+            if ends || (of_index && (critical || dark)) {
+                continue;
+            }
+            let moved = |by: f64| {
+                let mut moved = parameters;
+                moved[parameter] += by * step;
+                (moved[parameter], at(moved))
+            };
+            let [down_2, down, here, up, up_2] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(moved);
+            for (i, analytic) in [gradient.brdf[parameter as usize], gradient.dolp[parameter as usize]].into_iter().enumerate() {
+                let between = |low: &(f64, [f64; 2]), high: &(f64, [f64; 2])| (high.1[i] - low.1[i]) / (high.0 - low.0);
+                let (near, far) = (between(&down, &up), between(&down_2, &up_2));
+                let (before, after) = (between(&down, &here), between(&here, &up));
+                // Something smaller than the step lies between them: an extremum, the edge of total reflection.
+                if (after - before).abs() > 0.1 * before.abs().max(after.abs()) {
+                    continue;
+                }
+                // What the two steps disagree by is the error of the farther one; values are rounded.
+                let rounding = 1e3 * f64::EPSILON * up_2.1[i].abs().max(down_2.1[i].abs()) / step;
+                let bar = 4.0 * (near - far).abs() + rounding + NEGLIGIBLE;
+                prop_assert!((analytic - near).abs() <= bar, "{parameter:?} of {i}: {analytic:e}, by differences {near:e} or {far:e}");
+            }
+        }
+    }
+}
+
+/// Evaluations of the long run.
+const HUNDRED_MILLION: u64 = 100_000_000;
+
+/// `cargo test --release --test properties -- --ignored --nocapture`: about a minute.
+#[test]
+#[ignore = "a minute in a release build"]
+fn a_hundred_million_random_evaluations_are_all_numbers() {
+    let mut random = Pcg64::seed_from_u64(20_211_129);
+    let mut infinite = 0_u64;
+    for _ in 0..HUNDRED_MILLION {
+        let mut parameters = Parameters::default();
+        for parameter in Parameter::ALL {
+            let (low, high) = parameter.range().into_inner();
+            parameters[parameter] = place(&mut random, low, high);
+        }
+        let last = 90.0_f64.next_down();
+        let [theta_i, theta_r] = [(); 2].map(|()| place(&mut random, 0.0, last));
+        let dphi = place(&mut random, -180.0, 180.0);
+        let distribution = if random.next_u64() & 1 == 0 { SlopeDistribution::Gauss } else { SlopeDistribution::Cauchy };
+        let surface = Pbrdf::new(Model::full(distribution), parameters).expect("the box lies in the domain");
+        let facet = Facet::new(Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
+        let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        assert!(reflection.brdf.is_finite() && (0.0..=1.0).contains(&reflection.dolp), "{parameters:?} {facet:?}");
+        for derivative in gradient.brdf.iter().chain(&gradient.dolp) {
+            assert!(!derivative.is_nan(), "{parameters:?} {facet:?}");
+            infinite += u64::from(derivative.is_infinite());
+        }
+    }
+    println!("{HUNDRED_MILLION} evaluations with 18 derivatives each: no NaN, {infinite} derivatives beyond f64");
+}
+
+/// A value in a range: mostly inside, one time in sixteen an edge or its neighbour.
+fn place(random: &mut Pcg64, low: f64, high: f64) -> f64 {
+    let drawn = random.next_u64();
+    match drawn & 63 {
+        0 => low,
+        1 => high,
+        2 => low.next_up(),
+        3 => high.next_down(),
+        _ => {
+            #[expect(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
+            let fraction = (drawn >> 11) as f64 / 9_007_199_254_740_992.0;
+            low + (high - low) * fraction
+        }
     }
 }

@@ -72,8 +72,10 @@ impl Lobe {
             return 0.0;
         }
         let (x, rest) = self.exponent_over(other);
-        let factor = a * b * (self.factor / other.factor);
-        let ratio = if factor != 0.0 && factor.is_finite() {
+        let gain = a * b;
+        let factor = gain * (self.factor / other.factor);
+        // A subnormal product has lost digits.
+        let ratio = if gain.is_normal() && factor.is_normal() {
             times_exp(factor, x)
         } else {
             let exponent = libm::log(a.abs()) + libm::log(b.abs()) + libm::log(self.factor) - libm::log(other.factor) + x;

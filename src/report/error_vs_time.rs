@@ -1,7 +1,7 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits.
 
 use super::figure::{Axis, Figure, Panel, Series};
-use super::fit_race::{Race, Step};
+use super::fit_race::{LADDER, Race, Step};
 use super::reference::{Reference, golden, relative_error};
 use super::textbook::{textbook_f32, textbook_f64};
 use super::{Cell, Machine, Report, Row, Surroundings, Timing, quantile};
@@ -78,10 +78,10 @@ impl ErrorVsTime {
         let mut race = if (surroundings.cancelled)() { Race::default() } else { Race::run(surroundings) };
         rows.append(&mut race.rows);
         let figures = vec![
-            ("evaluate", work_precision(&rows, TaskKind::Evaluate)),
+            ("evaluate", work_precision(&rows, Compared::Evaluations)),
             ("fit", along_fits(&race.curves)),
             ("profile", performance_profile(&race.profiles)),
-            ("models", work_precision(&rows, TaskKind::Fit)),
+            ("models", work_precision(&rows, Compared::Models)),
         ];
         let further = curves(&rows, &race);
         Report { figures, further, ..Report::new("Error against run time", machine, date, rows, notes(golden.len())) }
@@ -123,44 +123,63 @@ fn curves(rows: &[ErrorVsTime], race: &Race) -> Map<String, Value> {
 /// Errors below a tenth of a rounding are drawn there: a logarithmic axis has no 0.
 const DRAWN_AT_LEAST: f64 = 1e-17;
 
+/// What a work–precision diagram compares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Compared {
+    Evaluations,
+    Models,
+}
+
 /// Work–precision diagram: from the median to the worst error at the time of each method.
-fn work_precision(rows: &[ErrorVsTime], task: TaskKind) -> Figure {
-    let of_task = rows.iter().filter(|row| row.task == task);
-    let series = of_task.flat_map(|row| {
-        let ends = [row.median_relative_error, row.worst_relative_error].map(|error| [row.time, error.max(DRAWN_AT_LEAST)]);
-        [Series::line(row.method.clone(), ends.to_vec()), Series::points(row.method.clone(), ends)]
-    });
-    let (title, time) = match task {
-        TaskKind::Evaluate => ("Evaluation: error against time", Axis::log("time of a point", "ns")),
-        TaskKind::Fit => ("Fits and models: error against time", Axis::log("time of a fit", "ms")),
+fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
+    let belongs = |row: &&ErrorVsTime| match compared {
+        Compared::Evaluations => row.task == TaskKind::Evaluate,
+        Compared::Models => row.task == TaskKind::Fit && row.method.starts_with(LADDER),
     };
-    let y = Axis::log("relative error, median to worst", "");
-    let panel = Panel { x: time, y, series: series.collect(), ..Panel::default() };
+    let rows: Vec<&ErrorVsTime> = rows.iter().filter(belongs).collect();
+    let series = rows.iter().flat_map(|row| {
+        let ends = [row.median_relative_error, row.worst_relative_error].map(|error| [row.time, error.max(DRAWN_AT_LEAST)]);
+        let name = row.method.trim_start_matches(LADDER);
+        [Series::line(name, ends.to_vec()), Series::points(name, ends)]
+    });
+    let (title, label, unit) = match compared {
+        Compared::Evaluations => ("Evaluation: error against time", "time of a point", "ns"),
+        Compared::Models => ("Models on the same data: error of DoLP against time", "time of a fit with many starts", "ms"),
+    };
+    let fastest = rows.iter().map(|row| row.time).fold(f64::INFINITY, f64::min);
+    let slowest = rows.iter().map(|row| row.time).fold(0.0, f64::max);
+    let panel = Panel {
+        x: Axis::log(label, unit).between(0.7 * fastest, 1.4 * slowest),
+        y: Axis::log("relative error, median to worst", ""),
+        series: series.collect(),
+        ..Panel::default()
+    };
     Figure { title: title.to_owned(), panels: vec![panel], height_mm: 130.0, ..Figure::default() }
 }
 
 /// Objective and distance to the truth along one fit.
 fn along_fits(curves: &[(String, Vec<Step>)]) -> Figure {
     let panel = |label: &str, i: usize| {
+        // Many starts are another matter: the clock has run before the winning one begins.
+        let single = curves.iter().filter(|(_, steps)| steps.iter().all(|step| !step[2].is_nan()));
         let line = |(method, steps): &(String, Vec<Step>)| {
             let points = steps.iter().map(|step| [step[0], step[i]]).filter(|[ms, y]| *ms > 0.0 && *y > 0.0);
             Series::line(method.clone(), points.collect())
         };
-        let series: Vec<Series> = curves.iter().map(line).collect();
+        let series: Vec<Series> = single.map(line).collect();
         Panel { x: Axis::log("elapsed", "ms"), y: Axis::log(label, ""), series, legend: i == 1, ..Panel::default() }
     };
     let panels = vec![panel("objective ΔE", 1), panel("distance to the truth", 2)];
-    Figure {
-        title: "Along one fit: noise-free Gauss data, dense angles, from the defaults".to_owned(),
-        panels,
-        height_mm: 190.0,
-        ..Figure::default()
-    }
+    let title = "Along one fit: noise-free Gauss data, dense angles, from the defaults".to_owned();
+    Figure { title, panels, height_mm: 190.0, ..Figure::default() }
 }
 
 /// Dolan and Moré's performance profile.
 fn performance_profile(profiles: &[(String, Vec<[f64; 2]>)]) -> Figure {
-    let series = profiles.iter().map(|(method, steps)| Series::steps(method.clone(), steps.clone())).collect();
+    let last = profiles.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).fold(1.0, f64::max);
+    // Each goes on to the end at the share it has reached.
+    let to_the_end = |steps: &[[f64; 2]]| steps.iter().copied().chain(steps.last().map(|step| [2.0 * last, step[1]])).collect();
+    let series = profiles.iter().map(|(method, steps)| Series::steps(method.clone(), to_the_end(steps))).collect();
     let x = Axis::log("time over that of the fastest method", "");
     let y = Axis::linear("share of problems solved", "").between(0.0, 1.05);
     let panel = Panel { x, y, series, ..Panel::default() };

@@ -45,6 +45,9 @@ const METHODS: [Method; 6] = [
     Method::Many,
 ];
 
+/// What the names of the ladder's rows begin with.
+pub(super) const LADDER: &str = "model ";
+
 /// Starts of each problem, and repetitions of each fit.
 const STARTS: u32 = 5;
 const REPETITIONS: usize = 3;
@@ -472,7 +475,7 @@ fn ladder(surroundings: Surroundings<'_>) -> Vec<ErrorVsTime> {
         errors.sort_by(f64::total_cmp);
         rows.push(ErrorVsTime {
             task: TaskKind::Fit,
-            method: format!("model {}", preset.key),
+            method: format!("{LADDER}{}", preset.key),
             time,
             spread: f64::NAN,
             worst_relative_error: quantile(&errors, 1.0),
