@@ -2,6 +2,7 @@
 
 use super::curves::{Curves, Marks, Pieces};
 use super::panes::Pane;
+use super::plots::Ribbon;
 use super::session::{Recipe, Session};
 use super::window::Explorer;
 use crate::export;
@@ -183,22 +184,41 @@ fn measured(marks: &Marks, name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Ve
     [used, masked].into_iter().filter(is_there).collect()
 }
 
+/// The band around a fitted curve; its pieces do not join.
+fn band(ribbons: &[Ribbon], name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Series {
+    let piece = |ribbon: &Ribbon| -> Vec<[f64; 3]> {
+        let ends = ribbon.low.iter().zip(&ribbon.high);
+        ribbon.x.iter().zip(ends).map(|(x, (low, high))| [*x, y(*low), y(*high)]).chain([[f64::NAN; 3]]).collect()
+    };
+    Series::band(name, ribbons.iter().flat_map(piece).collect()).colored(color)
+}
+
 fn dolp(explorer: &Explorer) -> Option<Figure> {
     let Explorer { derived, settings, views, document, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
     let plain = |y: f64| y;
     let limit = |curves: &Curves, color| Series::dashed("Fresnel limit", points(&curves.limit, plain), Dash::Dashed).colored(color);
+    let share = |curves: &Curves, color| Series::dashed("specular share", points(&curves.share, plain), Dash::Dotted).colored(color);
     let mut series = Vec::new();
-    for ((curves, marks), color) in curves.series.iter().zip(&marks.series).zip(SERIES) {
+    for (i, ((curves, marks), color)) in curves.series.iter().zip(&marks.series).zip(SERIES).enumerate() {
         if settings.show_limit {
             series.push(limit(curves, color));
         }
+        if let Some(ribbons) = views.dolp.band.get().and_then(|bands| bands.get(i)) {
+            series.push(band(ribbons, &marks.name, color, plain));
+        }
         series.push(Series::line(&marks.name, points(&curves.dolp, plain)).colored(color));
         series.extend(measured(&marks.dolp, &marks.name, color, plain));
+        if settings.shown.share {
+            series.push(share(curves, color));
+        }
     }
     if curves.own_is_series.is_none() {
         if settings.show_limit {
             series.push(limit(&curves.own, FOREGROUND));
+        }
+        if settings.shown.share {
+            series.push(share(&curves.own, FOREGROUND));
         }
         let name = format!("θi = {}° (slider)", settings.theta_i);
         series.push(Series::line(name, points(&curves.own.dolp, plain)).colored(FOREGROUND));
@@ -217,7 +237,11 @@ fn lobes(explorer: &Explorer) -> Option<Figure> {
     let quantity = if key.brdf.times_cosine { "BRDF × cos θr" } else { "BRDF" };
     let value = |y: f64| if log { libm::exp10(y) } else { y };
     let mut series = Vec::new();
-    for ((curves, marks), color) in curves.series.iter().zip(&marks.series).zip(SERIES).filter(|((_, marks), _)| marks.brdf.is_there()) {
+    let all = curves.series.iter().zip(&marks.series).zip(SERIES).enumerate();
+    for (i, ((curves, marks), color)) in all.filter(|(_, ((_, marks), _))| marks.brdf.is_there()) {
+        if let Some(ribbons) = views.lobes.band.get().and_then(|bands| bands.get(i)) {
+            series.push(band(ribbons, &marks.name, color, value));
+        }
         series.push(Series::line(&marks.name, points(&curves.total, value)).colored(color));
         series.extend(measured(&marks.brdf, &marks.name, color, value));
     }

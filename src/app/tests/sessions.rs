@@ -107,7 +107,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         (good.replacen(&parameter("sigma"), "\"sigma\": 1e999", 1), "out of range"),
         (good.replacen(&parameter("sigma"), "\"sigma\": null", 1), "settings.parameters.sigma"),
         (good.replacen(&parameter("sigma"), "\"sigma\": -3.0", 1), "sigma = -3"),
-        (good.replacen(&parameter("theta_i"), "\"theta_i\": 90.0", 1), "outside its range"),
+        (good.replacen("\"theta_i\": 35.5", "\"theta_i\": 90.0", 1), "outside its range"),
         (good.replacen(&row, &bad_angle, 1), "measurement.table: line"),
         (good.replacen(&row, &row.replacen("0\",", "2\",", 1), 1), "masked"),
         (good.replacen("\"fits\": [", "\"fits\": [7, ", 1), "fits[0]"),
