@@ -98,8 +98,8 @@ fn every_option_of_every_pane_can_be_switched() {
                 harness.get_by_label(&format!("Show in {}", pane.entry().title)).click();
                 harness.run();
             }
-            // A legend may have an entry of the same name; the menu is drawn after it.
-            harness.query_all_by_label(option).last().expect("an option").click();
+            // A legend may have an entry of the same name; that of the menu comes first.
+            harness.query_all_by_label(option).next().expect("an option").click();
             harness.run();
             assert_ne!(explorer(&mut harness).settings, before, "{option}");
         }
