@@ -268,7 +268,7 @@ struct Shown<'a> {
 
 impl Behavior<Pane> for Shown<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
-        egui::Frame::new().inner_margin(egui::Margin { left: 2, right: 10, top: 6, bottom: 2 }).show(ui, |ui| {
+        egui::Frame::new().inner_margin(egui::Margin { left: 4, right: 10, top: 6, bottom: 2 }).show(ui, |ui| {
             (pane.entry().ui)(self.explorer, ui);
         });
         UiResponse::None

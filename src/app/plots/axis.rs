@@ -36,7 +36,10 @@ pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
 pub fn decimal(value: f64, step_size: f64) -> String {
     // Adding 0 turns -0 into 0.
     let value = value + 0.0;
-    if value != 0.0 && !(1e-3..1e5).contains(&step_size) {
+    if !(1e-3..1e5).contains(&step_size) {
+        if value == 0.0 {
+            return "0".to_owned();
+        }
         let decade = |x: f64| libm::log10(x.abs() * (1.0 + 1e-9)).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of digits from 0 to 12")]
         let digits = (decade(value) - decade(step_size)).clamp(0.0, 12.0) as usize;

@@ -42,6 +42,9 @@ struct Way {
     y: Option<Range>,
 }
 
+/// Room around the drawing, as a fraction of it.
+const AIR: f64 = 0.05;
+
 impl Way {
     #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
     fn new(trace: &[TracePoint], by_time: bool) -> Self {
@@ -55,14 +58,19 @@ impl Way {
         let first = heights.next();
         let (low, high) = heights.fold((first.unwrap_or(0.0), first.unwrap_or(0.0)), |(low, high), y| (low.min(y), high.max(y)));
         let end = trace.last().map_or(1.0, x);
-        let air = if end > 0.0 { 0.04 * end } else { 1.0 };
+        let air = if end > 0.0 { AIR * end } else { 1.0 };
         Self {
             steps,
             points,
             x: Some(Range { low: -air, high: end + air }),
-            y: Some(Range { low: (low - 0.1).floor(), high: (high + 0.1).ceil() }),
+            y: Some(Range { low: low - AIR * (high - low) - 0.01, high: high + AIR * (high - low) + 0.01 }),
         }
     }
+}
+
+/// ΔE at a mark of the logarithmic axis: a power of ten, or a number where marks are closer than decades.
+fn objective(exponent: f64, step_size: f64) -> String {
+    if step_size >= 1.0 { power_of_ten(exponent, step_size) } else { format!("{:.2e}", libm::exp10(exponent)) }
 }
 
 pub fn convergence_refresh(explorer: &mut Explorer) {
@@ -99,9 +107,9 @@ pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let title = if settings.shown.convergence_by_time { "time / ms" } else { "residual evaluations" };
     let x = axis(AxisHints::new_x(), ui, title, decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "ΔE", power_of_ten);
+    let y = axis(AxisHints::new_y(), ui, "ΔE", objective);
     let response = plot("convergence", ui, ui.available_height(), x, y)
-        .y_grid_spacer(|input| axis::marks(&input, 5.0, 1.0))
+        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { position, .. } => {
                 Some(format!("{title}: {}\nΔE = {:.6e}", decimal(position.x, 0.1), libm::exp10(position.y)))

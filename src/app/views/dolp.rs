@@ -165,10 +165,10 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
             if settings.shown.share {
                 for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.share, "specular share", theme::series(i, dark), Some(LineStyle::dashed_loose()), 1.0);
+                    curve(plot, &curves.share, "specular share", theme::series(i, dark).gamma_multiply(0.65), None, 1.0);
                 }
                 if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.share, "specular share", theme::foreground(dark), Some(LineStyle::dashed_loose()), 1.0);
+                    curve(plot, &curves.own.share, "specular share", theme::foreground(dark).gamma_multiply(0.65), None, 1.0);
                 }
             }
             for (i, pieces) in view.overlay.get().into_iter().flatten().enumerate() {

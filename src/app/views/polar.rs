@@ -5,6 +5,7 @@
 use crate::app::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
 use crate::app::document::Series;
 use crate::app::memo::Memo;
+use crate::app::panels::significant;
 use crate::app::plots::{Axes, Following, Range, curve, legend, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -116,7 +117,7 @@ fn rings(range: Range, log: bool) -> Vec<(f64, String)> {
 }
 
 fn short(value: f64) -> String {
-    crate::app::panels::significant(value)
+    if (1e-3..1e4).contains(&value) { significant(value) } else { format!("{value:.2e}") }
 }
 
 /// What is drawn in the pane.
@@ -155,9 +156,6 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let response = plot.show(ui, |plot| {
         view.axes.apply(plot, Some(Range { low: -1.3, high: 1.3 }), Some(Range { low: -0.2, high: 1.3 }));
         protractor(plot, &lobes.rings, ink, dark);
-        if in_plane {
-            rays(plot, settings.theta_i, ink);
-        }
         for (pieces, name, color, width) in [
             (&lobes.specular, "specular", theme::specular(dark), 1.5),
             (&lobes.diffuse, "diffuse", theme::diffuse(dark), 1.5),
@@ -172,15 +170,21 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
             curve(plot, pieces, name, color, None, width);
         }
+        if in_plane {
+            rays(plot, settings.theta_i, ink);
+        }
         let note = if in_plane {
             format!("θi = {}°, plane of incidence", settings.theta_i)
         } else {
             format!("θi = {}°, Δφ = {}°: the incident ray is outside this plane", settings.theta_i, settings.dphi)
         };
-        plot.text(Text::new("", PlotPoint::new(0.0, -0.1), RichText::new(note).color(ink)).allow_hover(false));
+        plot.text(Text::new("", PlotPoint::new(0.0, -0.1), RichText::new(note).color(ink).size(LETTERS)).allow_hover(false));
     });
     view.axes.listen(&response, ui);
 }
+
+/// Size of the letters in the drawing.
+const LETTERS: f32 = 12.0;
 
 /// A piece with the origin, as an area.
 fn closed(piece: &[PlotPoint]) -> Vec<PlotPoint> {
@@ -195,14 +199,17 @@ fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark
         let theta_r = f64::from(degrees);
         plot.line(still(vec![PlotPoint::new(0.0, 0.0), direction(theta_r, 1.0)], grid).width(1.0));
         if degrees % 30 == 0 {
-            let label = RichText::new(format!("{}°", degrees.abs())).color(ink);
-            plot.text(Text::new("", direction(theta_r, 1.09), label).allow_hover(false));
+            let label = RichText::new(format!("{}°", degrees.abs())).color(ink).size(LETTERS);
+            let mut at = direction(theta_r, 1.09);
+            // Above the surface, not across it.
+            at.y = at.y.max(0.05);
+            plot.text(Text::new("", at, label).allow_hover(false));
         }
     }
     for (radius, label) in rings {
         let arc = (-90..=90).step_by(3).map(|degrees| direction(f64::from(degrees), *radius)).collect();
         plot.line(still(arc, grid).width(1.0));
-        let label = RichText::new(label).color(ink).small();
+        let label = RichText::new(label).color(ink).size(LETTERS);
         plot.text(Text::new("", PlotPoint::new(*radius, -0.01), label).anchor(Align2::CENTER_TOP).allow_hover(false));
     }
     plot.line(still(vec![PlotPoint::new(-1.2, 0.0), PlotPoint::new(1.2, 0.0)], ink).width(2.5));
@@ -211,10 +218,12 @@ fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark
 /// The incident ray and the mirror direction.
 fn rays(plot: &mut PlotUi<'_>, theta_i: f64, ink: Color32) {
     let origin = PlotPoint::new(0.0, 0.0);
-    let from = direction(-theta_i, 1.2);
-    let ray = Arrows::new("incident ray", PlotPoints::Owned(vec![from]), PlotPoints::Owned(vec![origin]));
-    plot.arrows(ray.color(ink).tip_length(10.0).allow_hover(false));
-    let mirror = Line::new("mirror direction", PlotPoints::Owned(vec![origin, direction(theta_i, 1.2)]));
+    // The tip half way: at the origin all lobes meet.
+    let (from, tip) = (direction(-theta_i, 1.04), direction(-theta_i, 0.6));
+    let ray = Arrows::new("incident ray", PlotPoints::Owned(vec![from]), PlotPoints::Owned(vec![tip]));
+    plot.arrows(ray.color(ink).tip_length(12.0).allow_hover(false));
+    plot.line(Line::new("incident ray", PlotPoints::Owned(vec![tip, origin])).color(ink).width(1.0).allow_hover(false));
+    let mirror = Line::new("mirror direction", PlotPoints::Owned(vec![origin, direction(theta_i, 1.04)]));
     plot.line(mirror.color(ink).width(1.0).style(LineStyle::dashed_dense()).allow_hover(false));
 }
 
