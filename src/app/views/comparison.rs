@@ -4,9 +4,10 @@ use crate::app::command::Command;
 use crate::app::panels::significant;
 use crate::app::theme;
 use crate::app::window::Explorer;
+use crate::app::words;
 use crate::app::worker::{Job, Rung};
 use egui::{CollapsingHeader, Grid, ScrollArea, Ui};
-use pbrdf::fit::{FitReport, Standing};
+use pbrdf::fit::{Contest, FitReport, Standing};
 use pbrdf::model::Parameter;
 
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
@@ -35,11 +36,11 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
         return;
     }
     ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+        models_ui(comparison, settings.model, commands, ui);
+        ui.add_space(6.0);
         for sentence in verdicts(comparison) {
             ui.label(sentence);
         }
-        models_ui(comparison, settings.model, commands, ui);
-        ui.add_space(6.0);
         CollapsingHeader::new("Starts and where they led").show(ui, |ui| starts_ui(comparison, ui));
     });
 }
@@ -102,7 +103,7 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
         let text = match estimate.standing() {
             Standing::Fixed => format!("{value} fixed"),
             Standing::AtBound(_) => format!("{value} at bound"),
-            Standing::Determined(error) => format!("{value} ± {error:.0e}"),
+            Standing::Determined(error) => format!("{value} ± {}", words::short(error)),
             Standing::NoFreedom => format!("{value} no d.o.f."),
             Standing::Open => format!("{value} open"),
         };
@@ -132,22 +133,12 @@ fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
 /// Minima of one model that are listed at most.
 const MOST_MINIMA: usize = 6;
 
-/// Differences of AICc below which two models describe the data alike (Burnham and Anderson, 2002, section 2.6).
-const ALIKE: f64 = 2.0;
-
 /// Gauss against Cauchy, in words.
 fn verdicts(comparison: &[Rung]) -> Vec<String> {
     let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
-        let (cauchy, gauss) = (report(cauchy)?, report(gauss)?);
-        let (on_cauchy, on_gauss) = (cauchy.objective?, gauss.objective?);
-        let words = match cauchy.aicc.zip(gauss.aicc).map(|(cauchy, gauss)| gauss - cauchy) {
-            None => String::new(),
-            Some(gain) if gain.abs() < ALIKE => "; by AICc the data do not tell them apart".to_owned(),
-            Some(gain) if gain > 0.0 => format!("; AICc prefers Cauchy by {gain:.1}"),
-            Some(gain) => format!("; AICc prefers Gauss by {:.1}", -gain),
-        };
-        Some(format!("Cauchy against Gauss ({terms}): ΔE {on_cauchy:.3e} against {on_gauss:.3e}{words}."))
+        let contest = Contest::new(report(gauss)?, report(cauchy)?)?;
+        Some(format!("Cauchy against Gauss ({terms}): {}", contest.text()))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

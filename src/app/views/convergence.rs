@@ -50,9 +50,13 @@ impl Way {
     fn new(trace: &[TracePoint], by_time: bool) -> Self {
         let x = |point: &TracePoint| if by_time { point.elapsed_ms } else { point.evaluations as f64 };
         let y = |point: &TracePoint| Some(libm::log10(point.objective));
-        // ΔE stays as it is until the next improvement: steps, not slopes.
-        let corners = trace.windows(2).flat_map(|pair| [(x(&pair[0]), y(&pair[0])), (x(&pair[1]), y(&pair[0]))]);
-        let steps = pieces(corners.chain(trace.last().map(|last| (x(last), y(last)))));
+        // ΔE stays as it is until the next improvement: steps, not slopes. Each edge is a piece of its own, since the corners of one
+        // long line are drawn as filled wedges.
+        let edges = |pair: &[TracePoint]| {
+            let ((from, high), (to, low)) = ((x(&pair[0]), y(&pair[0])), (x(&pair[1]), y(&pair[1])));
+            [(from, high), (to, high), (to, None), (to, high), (to, low), (to, None)]
+        };
+        let steps = pieces(trace.windows(2).flat_map(edges));
         let points = pieces(trace.iter().map(|point| (x(point), y(point))));
         let mut heights = points.iter().flatten().map(|point| point.y);
         let first = heights.next();

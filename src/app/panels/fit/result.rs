@@ -93,7 +93,7 @@ fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
-                ui.label(format!("{:.1e}", scatter.std_error)).on_hover_text(format!("16th to 84th percentile: {low} … {high}"));
+                ui.label(words::short(scatter.std_error)).on_hover_text(format!("16th to 84th percentile: {low} … {high}"));
             }
             ui.end_row();
         }
@@ -194,7 +194,7 @@ fn error_text(estimate: &Estimate) -> String {
         Standing::Fixed => "fixed".to_owned(),
         Standing::AtBound(Edge::Lower) => "at lower bound".to_owned(),
         Standing::AtBound(Edge::Upper) => "at upper bound".to_owned(),
-        Standing::Determined(error) => format!("{error:.1e} {}", estimate.parameter.unit()).trim_end().to_owned(),
+        Standing::Determined(error) => format!("{} {}", words::short(error), estimate.parameter.unit()).trim_end().to_owned(),
         Standing::NoFreedom => "no d.o.f.".to_owned(),
         Standing::Open => "open".to_owned(),
     }
