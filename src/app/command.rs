@@ -5,9 +5,10 @@ use super::language::Language;
 use super::leaving::{Outgoing, PLOTS};
 use super::panes::{PANES, Pane};
 use super::state::Theme;
+use super::views;
 use super::window::Explorer;
 use egui::{Key, KeyboardShortcut, Modifiers};
-use pbrdf::model::{PRESETS, Parameter, Preset};
+use pbrdf::model::{FINISHES, PRESETS, Parameter, Preset};
 use std::borrow::Cow;
 use std::path::PathBuf;
 
@@ -72,6 +73,10 @@ pub enum Command {
     /// Text to the sliders.
     PasteParameters(String),
     ResetParameters,
+    /// Those sliders to those values.
+    SetParameters(Vec<(Parameter, f64)>),
+    /// σ, q and the weights of the surface finish of that number.
+    UseFinish(usize),
     /// The terms of that preset, by its key.
     UseModel(&'static str),
     /// Fit all models of the ladder.
@@ -257,6 +262,18 @@ static ENTRIES: &[Entry] = &[
         |e| only_if(e.notice.is_some())),
 ];
 
+/// A command without keys.
+fn item(command: Command, menu: Menu, text: Cow<'static, str>, tooltip: Cow<'static, str>, status: Status) -> Item {
+    Item { command, menu, text, tooltip, shortcut: None, status }
+}
+
+fn finishes() -> impl Iterator<Item = Item> {
+    FINISHES.iter().enumerate().map(|(i, finish)| {
+        let text = format!("Surface finish: {}", finish.name);
+        item(Command::UseFinish(i), Menu::None, text.into(), views::values(finish).into(), Status::Possible)
+    })
+}
+
 /// Every command that there is at the moment.
 pub fn items(explorer: &Explorer) -> Vec<Item> {
     let fixed = ENTRIES.iter().map(|entry| Item {
@@ -267,30 +284,22 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         shortcut: entry.shortcut,
         status: (entry.status)(explorer),
     });
-    let plain = |command, menu, text: Cow<'static, str>, tooltip: Cow<'static, str>, status| Item {
-        command,
-        menu,
-        text,
-        tooltip,
-        shortcut: None,
-        status,
-    };
     let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
-        plain(Command::OpenExample(i), Menu::Example, example.name.into(), "A bundled measurement, simulated".into(), Status::Possible)
+        item(Command::OpenExample(i), Menu::Example, example.name.into(), "A bundled measurement, simulated".into(), Status::Possible)
     });
     let recent = explorer.window.recent.iter().map(|path| {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-        plain(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
+        item(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
     });
     let code = explorer.window.language.code();
     let lessons = explorer.lessons.all.iter().enumerate().map(|(i, lesson)| {
         let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
-        plain(Command::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Status::Possible)
+        item(Command::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Status::Possible)
     });
     let on_screen = explorer.panes.on_screen();
     let panes = PANES.iter().map(|entry| Item {
         shortcut: entry.shortcut.and_then(ctrl),
-        ..plain(
+        ..item(
             Command::TogglePane(entry.pane),
             Menu::Pane,
             entry.title.into(),
@@ -304,31 +313,41 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let export = format!("Plot {title} as SVG or PNG…");
         let copy = format!("Copy plot {title}");
         [
-            plain(
+            item(
                 Command::ChooseExport(Outgoing::Plot(pane)),
                 Menu::Export,
                 export.into(),
                 "With axes and legend, for print".into(),
                 status,
             ),
-            plain(Command::CopyPlot(pane), Menu::Edit, copy.into(), "As an image, to the clipboard".into(), status),
+            item(Command::CopyPlot(pane), Menu::Edit, copy.into(), "As an image, to the clipboard".into(), status),
         ]
     });
     let plots: Vec<Item> = plots.collect();
     let current = Preset::of(explorer.settings.model).map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
         let text = format!("Model: {}", preset.name);
-        plain(Command::UseModel(preset.key), Menu::None, text.into(), preset.citation.into(), switch(current == Some(preset.key)))
+        item(Command::UseModel(preset.key), Menu::None, text.into(), preset.citation.into(), switch(current == Some(preset.key)))
     });
     let themes = Theme::ALL.into_iter().map(|theme| {
         let tooltip = "Colours of the window".into();
-        plain(Command::SetTheme(theme), Menu::Theme, theme.name().into(), tooltip, switch(explorer.window.theme == theme))
+        item(Command::SetTheme(theme), Menu::Theme, theme.name().into(), tooltip, switch(explorer.window.theme == theme))
     });
     let languages = Language::ALL.into_iter().map(|language| {
         let tooltip = "Language of the window".into();
-        plain(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
+        item(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
     });
-    fixed.chain(plots).chain(examples).chain(lessons).chain(recent).chain(panes).chain(models).chain(themes).chain(languages).collect()
+    fixed
+        .chain(plots)
+        .chain(examples)
+        .chain(lessons)
+        .chain(recent)
+        .chain(panes)
+        .chain(models)
+        .chain(finishes())
+        .chain(themes)
+        .chain(languages)
+        .collect()
 }
 
 /// The command whose keys are pressed, if it is possible now.

@@ -88,6 +88,12 @@ impl Document {
         }
     }
 
+    /// The vacuum wavelength in nm that its metadata state, if they state one.
+    pub fn wavelength_nm(&self) -> Option<f64> {
+        let stated: f64 = self.measurement.metadata("wavelength_nm")?.parse().ok()?;
+        (stated.is_finite() && stated > 0.0).then_some(stated)
+    }
+
     /// Whether anything was measured on the backscatter side.
     pub fn has_backscatter(&self) -> bool {
         self.series.iter().any(Series::has_backscatter)

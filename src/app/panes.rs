@@ -23,6 +23,7 @@ pub enum Pane {
     Data,
     Planner,
     Models,
+    Metals,
 }
 
 /// Where a pane lies until the user moves it.
@@ -51,7 +52,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 8] = [
+pub static PANES: [Entry; 9] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -138,6 +139,17 @@ pub static PANES: [Entry; 8] = [
         place: Place::Lower,
         refresh: |_| (),
         ui: views::comparison_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Metals,
+        key: "metals",
+        title: "Metals",
+        tooltip: "Tabulated n and k of metals against wavelength, all sources side by side, and surface finishes",
+        shortcut: None,
+        place: Place::Lower,
+        refresh: views::metals_refresh,
+        ui: views::metals_ui,
         options: None,
     },
 ];

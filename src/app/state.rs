@@ -63,6 +63,32 @@ pub struct Shown {
     pub convergence_by_time: bool,
 }
 
+/// Which tabulated metal is looked at, and at which wavelength.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Tabulated {
+    /// Key of the metal.
+    pub metal: String,
+    /// Vacuum wavelength in nm.
+    pub wavelength_nm: f64,
+    /// Key of the source whose n and k were set last.
+    pub source: Option<String>,
+    /// Whether n and k go along with the wavelength.
+    pub follow: bool,
+}
+
+impl Default for Tabulated {
+    fn default() -> Self {
+        Self { metal: "Fe".to_owned(), wavelength_nm: 650.0, source: None, follow: true }
+    }
+}
+
+impl Tabulated {
+    /// Ends of the slider in nm: what the tables hold.
+    pub const SHORTEST_NM: f64 = 200.0;
+    pub const LONGEST_NM: f64 = 2500.0;
+}
+
 /// What the user sets: sliders, switches, views. Each change of it is a step of undo.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -98,6 +124,7 @@ pub struct Settings {
     /// Whether what is free is fitted again whenever a slider moves.
     pub refit_live: bool,
     pub shown: Shown,
+    pub tabulated: Tabulated,
 }
 
 impl Default for Settings {
@@ -120,6 +147,7 @@ impl Default for Settings {
             show_backscatter: false,
             refit_live: false,
             shown: Shown::default(),
+            tabulated: Tabulated::default(),
         }
     }
 }
@@ -130,6 +158,7 @@ impl Settings {
         self.parameters.validate(ParameterSet::ALL).is_ok()
             && self.bounds.iter().all(|&(parameter, low, high)| Bounds::default().set(parameter, low, high).is_ok())
             && self.plan.is_sound()
+            && (self.tabulated.wavelength_nm.is_finite() && self.tabulated.wavelength_nm > 0.0)
             && self.choices.loss_scale.is_none_or(|scale| scale.is_finite() && scale > 0.0)
             && Geometry::new(self.theta_i, 0.0, self.dphi).is_ok()
     }

@@ -20,7 +20,7 @@ use super::working::Working;
 use super::{language, leaving, panels, parameter_text, store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{PRESETS, Parameter, ParameterSet, Parameters};
+use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -173,6 +173,9 @@ impl Explorer {
         if let Some(first) = self.document.series.first() {
             self.settings.theta_i = first.theta_i;
             self.settings.dphi = first.plane;
+        }
+        if let Some(wavelength_nm) = self.document.wavelength_nm() {
+            self.settings.tabulated.wavelength_nm = wavelength_nm;
         }
         self.last_fit = None;
         self.scans.forget();
@@ -349,11 +352,7 @@ impl Explorer {
                 self.document.set_masked(&rows, masked);
                 self.refitted = None;
             }
-            Command::OpenExample(index) => {
-                if let Some(example) = EXAMPLES.get(index) {
-                    self.worker.open_text(example.name.to_owned(), example.text)?;
-                }
-            }
+            Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
             Command::CloseLesson => self.lessons.open = None,
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
@@ -375,11 +374,10 @@ impl Explorer {
             Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.settings.parameters)),
             Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
             Command::PasteParameters(text) => self.settings.parameters = parameter_text::read(&text, self.settings.parameters)?,
+            Command::SetParameters(values) => self.set_parameters(values),
+            Command::UseFinish(index) => self.use_finish(index),
             Command::ResetParameters => self.settings.parameters = Parameters::default(),
-            Command::UseModel(key) => {
-                let preset = PRESETS.iter().find(|preset| preset.key == key);
-                self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
-            }
+            Command::UseModel(key) => self.use_model(key),
             Command::ReturnTo(index) => self.return_to(index),
             Command::Profile(parameter) => self.start_profile(parameter)?,
             Command::Bootstrap => self.start_bootstrap()?,
@@ -405,6 +403,24 @@ impl Explorer {
             Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
         }
         Ok(())
+    }
+
+    fn open_example(&mut self, index: usize) -> Result<(), String> {
+        EXAMPLES.get(index).map_or(Ok(()), |example| self.worker.open_text(example.name.to_owned(), example.text))
+    }
+
+    fn set_parameters(&mut self, values: Vec<(Parameter, f64)>) {
+        values.into_iter().for_each(|(parameter, value)| self.settings.parameters[parameter] = value);
+    }
+
+    fn use_finish(&mut self, index: usize) {
+        let parameters = self.settings.parameters;
+        self.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
+    }
+
+    fn use_model(&mut self, key: &str) {
+        let preset = PRESETS.iter().find(|preset| preset.key == key);
+        self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
     }
 
     /// The measurement to the clipboard, as its file would be.

@@ -6,6 +6,7 @@ mod fitting;
 mod leaving;
 mod lessons;
 mod masks;
+mod metals;
 mod options;
 mod panes;
 mod planning;

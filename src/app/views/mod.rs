@@ -5,6 +5,7 @@ mod convergence;
 mod dolp;
 mod facets;
 mod lobes;
+mod metals;
 mod planner;
 mod polar;
 mod residuals;
@@ -15,6 +16,7 @@ pub use convergence::{convergence_options_ui, convergence_refresh, convergence_u
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
 pub use facets::{facets_options_ui, facets_refresh, facets_ui};
 pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
+pub use metals::{metals_refresh, metals_ui, values};
 pub use planner::{planner_refresh, planner_ui};
 pub use polar::{polar_options_ui, polar_refresh, polar_ui};
 pub use table::{table_refresh, table_ui};
@@ -26,6 +28,7 @@ pub struct Views {
     pub dolp: dolp::DolpView,
     pub facets: facets::FacetsView,
     pub lobes: lobes::LobesView,
+    pub metals: metals::MetalsView,
     pub planner: planner::PlannerView,
     pub polar: polar::PolarView,
     pub table: table::TableView,
