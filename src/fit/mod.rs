@@ -10,6 +10,7 @@ mod bounds;
 mod choices;
 mod contest;
 mod coordinates;
+mod guess;
 mod landscape;
 mod least_squares;
 mod outcome;

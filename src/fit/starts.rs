@@ -8,9 +8,10 @@
 //! Patterson, SIAM J. Numer. Anal. 13, 904 (1976)); in turns they are spread by factors and by steps. Starts run in rounds of a fixed
 //! size, in parallel where there are threads, and are judged in their order: the result does not depend on the number of threads.
 
+use super::guess::{Guess, floors, lobes_anew};
 use super::problem::Problem;
 use super::solver::{Descent, Effort, StopReason, Watch, descend};
-use crate::model::{Diffuse, Parameter, ParameterSet, Parameters, Pbrdf};
+use crate::model::Parameters;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
@@ -62,10 +63,16 @@ const ALL_THE_WAY: usize = 128;
 const POLISHED: usize = 16;
 /// Automatic search makes at least so many starts.
 const LEAST_STARTS: usize = 36;
+/// Floors of the grid of first guesses that become starts.
+const GUESSES: usize = 64;
 /// Minima that are gone on with at the end, how often at most, and the relative gain that is worth another time.
 const FINISHED: usize = 4;
 const FINISHES: usize = 12;
 const FINISH_TOLERANCE: f64 = 1e-8;
+/// Minima whose lobes are looked at again, how many floors of each are followed, and how often that is done at most.
+const LOOKED_AT: usize = 6;
+const FLOORS: usize = 6;
+const LOOKS: usize = 4;
 /// Objectives nearer than this fraction, or than [`SAME_ABSOLUTE`], belong to one minimum.
 const SAME: f64 = 1e-6;
 /// Noise-free minima differ by rounding alone.
@@ -122,6 +129,9 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         }
     }
     search.finish(problem, watch);
+    if starts == Starts::Automatic {
+        search.look_at_lobes_again(problem, watch);
+    }
     search
 }
 
@@ -175,6 +185,33 @@ impl Search {
         }
     }
 
+    /// From the best minima with other lobes: where k_v or k_d is small, the slope along σ_v or c is, and no descent gets away from there.
+    fn look_at_lobes_again(&mut self, problem: &Problem, watch: Watch<'_>) {
+        let mut seen: Vec<f64> = Vec::new();
+        for _ in 0..LOOKS {
+            if self.is_exact() || (watch.cancelled)() {
+                return;
+            }
+            let fresh: Vec<Parameters> = self
+                .found
+                .iter()
+                .take(LOOKED_AT)
+                .filter(|found| !seen.contains(&found.descent.sum_of_squares))
+                .map(|found| found.descent.parameters)
+                .collect();
+            if fresh.is_empty() {
+                return;
+            }
+            seen.extend(self.found.iter().take(LOOKED_AT).map(|found| found.descent.sum_of_squares));
+            let starts: Vec<Parameters> =
+                fresh.iter().flat_map(|at| lobes_anew(problem, at).into_iter().take(FLOORS).map(|guess| guess.parameters)).collect();
+            for descent in run_all(problem, &starts, Effort::Reach, watch) {
+                self.add(descent);
+            }
+            self.finish(problem, watch);
+        }
+    }
+
     /// A few steps from every start; where they led, the best first, each place once.
     fn glance(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) -> Vec<Parameters> {
         let mut short = run_all(problem, starts, Effort::Few, watch);
@@ -220,7 +257,10 @@ impl<'a> Candidates<'a> {
         let mut shift = [0.0; 9];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
-        let guesses: Vec<Parameters> = std::iter::once(*problem.start()).chain(first_guesses(problem)).collect();
+        let guesses: Vec<Parameters> = {
+            let floors = floors(problem).into_iter().take(GUESSES).map(|guess: Guess| guess.parameters);
+            std::iter::once(*problem.start()).chain(floors).collect()
+        };
         Self { problem, guesses: guesses.into_iter(), shift, next: 0 }
     }
 
@@ -254,138 +294,12 @@ fn generalised_golden_ratio(dimensions: usize) -> f64 {
     (0..40).fold(2.0, |x, _| libm::pow(1.0 + x, exponent))
 }
 
-const GRID_N: [f64; 5] = [0.2, 0.6, 1.2, 2.0, 3.5];
-const GRID_K: [f64; 6] = [0.3, 1.0, 2.0, 3.2, 4.5, 7.0];
-const GRID_SIGMA: [f64; 5] = [0.05, 0.12, 0.25, 0.45, 0.9];
-const GRID_Q: [f64; 3] = [1.3, 2.2, 5.0];
-const GRID_C: [f64; 2] = [-0.25, -0.7];
-const GRID_SIGMA_V: [f64; 2] = [0.35, 0.8];
-/// Guesses that become starts.
-const GUESSES: usize = 3;
-/// Rows that the guess looks at, at most.
-const GUESS_ROWS: usize = 64;
-
-/// The best points of a coarse grid, with k_d and k_v from least squares; none where the data have no DoLP or both are fixed.
-fn first_guesses(problem: &Problem) -> Vec<Parameters> {
-    let free: ParameterSet = problem.free().iter().copied().collect();
-    let model = problem.model();
-    let linear = free.contains(Parameter::Kd) || free.contains(Parameter::Kv);
-    if !problem.knows_only_ratios() || !linear || !model.specular {
-        return Vec::new();
-    }
-    let rows = problem.dolp_rows(GUESS_ROWS);
-    let values = |parameter: Parameter, grid: &[f64]| -> Vec<f64> {
-        let inside: Vec<f64> = grid.iter().copied().filter(|&value| problem.bounds().contain(parameter, value)).collect();
-        if free.contains(parameter) && !inside.is_empty() { inside } else { vec![problem.start()[parameter]] }
-    };
-    let axes = [
-        (Parameter::N, values(Parameter::N, &GRID_N)),
-        (Parameter::K, values(Parameter::K, &GRID_K)),
-        (Parameter::Sigma, values(Parameter::Sigma, &GRID_SIGMA)),
-        (Parameter::Q, values(Parameter::Q, &GRID_Q)),
-        (Parameter::C, values(Parameter::C, &GRID_C)),
-        (Parameter::SigmaV, values(Parameter::SigmaV, &GRID_SIGMA_V)),
-    ];
-    let mut points = vec![*problem.start()];
-    for (parameter, values) in &axes {
-        points = points.into_iter().flat_map(|point| values.iter().map(move |&value| with(point, *parameter, value))).collect();
-    }
-    let mut guesses: Vec<(f64, Parameters)> = points
-        .into_iter()
-        .filter_map(|point| {
-            let guess = weights_by_least_squares(problem, free, point, &rows)?;
-            Some((misfit(problem, &guess, &rows)?, guess))
-        })
-        .collect();
-    guesses.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Of each n the best one: three neighbours on the grid would be one guess.
-    let mut best: Vec<(f64, Parameters)> = Vec::new();
-    for guess in guesses {
-        if best.iter().all(|other| other.1.n != guess.1.n) {
-            best.push(guess);
-        }
-    }
-    best.into_iter().take(GUESSES).map(|(_, guess)| guess).collect()
-}
-
-fn with(mut parameters: Parameters, parameter: Parameter, value: f64) -> Parameters {
-    parameters[parameter] = value;
-    parameters
-}
-
-/// A row with its measured DoLP.
-type DolpRow = (crate::optics::Facet, f64);
-
-/// k_d and k_v that bring 1/DoLP nearest to the measured one.
-fn weights_by_least_squares(problem: &Problem, free: ParameterSet, mut point: Parameters, rows: &[DolpRow]) -> Option<Parameters> {
-    let model = problem.model();
-    let fit_d = free.contains(Parameter::Kd) && model.diffuse != Diffuse::Absent;
-    let fit_v = free.contains(Parameter::Kv) && model.volume;
-    let unit = |fit: bool, value: f64| if fit { 1.0 } else { value };
-    let surface = Pbrdf::new(model, Parameters { kd: unit(fit_d, point.kd), kv: unit(fit_v, point.kv), ..point }).ok()?;
-    let (mut dd, mut dv, mut vv, mut dy, mut vy) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (facet, measured) in rows {
-        let reflection = surface.reflection(facet);
-        let limit = surface.fresnel_limit(facet);
-        let weight = measured * measured / (limit * reflection.specular);
-        if !weight.is_finite() {
-            continue;
-        }
-        let (d, v) = (weight * reflection.diffuse, weight * reflection.volume);
-        let fixed = if fit_d { 0.0 } else { d } + if fit_v { 0.0 } else { v };
-        let y = measured - measured * measured / limit - fixed;
-        let (d, v) = (if fit_d { d } else { 0.0 }, if fit_v { v } else { 0.0 });
-        dd += d * d;
-        dv += d * v;
-        vv += v * v;
-        dy += d * y;
-        vy += v * y;
-    }
-    let (kd, kv) = non_negative_least_squares([dd, dv, vv], [dy, vy]);
-    if fit_d {
-        point.kd = problem.bounds().clamp(Parameter::Kd, kd);
-    }
-    if fit_v {
-        point.kv = problem.bounds().clamp(Parameter::Kv, kv);
-    }
-    Some(point)
-}
-
-/// Minimises `aa x² + 2ab xy + bb y² − 2 ax x − 2 by y` over x, y ≥ 0.
-fn non_negative_least_squares([aa, ab, bb]: [f64; 3], [ax, by]: [f64; 2]) -> (f64, f64) {
-    let alone = |square: f64, right: f64| if square > 0.0 { (right / square).max(0.0) } else { 0.0 };
-    let determinant = aa * bb - ab * ab;
-    if determinant > 1e-12 * aa * bb {
-        let (x, y) = ((ax * bb - by * ab) / determinant, (by * aa - ax * ab) / determinant);
-        if x >= 0.0 && y >= 0.0 {
-            return (x, y);
-        }
-    }
-    let (x, y) = (alone(aa, ax), alone(bb, by));
-    // Each alone lowers the sum by right²/square.
-    if x * ax >= y * by { (x, 0.0) } else { (0.0, y) }
-}
-
-fn misfit(problem: &Problem, point: &Parameters, rows: &[DolpRow]) -> Option<f64> {
-    let surface = Pbrdf::new(problem.model(), *point).ok()?;
-    let sum: f64 = rows.iter().map(|(facet, measured)| (surface.dolp(facet) - measured) * (surface.dolp(facet) - measured)).sum();
-    sum.is_finite().then_some(sum)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{generalised_golden_ratio, non_negative_least_squares};
+    use super::generalised_golden_ratio;
 
     #[test]
     fn the_golden_ratio_is_the_golden_ratio() {
         assert!((generalised_golden_ratio(1) - f64::midpoint(1.0, 5.0_f64.sqrt())).abs() < 1e-12);
-    }
-
-    #[test]
-    fn least_squares_stay_in_the_quadrant() {
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, 3.0]), (2.0, 3.0));
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, -3.0]), (2.0, 0.0));
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [-2.0, -3.0]), (0.0, 0.0));
-        assert_eq!(non_negative_least_squares([1.0, 1.0, 1.0], [1.0, 2.0]), (0.0, 2.0));
     }
 }

@@ -1,0 +1,341 @@
+//! First guesses: the floors of the objective over a grid of shapes, with k_d and k_v from linear algebra.
+//!
+//! For fixed shapes (n, k, σ, q, c, σ_v), `1/X = (1 + g)/L` with the Fresnel limit L and `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d
+//! and k_v. Since `X − Xm = −X Xm (1/X − 1/Xm)`, a non-negative least squares in which each row counts by (X Xm)² approximates the
+//! objective in DoLP itself: with X = Xm at first, and once more with the X that came of it.
+//!
+//! A point of the grid that is lower than its neighbours along each axis is a floor: somewhere below it lies a minimum.
+
+use super::problem::Problem;
+use crate::model::{Diffuse, Parameter, ParameterSet, Parameters, Pbrdf};
+use crate::optics::Facet;
+
+/// The axes of the grid. Narrow volume lobes are apart from wide ones by other rows that they reach, hence the many σ_v.
+const AXES: [(Parameter, &[f64]); 6] = [
+    (Parameter::N, &[0.06, 0.2, 0.5, 0.9, 1.4, 2.2, 3.5, 6.0]),
+    (Parameter::K, &[0.05, 0.4, 1.0, 2.0, 3.2, 4.5, 7.0, 11.0]),
+    (Parameter::Sigma, &[0.03, 0.07, 0.13, 0.22, 0.35, 0.6, 1.1, 2.5]),
+    (Parameter::Q, &[1.15, 1.5, 2.2, 5.0]),
+    (Parameter::C, &[-1.0, -0.7, -0.35, 0.0]),
+    (Parameter::SigmaV, &[0.02, 0.06, 0.1, 0.16, 0.25, 0.4, 0.65, 1.1, 2.2]),
+];
+/// The finer axes on which the lobes of a minimum are looked at again.
+const FINER: [(Parameter, &[f64]); 2] = [
+    (Parameter::C, &[-1.0, -0.85, -0.7, -0.55, -0.4, -0.25, -0.1, 0.0]),
+    (Parameter::SigmaV, &[0.01, 0.02, 0.03, 0.045, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.32, 0.4, 0.5, 0.65, 0.85, 1.1, 1.5, 2.2, 3.0]),
+];
+/// Rows that are looked at, at most.
+const ROWS: usize = 32;
+
+/// A guess and the sum of squared differences of DoLP over the rows looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Guess {
+    pub misfit: f64,
+    pub parameters: Parameters,
+}
+
+/// The floors of the whole grid, the lowest first; none where the data have no DoLP, or k_d and k_v are both fixed.
+pub(super) fn floors(problem: &Problem) -> Vec<Guess> {
+    let Some(grid) = Grid::new(problem, problem.start(), &AXES) else { return Vec::new() };
+    grid.floors()
+}
+
+/// The floors over c and σ_v with the other shapes as they are there, the lowest first.
+pub(super) fn lobes_anew(problem: &Problem, at: &Parameters) -> Vec<Guess> {
+    let Some(grid) = Grid::new(problem, at, &FINER) else { return Vec::new() };
+    grid.floors()
+}
+
+/// A grid of shapes and the rows that it is judged by.
+struct Grid<'a> {
+    problem: &'a Problem,
+    rows: Vec<(Facet, f64)>,
+    /// Values of n, k, σ, q, c, σ_v: one alone where the parameter is fixed.
+    axes: [Vec<f64>; 6],
+    base: Parameters,
+    fit_d: bool,
+    fit_v: bool,
+}
+
+/// What the lobes of c, or of σ_v, are on each row.
+type Columns = Vec<Vec<f64>>;
+
+impl<'a> Grid<'a> {
+    fn new(problem: &'a Problem, base: &Parameters, finer: &[(Parameter, &[f64])]) -> Option<Self> {
+        let free: ParameterSet = problem.free().iter().copied().collect();
+        let model = problem.model();
+        let fit_d = free.contains(Parameter::Kd) && model.diffuse != Diffuse::Absent;
+        let fit_v = free.contains(Parameter::Kv) && model.volume;
+        if !problem.knows_only_ratios() || !model.specular || !(fit_d || fit_v) {
+            return None;
+        }
+        let axes = AXES.map(|(parameter, _)| {
+            let values = finer.iter().find(|axis| axis.0 == parameter).map_or(&[][..], |axis| axis.1);
+            let inside: Vec<f64> = values.iter().copied().filter(|&value| problem.bounds().contain(parameter, value)).collect();
+            if free.contains(parameter) && !inside.is_empty() { inside } else { vec![base[parameter]] }
+        });
+        Some(Self { problem, rows: problem.dolp_rows(ROWS), axes, base: *base, fit_d, fit_v })
+    }
+
+    /// The guess at each point of the grid, σ_v running fastest; those that make no surface have an infinite misfit.
+    fn guesses(&self) -> Vec<Guess> {
+        let [n, k, sigma, q, ..] = &self.axes;
+        let mut optics = Vec::with_capacity(n.len() * k.len() * sigma.len() * q.len());
+        for &n in n {
+            for &k in k {
+                for &sigma in sigma {
+                    optics.extend(q.iter().map(|&q| Parameters { n, k, sigma, q, ..self.base }));
+                }
+            }
+        }
+        let shared = (self.problem.model().diffuse != Diffuse::Hyde).then(|| self.diffuse(&self.base));
+        let volume = self.volume();
+        let all = |point: &Parameters| match &shared {
+            Some(diffuse) => self.guesses_of(point, diffuse, &volume),
+            None => self.guesses_of(point, &self.diffuse(point), &volume),
+        };
+        #[cfg(feature = "threads")]
+        {
+            use rayon::prelude::*;
+            optics.par_iter().flat_map_iter(all).collect()
+        }
+        #[cfg(not(feature = "threads"))]
+        optics.iter().flat_map(all).collect()
+    }
+
+    fn surface(&self, parameters: Parameters) -> Option<Pbrdf> {
+        Pbrdf::new(self.problem.model(), parameters).ok()
+    }
+
+    /// The diffuse lobe on each row for each c, k_d being 1 where it is fitted.
+    fn diffuse(&self, optics: &Parameters) -> Columns {
+        let kd = if self.fit_d { 1.0 } else { self.base.kd };
+        let column = |&c: &f64| self.column(Parameters { c, kd, ..*optics }, |surface, facet| surface.reflection(facet).diffuse);
+        self.axes[4].iter().map(column).collect()
+    }
+
+    /// The volume lobe on each row for each σ_v, k_v being 1 where it is fitted.
+    fn volume(&self) -> Columns {
+        let kv = if self.fit_v { 1.0 } else { self.base.kv };
+        let column =
+            |&sigma_v: &f64| self.column(Parameters { sigma_v, kv, ..self.base }, |surface, facet| surface.reflection(facet).volume);
+        self.axes[5].iter().map(column).collect()
+    }
+
+    fn column(&self, parameters: Parameters, value: impl Fn(&Pbrdf, &Facet) -> f64) -> Vec<f64> {
+        let Some(surface) = self.surface(parameters) else { return vec![0.0; self.rows.len()] };
+        self.rows.iter().map(|(facet, _)| value(&surface, facet)).collect()
+    }
+
+    /// The guesses for one specular lobe.
+    fn guesses_of(&self, optics: &Parameters, diffuse: &Columns, volume: &Columns) -> Vec<Guess> {
+        let specular = self.surface(*optics).map(|surface| {
+            let row =
+                |(facet, measured): &(Facet, f64)| Row::new(*measured, surface.fresnel_limit(facet), surface.reflection(facet).specular);
+            self.rows.iter().map(row).collect::<Vec<_>>()
+        });
+        let mut guesses = Vec::with_capacity(self.axes[4].len() * self.axes[5].len());
+        for (&c, diffuse) in self.axes[4].iter().zip(diffuse) {
+            for (&sigma_v, volume) in self.axes[5].iter().zip(volume) {
+                let mut guess = Guess { misfit: f64::INFINITY, parameters: Parameters { c, sigma_v, ..*optics } };
+                if let Some(rows) = &specular {
+                    self.weigh(rows, diffuse, volume, &mut guess);
+                }
+                guesses.push(guess);
+            }
+        }
+        guesses
+    }
+
+    /// Fits k_d and k_v.
+    fn weigh(&self, rows: &[Row], diffuse: &[f64], volume: &[f64], guess: &mut Guess) {
+        let (mut kd, mut kv) = (None, None);
+        for _ in 0..PASSES {
+            let mut normal = [0.0; 5];
+            for (row, (&d, &v)) in rows.iter().zip(diffuse.iter().zip(volume)) {
+                let x = match (kd, kv) {
+                    (Some(kd), Some(kv)) => row.dolp(kd * d + kv * v),
+                    _ => row.measured,
+                };
+                row.count(x, self.fit_d, d, self.fit_v, v, &mut normal);
+            }
+            let [dd, dv, vv, dy, vy] = normal;
+            let (d, v) = non_negative_least_squares([dd, dv, vv], [dy, vy]);
+            let clamp = |parameter, fitted, value| if fitted { self.problem.bounds().clamp(parameter, value) } else { 1.0 };
+            (kd, kv) = (Some(clamp(Parameter::Kd, self.fit_d, d)), Some(clamp(Parameter::Kv, self.fit_v, v)));
+        }
+        let (kd, kv) = (kd.unwrap_or(1.0), kv.unwrap_or(1.0));
+        let difference = |(row, (d, v)): (&Row, (&f64, &f64))| row.dolp(kd * d + kv * v) - row.measured;
+        let misfit: f64 = rows.iter().zip(diffuse.iter().zip(volume)).map(difference).map(|x| x * x).sum();
+        guess.misfit = if misfit.is_finite() { misfit } else { f64::INFINITY };
+        guess.parameters.kd = if self.fit_d { kd } else { self.base.kd };
+        guess.parameters.kv = if self.fit_v { kv } else { self.base.kv };
+    }
+
+    /// The points that are lower than their neighbours along each axis; of equal neighbours the first counts as lower.
+    fn floors(&self) -> Vec<Guess> {
+        let guesses = self.guesses();
+        let mut floors: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_floor(&guesses, i)).map(|i| guesses[i]).collect();
+        floors.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        floors
+    }
+
+    fn is_floor(&self, guesses: &[Guess], i: usize) -> bool {
+        let here = guesses[i].misfit;
+        let mut stride = 1;
+        let low = self.axes.iter().rev().all(|axis| {
+            let place = i / stride % axis.len();
+            let below = place == 0 || guesses[i - stride].misfit > here;
+            let above = place + 1 == axis.len() || guesses[i + stride].misfit >= here;
+            stride *= axis.len();
+            below && above
+        });
+        low && here.is_finite()
+    }
+}
+
+/// Times that the weights of rows follow the fitted DoLP.
+const PASSES: usize = 2;
+
+/// A row under one specular lobe.
+struct Row {
+    measured: f64,
+    /// DoLP_s.
+    limit: f64,
+    /// k_s F^s, above 0.
+    specular: f64,
+    /// 1/(L k_s F^s); 0 where that is beyond f64, and the row has nothing to say of k_d and k_v.
+    scale: f64,
+}
+
+impl Row {
+    fn new(measured: f64, limit: f64, specular: f64) -> Self {
+        let scale = 1.0 / (limit * specular);
+        let scale = if scale < FAINT { scale } else { 0.0 };
+        Self { measured, limit, specular: specular.max(f64::MIN_POSITIVE), scale }
+    }
+
+    /// DoLP, given what is added to the specular lobe.
+    fn dolp(&self, added: f64) -> f64 {
+        self.limit * self.specular / (self.specular + added)
+    }
+
+    /// Adds the row to the normal equations [dd, dv, vv, dy, vy], DoLP being about x.
+    fn count(&self, x: f64, fit_d: bool, d: f64, fit_v: bool, v: f64, normal: &mut [f64; 5]) {
+        if self.scale == 0.0 {
+            return;
+        }
+        let weight = x * self.measured * self.scale;
+        let (d, v) = (weight * d, weight * v);
+        let fixed = if fit_d { 0.0 } else { d } + if fit_v { 0.0 } else { v };
+        let y = x - x * self.measured / self.limit - fixed;
+        let (d, v) = (if fit_d { d } else { 0.0 }, if fit_v { v } else { 0.0 });
+        for (sum, term) in normal.iter_mut().zip([d * d, d * v, v * v, d * y, v * y]) {
+            *sum += term;
+        }
+    }
+}
+
+/// Above this, squares of a row's coefficients come near the end of f64.
+const FAINT: f64 = 1e100;
+
+/// Minimises `aa x² + 2ab xy + bb y² − 2 ax x − 2 by y` over x, y ≥ 0.
+fn non_negative_least_squares([aa, ab, bb]: [f64; 3], [ax, by]: [f64; 2]) -> (f64, f64) {
+    let alone = |square: f64, right: f64| if square > 0.0 { (right / square).max(0.0) } else { 0.0 };
+    let determinant = aa * bb - ab * ab;
+    if determinant > 1e-12 * aa * bb {
+        let (x, y) = ((ax * bb - by * ab) / determinant, (by * aa - ax * ab) / determinant);
+        if x >= 0.0 && y >= 0.0 {
+            return (x, y);
+        }
+    }
+    let (x, y) = (alone(aa, ax), alone(bb, by));
+    // Each alone lowers the sum by right²/square.
+    if x * ax >= y * by { (x, 0.0) } else { (0.0, y) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AXES, Grid, floors, lobes_anew, non_negative_least_squares};
+    use crate::fit::{Bounds, Choices, Problem, free_by_default};
+    use crate::measurement::{Columns, Measurement, Simulation};
+    use crate::model::{Model, Parameter, Parameters, Pbrdf};
+    use crate::optics::SlopeDistribution;
+
+    /// A volume lobe 0.16 rad wide beside a diffuse one.
+    const TRUTH: Parameters = Parameters { kv: 0.2, sigma_v: 0.16, c: -0.35, ..DEFAULT };
+    const DEFAULT: Parameters = Parameters { n: 2.2, k: 3.2, sigma: 0.35, ks: 1.0, kd: 0.1, kv: 0.0, q: 2.2, c: -0.7, sigma_v: 3.0 };
+
+    fn problem() -> Problem {
+        let model = Model::full(SlopeDistribution::Cauchy);
+        let measurement: Measurement = Simulation {
+            model_name: "cauchy".to_owned(),
+            surface: Pbrdf::new(model, TRUTH).unwrap(),
+            theta_i: vec![30.0, 50.0],
+            theta_r: (0..15).map(|i| f64::from(5 * i)).collect(),
+            dphi: 180.0,
+            columns: Columns::Dolp,
+            noise: 0.0,
+            brdf_noise: 0.0,
+            seed: 1,
+        }
+        .run()
+        .unwrap();
+        let free = free_by_default(model, &measurement, &Choices::default());
+        Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), Choices::default()).unwrap()
+    }
+
+    #[test]
+    fn least_squares_stay_in_the_quadrant() {
+        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, 3.0]), (2.0, 3.0));
+        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, -3.0]), (2.0, 0.0));
+        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [-2.0, -3.0]), (0.0, 0.0));
+        assert_eq!(non_negative_least_squares([1.0, 1.0, 1.0], [1.0, 2.0]), (0.0, 2.0));
+    }
+
+    #[test]
+    fn a_truth_on_the_grid_is_its_lowest_floor() {
+        let lowest = floors(&problem())[0];
+        // Rounding of k_d and k_v, which the least squares give to about 1e-12, and of DoLP.
+        assert!(lowest.misfit < 1e-20, "{lowest:?}");
+        for parameter in [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Q, Parameter::C, Parameter::SigmaV] {
+            assert_eq!(lowest.parameters[parameter], TRUTH[parameter], "{parameter:?}");
+        }
+        assert!((lowest.parameters.kd - TRUTH.kd).abs() < 1e-9 && (lowest.parameters.kv - TRUTH.kv).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_volume_lobe_is_found_again_from_where_there_is_none() {
+        let lowest = lobes_anew(&problem(), &DEFAULT)[0];
+        assert!((lowest.parameters.sigma_v - TRUTH.sigma_v).abs() < 0.05, "{lowest:?}");
+        assert!(lowest.parameters.kv > 0.1, "{lowest:?}");
+    }
+
+    #[test]
+    fn floors_are_lower_than_all_neighbours_and_in_order() {
+        let problem = problem();
+        let grid = Grid::new(&problem, problem.start(), &AXES).unwrap();
+        let guesses = grid.guesses();
+        let floors = grid.floors();
+        assert!(floors.windows(2).all(|pair| pair[0].misfit <= pair[1].misfit));
+        let lowest = guesses.iter().map(|guess| guess.misfit).fold(f64::INFINITY, f64::min);
+        assert_eq!(floors[0].misfit, lowest);
+        let lengths: usize = grid.axes.iter().map(Vec::len).product();
+        assert_eq!(guesses.len(), lengths);
+        for floor in &floors {
+            let at = guesses.iter().position(|guess| guess == floor).unwrap();
+            // σ_v runs fastest, n slowest.
+            for (axis, stride) in [(5, 1), (0, lengths / grid.axes[0].len())] {
+                let place = at / stride % grid.axes[axis].len();
+                assert!(place == 0 || guesses[at - stride].misfit >= floor.misfit);
+                assert!(place + 1 == grid.axes[axis].len() || guesses[at + stride].misfit >= floor.misfit);
+            }
+        }
+    }
+
+    #[test]
+    fn without_weights_to_fit_there_are_no_guesses() {
+        let problem = problem();
+        assert!(floors(&problem.with_free([Parameter::N, Parameter::K].into_iter().collect())).is_empty());
+    }
+}
