@@ -24,6 +24,8 @@ pub enum Pane {
     Planner,
     Models,
     Metals,
+    Hemisphere,
+    Mueller,
 }
 
 /// Where a pane lies until the user moves it.
@@ -52,7 +54,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 9] = [
+pub static PANES: [Entry; 11] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -150,6 +152,28 @@ pub static PANES: [Entry; 9] = [
         place: Place::Lower,
         refresh: views::metals_refresh,
         ui: views::metals_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Hemisphere,
+        key: "hemisphere",
+        title: "Hemisphere",
+        tooltip: "DoLP, angle of polarisation, BRDF or specular share over all directions of view, also outside the plane of incidence",
+        shortcut: Some(Key::Num5),
+        place: Place::Upper,
+        refresh: views::hemisphere_refresh,
+        ui: views::hemisphere_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Mueller,
+        key: "mueller",
+        title: "Mueller matrix",
+        tooltip: "All sixteen elements over m00 against θr, Eqs. (8, 9, 14), and as numbers at one direction",
+        shortcut: Some(Key::Num6),
+        place: Place::Upper,
+        refresh: views::mueller_refresh,
+        ui: views::mueller_ui,
         options: None,
     },
 ];

@@ -42,6 +42,23 @@ pub enum Overlay {
     EqualMedian,
 }
 
+/// What the hemisphere map shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    #[default]
+    Dolp,
+    /// Of polarisation.
+    Angle,
+    Brdf,
+    /// Of the radiance.
+    SpecularShare,
+}
+
+impl Quantity {
+    pub const ALL: [Self; 4] = [Self::Dolp, Self::Angle, Self::Brdf, Self::SpecularShare];
+}
+
 /// What panes show beyond what they always show.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
@@ -61,6 +78,7 @@ pub struct Shown {
     pub facets_equal_median: bool,
     /// Whether the way of a fit is drawn against time rather than evaluations.
     pub convergence_by_time: bool,
+    pub hemisphere: Quantity,
 }
 
 /// Which tabulated metal is looked at, and at which wavelength.

@@ -45,6 +45,15 @@ pub struct HemisphereMap {
     pub specular_share: Vec<f64>,
 }
 
+impl HemisphereMap {
+    /// θr and Δφ in degrees, 0 ≤ Δφ ≤ 360, at the centre of a cell; none outside the disc.
+    #[must_use]
+    pub fn direction(&self, row: usize, column: usize) -> Option<(f64, f64)> {
+        let (theta_r, dphi) = direction(row, column, self.size);
+        (theta_r < 90.0).then_some((theta_r, dphi))
+    }
+}
+
 impl Hemisphere {
     /// For an angle of incidence in degrees and a grid of `size`² cells; none if it is cancelled.
     pub fn new(theta_i: f64, size: usize, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Option<Self>, GeometryError> {
@@ -93,14 +102,11 @@ impl Hemisphere {
 
 impl Row {
     fn new(theta_i: f64, size: usize, index: usize) -> Self {
-        let y = center(index, size);
         let mut row = Self { first: 0, batch: Batch::default(), angles: Vec::new() };
         let mut facets = Vec::new();
         for column in 0..size {
-            let x = center(column, size);
-            let Ok(geometry) = Geometry::new(theta_i, 90.0 * (x * x + y * y).sqrt(), 180.0 + degrees(libm::atan2(y, x))) else {
-                continue;
-            };
+            let (theta_r, dphi) = direction(index, column, size);
+            let Ok(geometry) = Geometry::new(theta_i, theta_r, dphi) else { continue };
             if facets.is_empty() {
                 row.first = column;
             }
@@ -111,6 +117,12 @@ impl Row {
         row.batch = Batch::from_facets(facets).single_threaded();
         row
     }
+}
+
+/// θr, from 90° on outside the disc, and Δφ at the centre of a cell.
+fn direction(row: usize, column: usize, size: usize) -> (f64, f64) {
+    let (x, y) = (center(column, size), center(row, size));
+    (90.0 * (x * x + y * y).sqrt(), 180.0 + degrees(libm::atan2(y, x)))
 }
 
 /// Where a cell lies between −1 and 1.
@@ -155,11 +167,16 @@ mod tests {
                 let (x, y) = (at(column), at(row));
                 let cell = row * size + column;
                 let radius = libm::hypot(x, y);
+                let direction = map.direction(row, column);
                 if radius >= 1.0 {
+                    assert_eq!(direction, None);
                     assert!(map.dolp[cell].is_nan() && map.angle[cell].is_nan() && map.brdf[cell].is_nan());
                     continue;
                 }
                 let geometry = Geometry::new(50.0, 90.0 * radius, 180.0 + degrees(libm::atan2(y, x))).expect("inside the disc");
+                let (theta_r, dphi) = direction.expect("inside the disc");
+                // Two ways to a radius.
+                assert!((theta_r - geometry.theta_r().0).abs() < 1e-12 && dphi == geometry.dphi().0);
                 let expected = surface().reflection(&Facet::new(geometry));
                 // The kernel and the scalar form, and two ways to a radius.
                 assert!((map.dolp[cell] / expected.dolp - 1.0).abs() < 1e-12, "{row} {column}");

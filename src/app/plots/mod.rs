@@ -1,12 +1,14 @@
 //! What plots have in common: axes, ranges, curves in pieces, measured points with error bars.
 
 pub mod axis;
+mod color_scale;
 mod error_bars;
 mod marks;
 mod picking;
 mod range;
 mod ribbon;
 
+pub use color_scale::{BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar, ink_on};
 pub use error_bars::ErrorBars;
 pub use marks::marks_in;
 pub use picking::{MASK_HINT, clicked_mask};

@@ -3,10 +3,12 @@
 mod commands;
 mod files;
 mod fitting;
+mod hemisphere;
 mod leaving;
 mod lessons;
 mod masks;
 mod metals;
+mod mueller;
 mod options;
 mod panes;
 mod planning;

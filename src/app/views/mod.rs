@@ -4,8 +4,10 @@ mod comparison;
 mod convergence;
 mod dolp;
 mod facets;
+mod hemisphere;
 mod lobes;
 mod metals;
+mod mueller;
 mod planner;
 mod polar;
 mod residuals;
@@ -15,8 +17,10 @@ pub use comparison::comparison_ui;
 pub use convergence::{convergence_options_ui, convergence_refresh, convergence_ui};
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
 pub use facets::{facets_options_ui, facets_refresh, facets_ui};
+pub use hemisphere::{hemisphere_refresh, hemisphere_ui};
 pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
 pub use metals::{metals_refresh, metals_ui, values};
+pub use mueller::{mueller_refresh, mueller_ui};
 pub use planner::{planner_refresh, planner_ui};
 pub use polar::{polar_options_ui, polar_refresh, polar_ui};
 pub use table::{table_refresh, table_ui};
@@ -27,8 +31,10 @@ pub struct Views {
     pub convergence: convergence::ConvergenceView,
     pub dolp: dolp::DolpView,
     pub facets: facets::FacetsView,
+    pub hemisphere: hemisphere::HemisphereView,
     pub lobes: lobes::LobesView,
     pub metals: metals::MetalsView,
+    pub mueller: mueller::MuellerView,
     pub planner: planner::PlannerView,
     pub polar: polar::PolarView,
     pub table: table::TableView,

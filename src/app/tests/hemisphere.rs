@@ -1,0 +1,120 @@
+//! The hemisphere map: what the pointer reads, what is made when, and what is not.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::panes::Pane;
+use crate::app::state::Quantity;
+use crate::app::window::Explorer;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use pbrdf::model::Pbrdf;
+use pbrdf::optics::{Facet, Geometry};
+
+fn shown() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Hemisphere));
+    wait(&mut harness);
+    harness
+}
+
+/// What the line under the map says with the pointer there.
+fn reading(harness: &mut Harness<'static, Option<Explorer>>, at: egui::Pos2) -> Option<String> {
+    harness.hover_at(at);
+    harness.run();
+    let lines: Vec<String> =
+        harness.query_all_by_label_contains("Δφ = ").filter_map(|node| node.accesskit_node().label().or(node.value())).collect();
+    lines.into_iter().find(|line| line.starts_with("θr = "))
+}
+
+/// θr, Δφ and the value of such a line.
+fn numbers(line: &str) -> [f64; 3] {
+    let number = |text: &str| -> f64 {
+        text.chars().filter(|c| c.is_ascii_digit() || "-.e".contains(*c)).collect::<String>().parse().expect("a number")
+    };
+    let (place, value) = line.split_once(": ").expect("a place and a value");
+    let (theta_r, dphi) = place.split_once(", ").expect("two angles");
+    let value = value.split_once("= ").expect("a value").1.replace(" 1/sr", "");
+    [theta_r, dphi, &value].map(number)
+}
+
+#[test]
+fn the_pointer_reads_what_the_model_gives_there() {
+    let mut harness = shown();
+    let rect = harness.get_by_role_and_label(Role::Image, "Map of all directions of view: DoLP").rect();
+    for (button, quantity) in [
+        ("DoLP", Quantity::Dolp),
+        ("Angle of polarisation", Quantity::Angle),
+        ("BRDF", Quantity::Brdf),
+        ("Specular share", Quantity::SpecularShare),
+    ] {
+        // A tab may have the same name; it comes first.
+        harness.query_all_by_role_and_label(Role::Button, button).last().expect("a choice").click();
+        harness.run();
+        assert_eq!(explorer(&mut harness).settings.shown.hemisphere, quantity);
+        let mut read = 0;
+        for (right, down) in [(-60.0, -20.0), (-30.0, 40.0), (10.0, -50.0), (-80.0, 5.0)] {
+            let Some(line) = reading(&mut harness, rect.center() + egui::vec2(right, down)) else { continue };
+            let [theta_r, dphi, value] = numbers(&line);
+            let settings = &explorer(&mut harness).settings;
+            let surface = Pbrdf::new(settings.model, settings.parameters).expect("the defaults");
+            let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("inside the disc");
+            let reflection = surface.reflection(&Facet::new(geometry));
+            let expected = match quantity {
+                Quantity::Dolp => reflection.dolp,
+                Quantity::Angle => {
+                    let mueller = surface.mueller(geometry);
+                    0.5 * libm::atan2(mueller.element(2, 0), mueller.element(1, 0)).to_degrees()
+                }
+                Quantity::Brdf => reflection.brdf,
+                Quantity::SpecularShare => reflection.specular / reflection.brdf,
+            };
+            // Angles are read to 0.01°, over which nothing here changes by more than some thousandths of itself.
+            assert!((value - expected).abs() < 5e-3 * expected.abs().max(1e-2), "{line}: {expected}");
+            read += 1;
+        }
+        assert!(read >= 3, "{read}");
+    }
+    assert_eq!(reading(&mut harness, rect.left_top() + egui::vec2(2.0, 2.0)), None, "outside the disc");
+}
+
+#[test]
+fn the_map_follows_a_slider_and_rests_when_nothing_moves() {
+    let mut harness = shown();
+    let before = explorer(&mut harness).views.hemisphere.key().copied().expect("a map");
+    harness.step();
+    assert!(harness.output().textures_delta.set.is_empty(), "an idle frame changes no texture");
+    harness.get_by_role_and_label(Role::Slider, "k").set_value_accesskit(4.5);
+    let mut textures = 0;
+    for _ in 0..4 {
+        harness.step();
+        textures += harness.output().textures_delta.set.len();
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    wait(&mut harness);
+    let after = explorer(&mut harness).views.hemisphere.key().copied().expect("a map");
+    assert_eq!((before.0.k, after.0.k), (pbrdf::model::Parameters::default().k, 4.5));
+    assert!(textures <= 4);
+}
+
+#[test]
+fn no_map_is_made_behind_another_tab_and_none_of_values_that_are_no_surface() {
+    let mut harness = harness();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).views.hemisphere.key().is_none(), "not on screen");
+    let mut harness = shown();
+    explorer(&mut harness).settings.parameters.sigma = f64::NAN;
+    wait(&mut harness);
+    assert!(explorer(&mut harness).views.hemisphere.key().is_none());
+    assert_eq!(reading(&mut harness, egui::pos2(600.0, 250.0)), None);
+}
+
+#[test]
+fn directions_measured_at_the_sliders_angle_are_marked() {
+    let mut harness = shown();
+    let count = explorer(&mut harness).document.series[0].rows.len();
+    harness.get_by_label(&format!("measured: {count}"));
+    explorer(&mut harness).settings.theta_i = 13.7;
+    wait(&mut harness);
+    harness.get_by_label("not measured at this θi");
+}
