@@ -73,8 +73,10 @@ pub struct BarLabels<'a> {
 /// Which marks a colour bar has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BarMarks {
-    /// At round numbers at least this far apart.
-    Linear(f64),
+    /// At round numbers.
+    Linear,
+    /// There.
+    At(&'static [f64]),
     /// The values are decimal logarithms: at decades, and at twice and five times them where there is room.
     Log,
 }
@@ -83,26 +85,34 @@ impl BarMarks {
     /// Places and labels along a bar of that height.
     fn along(self, Range { low, high }: Range, height: f32) -> Vec<(f64, String)> {
         let per_point = (high - low) / f64::from(height);
-        if let Self::Linear(least) = self {
-            let input = GridInput { bounds: (low, high), base_step_size: per_point };
-            return marks(&input, SPREAD, least).into_iter().map(|mark| (mark.value, decimal(mark.value, mark.step_size))).collect();
-        }
-        // From 1 to 2 is 0.3 of a decade.
-        let between: &[f64] = if 0.3 > CLOSEST * per_point { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let step = (SPREAD * per_point).ceil().max(1.0);
-        let mut marks = Vec::new();
-        let mut decade = (low / step).floor() * step;
-        while decade <= high {
-            for factor in between {
-                let at = decade + libm::log10(*factor);
-                if (low - 1e-9..=high + 1e-9).contains(&at) {
-                    marks.push((at, power(*factor, decade)));
-                }
+        match self {
+            Self::Linear => {
+                let input = GridInput { bounds: (low, high), base_step_size: per_point };
+                marks(&input, SPREAD, 0.0).into_iter().map(|mark| (mark.value, decimal(mark.value, mark.step_size))).collect()
             }
-            decade += step;
+            Self::At(values) => values.iter().map(|value| (*value, value.to_string())).collect(),
+            Self::Log => decades(low, high, per_point),
         }
-        marks
     }
+}
+
+/// Marks of a logarithmic bar.
+fn decades(low: f64, high: f64, per_point: f64) -> Vec<(f64, String)> {
+    // From 1 to 2 is 0.3 of a decade.
+    let between: &[f64] = if 0.3 > CLOSEST * per_point { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let step = (SPREAD * per_point).ceil().max(1.0);
+    let mut marks = Vec::new();
+    let mut decade = (low / step).floor() * step;
+    while decade <= high {
+        for factor in between {
+            let at = decade + libm::log10(*factor);
+            if (low - 1e-9..=high + 1e-9).contains(&at) {
+                marks.push((at, power(*factor, decade)));
+            }
+        }
+        decade += step;
+    }
+    marks
 }
 
 /// A round number by its first digit and decade.

@@ -218,8 +218,9 @@ pub fn hemisphere_ui(explorer: &mut Explorer, ui: &mut Ui) {
             None => view.texture = Some(ui.ctx().load_texture("hemisphere", image, TextureOptions::LINEAR)),
         }
     }
-    // The line under the map is as high as its letters.
-    let below = 2.0 * (ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y);
+    // So high whatever the lines say: the map does not jump.
+    let lines = if ui.available_width() < 430.0 { 4.0 } else { 2.0 };
+    let below = lines * (ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y);
     let room = vec2(ui.available_width(), (ui.available_height() - below).max(60.0));
     let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
     let radius = 0.5 * (room.x - 2.0 * MARGIN.x - BAR_ROOM).min(room.y - 2.0 * MARGIN.y).max(20.0);
@@ -255,16 +256,16 @@ pub fn hemisphere_ui(explorer: &mut Explorer, ui: &mut Ui) {
 /// What stands at the colour bar.
 fn labels(quantity: Quantity) -> BarLabels<'static> {
     match quantity {
-        Quantity::Dolp => BarLabels { title: "DoLP", marks: BarMarks::Linear(0.0) },
-        Quantity::Angle => BarLabels { title: "°", marks: BarMarks::Linear(30.0) },
+        Quantity::Dolp => BarLabels { title: "DoLP", marks: BarMarks::Linear },
+        Quantity::Angle => BarLabels { title: "°", marks: BarMarks::At(&[-90.0, -45.0, 0.0, 45.0, 90.0]) },
         Quantity::Brdf => BarLabels { title: "1/sr", marks: BarMarks::Log },
-        Quantity::SpecularShare => BarLabels { title: "", marks: BarMarks::Linear(0.0) },
+        Quantity::SpecularShare => BarLabels { title: "", marks: BarMarks::Linear },
     }
 }
 
 /// What the marks on the map mean.
 fn legend_ui(theta_i: f64, count: usize, ui: &mut Ui) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let entries: [(fn(&Painter, Pos2), String); 3] = [
             (incident_mark, tr!("incident, θi = {}°", theta_i)),
             (mirror_mark, tr!("mirror direction")),

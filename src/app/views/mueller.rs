@@ -211,8 +211,13 @@ impl Multiples {
             }
             painter.rect_stroke(cell, 0.0, grid, StrokeKind::Inside);
             let label = painter.layout_no_wrap(format!("m{row}{column}"), font.clone(), style.ink);
-            // Beside the line at 1, and legible where a curve crosses it.
-            let corner = Align2::LEFT_TOP.anchor_size(cell.left_top() + vec2(3.0, 2.0), label.size());
+            // Where the curve seldom is: m00 is 1, and m11 is near it.
+            let (anchor, corner) = if matches!(element, 0 | 5) {
+                (Align2::LEFT_BOTTOM, cell.left_bottom() + vec2(3.0, -2.0))
+            } else {
+                (Align2::LEFT_TOP, cell.left_top() + vec2(3.0, 2.0))
+            };
+            let corner = anchor.anchor_size(corner, label.size());
             painter.rect_filled(corner.expand2(vec2(2.0, 0.0)), 2.0, background(style.dark).gamma_multiply(0.8));
             painter.galley(corner.min, label, style.ink);
         }
@@ -239,20 +244,23 @@ impl Multiples {
             let values = if cell.height() > 40.0 { &[-1.0, 0.0, 1.0][..] } else { &[0.0] };
             for value in values {
                 let at = self.place(cell, self.x.low, *value) - vec2(3.0, 0.0);
-                painter.text(at, Align2::RIGHT_CENTER, format!("{value}").replace('-', "−"), small.clone(), ink);
+                painter.text(at, Align2::RIGHT_CENTER, value.to_string(), small.clone(), ink);
             }
         }
         let middle = f64::midpoint(self.x.low, self.x.high);
         for column in 0..4 {
             let cell = self.cell(3, column);
-            for theta_r in [self.x.low, middle, self.x.high] {
-                let anchor = match theta_r {
-                    at if at == self.x.low => Align2::LEFT_TOP,
-                    at if at == self.x.high => Align2::RIGHT_TOP,
-                    _ => Align2::CENTER_TOP,
-                };
-                let at = Pos2::new(self.place(cell, theta_r, 0.0).x, cell.bottom() + 2.0);
-                painter.text(at, anchor, format!("{theta_r}").replace('-', "−"), small.clone(), ink);
+            // Between narrow cells the ends of two axes would run into each other.
+            let wide = cell.width() > 70.0;
+            for (theta_r, anchor, is_drawn) in [
+                (self.x.low, Align2::LEFT_TOP, wide || column == 0),
+                (middle, Align2::CENTER_TOP, wide || (1..3).contains(&column)),
+                (self.x.high, Align2::RIGHT_TOP, wide || column == 3),
+            ] {
+                if is_drawn {
+                    let at = Pos2::new(self.place(cell, theta_r, 0.0).x, cell.bottom() + 2.0);
+                    painter.text(at, anchor, theta_r.to_string(), small.clone(), ink);
+                }
             }
         }
         let at = Pos2::new(self.rect.center().x, self.rect.bottom() + BELOW);
@@ -270,11 +278,11 @@ const SCALE: ColorScale = ColorScale { map: ColorMap::Diverging, range: Range { 
 /// The matrix as a table of colours and numbers.
 fn heat_map(painter: &Painter, room: Rect, matrix: &Mueller, theta_r: f64, style: Style) {
     let title = tr!("m / m00 at θr = {}°", format!("{theta_r:.1}"));
-    let head = 20.0;
+    let head = 28.0;
     let side = room.width().min(room.height() - head).max(40.0);
     let top = Pos2::new(room.center().x, room.top() + 6.0);
     painter.text(top, Align2::CENTER_TOP, title, FontId::proportional(LETTERS), style.ink);
-    let corner = Pos2::new(room.center().x - 0.5 * side, room.top() + head + 4.0);
+    let corner = Pos2::new(room.center().x - 0.5 * side, room.top() + head);
     let cell = 0.25 * side;
     let letters = (0.26 * cell).clamp(9.0, 15.0);
     for element in 0..16 {
@@ -293,8 +301,8 @@ fn number(value: f64) -> String {
     match value {
         _ if value.is_nan() => "–".to_owned(),
         0.0 => "0".to_owned(),
-        _ if value.abs() < 5e-4 => if value > 0.0 { "+0" } else { "−0" }.to_owned(),
-        _ => format!("{value:.3}").replace('-', "−"),
+        _ if value.abs() < 5e-4 => if value > 0.0 { "+0" } else { "-0" }.to_owned(),
+        _ => format!("{value:.3}"),
     }
 }
 
@@ -336,7 +344,7 @@ mod tests {
     #[test]
     fn numbers_tell_nothing_from_little() {
         for (value, expected) in
-            [(0.0, "0"), (-0.0, "0"), (1e-9, "+0"), (-1e-9, "−0"), (-0.1234, "−0.123"), (1.0, "1.000"), (f64::NAN, "–")]
+            [(0.0, "0"), (-0.0, "0"), (1e-9, "+0"), (-1e-9, "-0"), (-0.1234, "-0.123"), (1.0, "1.000"), (f64::NAN, "–")]
         {
             assert_eq!(number(value), expected);
         }
