@@ -159,7 +159,7 @@ fn index(coordinate: f64) -> Option<usize> {
     #[expect(clippy::cast_precision_loss, reason = "a number of cells")]
     let place = 0.5 * (coordinate + 1.0) * SIZE as f64;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be within the grid")]
-    (coordinate >= -1.0 && coordinate < 1.0).then_some(place as usize)
+    (-1.0..1.0).contains(&coordinate).then_some(place as usize)
 }
 
 /// Where a direction lies on the disc of radius 1, x to the right and y upwards.
@@ -263,10 +263,13 @@ fn labels(quantity: Quantity) -> BarLabels<'static> {
     }
 }
 
+/// Draws a mark.
+type Mark = fn(&Painter, Pos2);
+
 /// What the marks on the map mean.
 fn legend_ui(theta_i: f64, count: usize, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
-        let entries: [(fn(&Painter, Pos2), String); 3] = [
+        let entries: [(Mark, String); 3] = [
             (incident_mark, tr!("incident, θi = {}°", theta_i)),
             (mirror_mark, tr!("mirror direction")),
             (measured_mark, if count == 0 { tr!("not measured at this θi") } else { tr!("measured: {}", count) }),
