@@ -85,7 +85,7 @@ fn derivatives_of_dolp(bencher: Bencher) {
     gradient(bencher, &Scene::new(geometries(false)), Wanted { by: ParameterSet::ALL, brdf: false, dolp: true });
 }
 
-/// The whole: all derivatives and the Mueller matrix.
+/// The whole: all derivatives and the Mueller matrix. Budget: four times the specular lobe in plane, or more, since that leaves nearly all of it out.
 #[divan::bench]
 fn everything(bencher: Bencher) {
     let scene = Scene::new(geometries(false));

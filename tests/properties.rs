@@ -217,9 +217,9 @@ proptest! {
 /// Evaluations of the long run.
 const HUNDRED_MILLION: u64 = 100_000_000;
 
-/// `cargo test --release --test properties -- --ignored --nocapture`: about a minute.
+/// `cargo test --release --test properties -- --ignored --nocapture`: two to three minutes.
 #[test]
-#[ignore = "a minute in a release build"]
+#[ignore = "two to three minutes in a release build"]
 fn a_hundred_million_random_evaluations_are_all_numbers() {
     let mut random = Pcg64::seed_from_u64(20_211_129);
     let mut infinite = 0_u64;

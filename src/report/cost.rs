@@ -3,6 +3,7 @@
 //! Every row evaluates prepared points under one surface and is compared with the full evaluation: all terms (those that the scene has not, with
 //! weight 0), BRDF and DoLP with all derivatives, in the scalar form.
 
+use super::figure::{self, Dash, Drawn, Figure, Panel, Series};
 use super::{Cell, Machine, Report, Row, Surroundings, Timing, gradient_error, relative_error};
 use crate::fit::{Axis, Bounds, Choices, Landscape, Problem};
 use crate::measurement::{Columns, Measurement, Simulation};
@@ -24,6 +25,8 @@ const NODES: usize = 256;
 const SURFACES: u32 = 12;
 /// Points under each of them.
 const COMPARED: usize = 500;
+/// Thickness of a bar in the figure, in points.
+const BAR_POINTS: f64 = 9.0;
 
 /// What a row evaluates of each point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -219,8 +222,34 @@ impl Cost {
                 .to_owned(),
             "Instructions per point are counted by valgrind's callgrind; the commands are at the top of benches/cost.rs.".to_owned(),
         ];
-        Report::new("What a scene costs", machine, date, rows, notes)
+        let figures = vec![("time", bars(&rows))];
+        Report { figures, ..Report::new("What a scene costs", machine, date, rows, notes) }
     }
+}
+
+/// A bar for each scene, the first on top.
+fn bars(rows: &[Cost]) -> Figure {
+    let places = || (0_u32..).map(f64::from).zip(rows.iter().rev());
+    let shortest = rows.iter().map(|row| row.time.median_ns).fold(f64::INFINITY, f64::min);
+    let longest = rows.iter().map(|row| row.time.median_ns).fold(0.0, f64::max);
+    let from = 0.5 * shortest;
+    let of = |kernel: &str| {
+        let bar = |(y, row): (f64, &Cost)| [[from, y], [row.time.median_ns, y], [f64::NAN; 2]];
+        let points: Vec<[f64; 2]> = places().filter(|(_, row)| row.kernel == kernel).flat_map(bar).collect();
+        Series { drawn: Drawn::Line { points, width: BAR_POINTS, dash: Dash::Solid }, ..Series::line(kernel, Vec::new()) }
+    };
+    let numbers = places().map(|(y, row)| ([row.time.median_ns, y], Cell::Number(row.time.median_ns).to_string())).collect();
+    let name = |row: &Cost| match (row.kernel, row.threads) {
+        ("scalar", _) => row.scene.to_owned(),
+        (kernel, _) => format!("{} ({kernel})", row.scene),
+    };
+    let panel = Panel {
+        x: figure::Axis::log("time of a point", "ns").between(from, 3.0 * longest),
+        y: figure::Axis::categories("", rows.iter().rev().map(name)),
+        series: vec![of("scalar"), of("batch"), Series::labels(numbers)],
+        ..Panel::default()
+    };
+    Figure { title: "What a scene costs".to_owned(), panels: vec![panel], width_mm: 210.0, height_mm: 150.0, ..Figure::default() }
 }
 
 /// A number below 1 for each index, spread evenly.

@@ -1,7 +1,8 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits.
 
 use super::figure::{Axis, Figure, Panel, Series};
-use super::fit_race::{LADDER, Race, Step};
+use super::fit_race::{Extent, Race, Step};
+use super::ladder_race::LADDER;
 use super::reference::{Reference, golden, relative_error};
 use super::textbook::{textbook_f32, textbook_f64};
 use super::{Cell, Machine, Report, Row, Surroundings, Timing, quantile};
@@ -72,35 +73,48 @@ impl ErrorVsTime {
     /// Makes the report.
     #[must_use]
     pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+        Self::to_extent(Extent::WHOLE, machine, date, surroundings)
+    }
+
+    fn to_extent(extent: Extent, machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
         let golden = golden();
         let mut rows = evaluations(&golden, surroundings);
         (surroundings.progress)(0.05);
-        let mut race = if (surroundings.cancelled)() { Race::default() } else { Race::run(surroundings) };
+        let mut race = if (surroundings.cancelled)() { Race::default() } else { Race::run(extent, surroundings) };
         rows.append(&mut race.rows);
         let figures = vec![
             ("evaluate", work_precision(&rows, Compared::Evaluations)),
             ("fit", along_fits(&race.curves)),
             ("profile", performance_profile(&race.profiles)),
             ("models", work_precision(&rows, Compared::Models)),
+            ("ladder", along_the_ladder(&race.ladder)),
         ];
+        let notes = notes(golden.len(), extent, &rows);
         let further = curves(&rows, &race);
-        Report { figures, further, ..Report::new("Error against run time", machine, date, rows, notes(golden.len())) }
+        Report { figures, further, ..Report::new("Error against run time", machine, date, rows, notes) }
     }
 }
 
-fn notes(golden: usize) -> Vec<String> {
+fn notes(golden: usize, extent: Extent, rows: &[ErrorVsTime]) -> Vec<String> {
+    let Extent { starts, repetitions, repetitions_of_many } = extent;
+    let spreads = rows.iter().filter(|row| row.spread.is_finite());
+    let spreads: Vec<String> = spreads.map(|row| format!("{} {:.1} %", row.method, 100.0 * row.spread)).collect();
     vec![
         format!(
             "Evaluation: BRDF and DoLP of the nine-parameter model on the {golden} rows of the 60-digit table; times with one Cauchy surface under all \
-             its geometries, on one thread. An error of 1 means not a single digit."
+             its geometries, on one thread: median of 11 repetitions after a warm-up. An error of 1 means not a single digit."
         ),
-        "Fits: eight simulated DoLP data sets of steel (Gauss and Cauchy; 144 dense angles or the paper's 27; noise 0 or 0.005) from five starts \
-         each. elapsed_ms is the median over them; success is the best objective known within a factor 1 + 1e-6, or 1e-20; the errors are the largest \
-         relative distance of a parameter from the truth where dense angles without noise tell it."
-            .to_owned(),
+        format!(
+            "Fits: eight simulated DoLP data sets of steel (Gauss and Cauchy; 144 dense angles or the paper's 27; noise 0 or 0.005) from {starts} \
+             starts each, which \"{starts} starts\" takes one after the other. Times are medians of {repetitions} repetitions after a warm-up, of \
+             {repetitions_of_many} for many starts (all threads); elapsed_ms is the median over the fits; success is the best objective known \
+             within a factor 1 + 1e-6, or 1e-20; the errors are the largest relative distance of a parameter from the truth where dense angles \
+             without noise tell it."
+        ),
         "Models: each of the ladder fitted with many starts to the dense Cauchy data with noise 0.005; the errors are those of its DoLP against the \
          noise-free one where that is above 0.001."
             .to_owned(),
+        format!("Spread of the repetitions, half the distance between the quartiles over the median: {}.", spreads.join("; ")),
     ]
 }
 
@@ -115,7 +129,7 @@ fn curves(rows: &[ErrorVsTime], race: &Race) -> Map<String, Value> {
     };
     let mut map = Map::new();
     map.insert("spreads".to_owned(), rows.iter().map(timing).collect());
-    map.insert("curves".to_owned(), race.curves.iter().map(curve).collect());
+    map.insert("curves".to_owned(), race.curves.iter().chain(&race.ladder).map(curve).collect());
     map.insert("profiles".to_owned(), race.profiles.iter().map(profile).collect());
     map
 }
@@ -139,8 +153,8 @@ fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
     let rows: Vec<&ErrorVsTime> = rows.iter().filter(belongs).collect();
     let series = rows.iter().flat_map(|row| {
         let ends = [row.median_relative_error, row.worst_relative_error].map(|error| [row.time, error.max(DRAWN_AT_LEAST)]);
-        let name = row.method.trim_start_matches(LADDER);
-        [Series::line(name, ends.to_vec()), Series::points(name, ends)]
+        let name = short(&row.method);
+        [Series::line(name.clone(), ends.to_vec()), Series::points(name, ends)]
     });
     let (title, label, unit) = match compared {
         Compared::Evaluations => ("Evaluation: error against time", "time of a point", "ns"),
@@ -157,21 +171,43 @@ fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
     Figure { title: title.to_owned(), panels: vec![panel], height_mm: 130.0, ..Figure::default() }
 }
 
+/// A method's name as a legend has room for it.
+fn short(method: &str) -> String {
+    method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "").replace(LADDER, "")
+}
+
+/// What is along the vertical axis of a way, by its place in a step.
+const OBJECTIVE: (usize, &str) = (1, "objective ΔE");
+const DISTANCE: (usize, &str) = (2, "distance to the truth");
+
+/// Ways of fits in one panel; the times of both panels of a figure are those of all steps.
+fn ways(ways: &[(String, Vec<Step>)], (place, label): (usize, &str), legend: bool) -> Panel {
+    let series = ways.iter().map(|(method, steps)| {
+        let points = steps.iter().map(|step| [step[0], step[place]]).filter(|[ms, y]| *ms > 0.0 && *y > 0.0);
+        Series::line(short(method), points.collect())
+    });
+    let times = || ways.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).filter(|ms| *ms > 0.0);
+    let (first, last) = (times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
+    Panel {
+        x: Axis::log("elapsed", "ms").between(first, 1.1 * last),
+        y: Axis::log(label, ""),
+        series: series.collect(),
+        legend,
+        ..Panel::default()
+    }
+}
+
 /// Objective and distance to the truth along one fit.
 fn along_fits(curves: &[(String, Vec<Step>)]) -> Figure {
-    let panel = |label: &str, i: usize| {
-        // Many starts are another matter: the clock has run before the winning one begins.
-        let single = curves.iter().filter(|(_, steps)| steps.iter().all(|step| !step[2].is_nan()));
-        let line = |(method, steps): &(String, Vec<Step>)| {
-            let points = steps.iter().map(|step| [step[0], step[i]]).filter(|[ms, y]| *ms > 0.0 && *y > 0.0);
-            Series::line(method.clone(), points.collect())
-        };
-        let series: Vec<Series> = single.map(line).collect();
-        Panel { x: Axis::log("elapsed", "ms"), y: Axis::log(label, ""), series, legend: i == 1, ..Panel::default() }
-    };
-    let panels = vec![panel("objective ΔE", 1), panel("distance to the truth", 2)];
-    let title = "Along one fit: noise-free Gauss data, dense angles, from the defaults".to_owned();
-    Figure { title, panels, height_mm: 190.0, ..Figure::default() }
+    let panels = vec![ways(curves, OBJECTIVE, true), ways(curves, DISTANCE, false)];
+    let title = "Along one fit: noise-free Gauss data, dense angles, first from the defaults".to_owned();
+    Figure { title, panels, height_mm: 200.0, ..Figure::default() }
+}
+
+/// Objective along a fit of each model.
+fn along_the_ladder(curves: &[(String, Vec<Step>)]) -> Figure {
+    let title = "Along one fit of each model: the same Cauchy data, noise 0.005, from the defaults".to_owned();
+    Figure { title, panels: vec![ways(curves, OBJECTIVE, true)], height_mm: 120.0, ..Figure::default() }
 }
 
 /// Dolan and Moré's performance profile.
@@ -179,11 +215,11 @@ fn performance_profile(profiles: &[(String, Vec<[f64; 2]>)]) -> Figure {
     let last = profiles.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).fold(1.0, f64::max);
     // Each goes on to the end at the share it has reached.
     let to_the_end = |steps: &[[f64; 2]]| steps.iter().copied().chain(steps.last().map(|step| [2.0 * last, step[1]])).collect();
-    let series = profiles.iter().map(|(method, steps)| Series::steps(method.clone(), to_the_end(steps))).collect();
+    let series = profiles.iter().map(|(method, steps)| Series::steps(short(method), to_the_end(steps))).collect();
     let x = Axis::log("time over that of the fastest method", "");
     let y = Axis::linear("share of problems solved", "").between(0.0, 1.05);
     let panel = Panel { x, y, series, ..Panel::default() };
-    Figure { title: "Performance profile of the solvers".to_owned(), panels: vec![panel], height_mm: 120.0, ..Figure::default() }
+    Figure { title: "Performance profile of the solvers".to_owned(), panels: vec![panel], height_mm: 130.0, ..Figure::default() }
 }
 
 /// BRDF and DoLP.
@@ -266,4 +302,57 @@ fn evaluations(golden: &[Reference], surroundings: Surroundings<'_>) -> Vec<Erro
 
 fn error_of((brdf, dolp): Values, row: &Reference) -> f64 {
     relative_error(brdf, row.brdf).max(relative_error(dolp, row.dolp))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ErrorVsTime, Extent};
+    use crate::report::{Machine, Surroundings};
+    use serde_json::Value;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    /// One start of each problem, everything once, by a clock that goes on by a long repetition whenever it is looked at.
+    fn small() -> Value {
+        let looks = AtomicU32::new(0);
+        let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
+        let surroundings = Surroundings { clock: &clock, cancelled: &|| false, progress: &|_| {} };
+        let extent = Extent { starts: 1, repetitions: 1, repetitions_of_many: 1 };
+        ErrorVsTime::to_extent(extent, Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), surroundings).json_with_curves()
+    }
+
+    #[test]
+    fn every_row_and_every_curve_has_what_the_file_promises() {
+        let json = small();
+        let rows = json["rows"].as_array().expect("rows");
+        for row in rows {
+            let is_fit = row["task"] == "fit";
+            assert!(is_fit || row["task"] == "evaluate", "{row}");
+            assert_eq!((row["ns_per_point"].is_number(), row["elapsed_ms"].is_number()), (!is_fit, is_fit), "{row}");
+            assert!(
+                row["method"].is_string() && row["worst_relative_error"].is_number() && row["median_relative_error"].is_number(),
+                "{row}"
+            );
+            let is_model = row["method"].as_str().is_some_and(|method| method.starts_with("model "));
+            assert_eq!(row["success_rate"].is_number(), is_fit && !is_model, "{row}");
+        }
+        let named = |part: &str| rows.iter().filter(|row| row["method"].as_str().is_some_and(|method| method.contains(part))).count();
+        let counts =
+            ["analytic Jacobian", "finite-difference Jacobian", ", unscaled", ", scaled", "this program", "model ", "textbook", "batch"]
+                .map(named);
+        // One start and all starts of each of the four; ten models.
+        assert_eq!(counts, [4, 4, 4, 4, 2, 10, 2, 1]);
+        let curves = json["curves"].as_array().expect("curves");
+        assert_eq!(curves.len(), 20);
+        for curve in curves {
+            let [times, objectives, distances] = ["elapsed_ms", "objective", "distance"].map(|key| curve[key].as_array().expect("a list"));
+            assert!(!times.is_empty() && times.len() == objectives.len() && times.len() == distances.len(), "{curve}");
+        }
+        let profiles = json["profiles"].as_array().expect("profiles");
+        assert!(
+            profiles.len() == 10
+                && profiles.iter().any(|profile| profile["share_solved"].as_array().is_some_and(|shares| !shares.is_empty()))
+        );
+        let shape: Vec<&str> = json.as_object().expect("an object").keys().map(String::as_str).collect();
+        assert_eq!(shape, ["curves", "date", "machine", "profiles", "rows", "spreads"]);
+    }
 }

@@ -1,17 +1,13 @@
-//! Fits against time: the same problems from the same starts by several solvers, and the ladder of models on the same data.
-//!
-//! The yardstick is MINPACK's Levenberg–Marquardt (the crate `levenberg-marquardt`) on angles φ with `p = low + (high − low) sin²φ`, which keep a
-//! parameter in its box: with derivatives of the core or forward differences of its residuals, and with or without MINPACK's scaling by
-//! the columns of the Jacobian.
+//! Fits against time: the same problems from the same starts by several solvers. The yardstick is in [`super::yardstick`], the ladder of models
+//! on the same data in [`super::ladder_race`].
 
 use super::error_vs_time::{ErrorVsTime, TaskKind};
-use super::{Surroundings, quantile};
+use super::yardstick::levenberg_marquardt;
+use super::{Surroundings, Timing, ladder_race, quantile};
 use crate::fit::{Bounds, Choices, Effort, LeastSquares, Problem, Starts, Watch, fit, free_by_default, minimise};
 use crate::measurement::{Columns, Measurement, Simulation};
-use crate::model::{PRESETS, Parameters, Pbrdf, Preset, Scene};
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+use crate::model::{Parameters, Pbrdf, Preset};
+use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 
 /// One improvement along a fit: elapsed milliseconds, objective, distance to the truth.
@@ -23,6 +19,8 @@ pub(super) struct Race {
     pub rows: Vec<ErrorVsTime>,
     /// Along one fit, by method.
     pub curves: Vec<(String, Vec<Step>)>,
+    /// Along one fit from the defaults, by model of the ladder.
+    pub ladder: Vec<(String, Vec<Step>)>,
     /// Dolan and Moré's profiles, Math. Program. 91, 201 (2002): by method, the share of problems solved within a multiple of the
     /// fastest method's time.
     pub profiles: Vec<(String, Vec<[f64; 2]>)>,
@@ -30,9 +28,12 @@ pub(super) struct Race {
 
 /// How a problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Method {
+pub(super) enum Method {
+    /// The yardstick from one start.
     Marquardt { analytic: bool, scaled: bool },
+    /// This program from one start.
     One,
+    /// This program from the starts of its own choice.
     Many,
 }
 
@@ -45,31 +46,38 @@ const METHODS: [Method; 6] = [
     Method::Many,
 ];
 
-/// What the names of the ladder's rows begin with.
-pub(super) const LADDER: &str = "model ";
+/// How much is fitted, and how often.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    /// Starts of each problem.
+    pub starts: u32,
+    /// Repetitions of a fit from one start, after one that warms up.
+    pub repetitions: usize,
+    /// Repetitions of a fit from many starts.
+    pub repetitions_of_many: usize,
+}
 
-/// Starts of each problem, and repetitions of each fit.
-const STARTS: u32 = 5;
-const REPETITIONS: usize = 3;
-const SEED: u64 = 20_211_129;
+impl Extent {
+    /// That of the report. Times of a build with debug assertions say little: there one repetition has to do.
+    pub(super) const WHOLE: Self = if cfg!(debug_assertions) {
+        Self { starts: 5, repetitions: 1, repetitions_of_many: 1 }
+    } else {
+        Self { starts: 5, repetitions: 5, repetitions_of_many: 3 }
+    };
+}
+
+pub(super) const SEED: u64 = 20_211_129;
 /// A fit has succeeded within this of the best objective known: relative, or absolute where data have no noise.
 const SAME: f64 = 1e-6;
 const EXACT: f64 = 1e-20;
-/// Evaluations that Levenberg–Marquardt is allowed per parameter and one.
-const PATIENCE: usize = 100;
-/// The fraction of the box that a start keeps from an edge, where the slope by φ vanishes.
-const MARGIN: f64 = 1e-3;
-/// Step of a forward difference, √ε, relative to φ or to this.
-const DIFFERENCE: f64 = 1.490_116_119_384_765_6e-8;
-const SMALLEST_ANGLE: f64 = 1e-2;
 /// Parameters smaller than this are compared as if they had this size.
-const SMALLEST_SIZE: f64 = 1e-3;
+pub(super) const SMALLEST_SIZE: f64 = 1e-3;
 
 impl Method {
     fn name(self) -> String {
         match self {
             Self::Marquardt { analytic, scaled } => format!(
-                "Levenberg–Marquardt, {} Jacobian, {}",
+                "Levenberg–Marquardt, {} Jacobian, {}, one start",
                 if analytic { "analytic" } else { "finite-difference" },
                 if scaled { "scaled" } else { "unscaled" }
             ),
@@ -78,15 +86,32 @@ impl Method {
         }
     }
 
-    fn run(self, task: &Task<'_>, surroundings: Surroundings<'_>) -> Run {
+    /// The name of all starts of a problem, one after the other.
+    fn name_of_all(self, starts: u32) -> String {
+        self.name().replace("one start", &format!("{starts} starts"))
+    }
+
+    fn repetitions(self, extent: Extent) -> usize {
+        if self == Self::Many { extent.repetitions_of_many } else { extent.repetitions }
+    }
+
+    /// Runs it as often as it is to be repeated.
+    fn repeated(self, task: &Task<'_>, extent: Extent, surroundings: Surroundings<'_>) -> Run {
+        let repetitions = self.repetitions(extent);
+        if repetitions > 1 && self != Self::Many {
+            // Warms caches and branches up; a fit from many starts is long enough to do so itself.
+            _ = self.run(task, surroundings);
+        }
+        typical(&(0..repetitions).map(|_| self.run(task, surroundings)).collect::<Vec<_>>())
+    }
+
+    pub(super) fn run(self, task: &Task<'_>, surroundings: Surroundings<'_>) -> Run {
         let begun = (surroundings.clock)();
         let clock = || (surroundings.clock)() - begun;
         let log = RefCell::new(Log { clock: &clock, truth: task.truth, run: Run::begun(task.problem) });
         match self {
             Self::Marquardt { analytic, scaled } => {
-                let adapter = Adapter { task, phi: angles(task.problem), analytic, log: &log };
-                let solver = LevenbergMarquardt::new().with_patience(PATIENCE).with_scale_diag(scaled);
-                _ = solver.minimize(adapter);
+                levenberg_marquardt(task, analytic, scaled, &log);
             }
             Self::One => {
                 let watch = Watch { clock: &|| 0.0, cancelled: surroundings.cancelled, progress: &|_| {} };
@@ -99,7 +124,7 @@ impl Method {
                 let mut log = log.borrow_mut();
                 log.run.steps = report.trace.iter().map(|point| [point.elapsed_ms, point.objective, f64::NAN]).collect();
                 log.run.parameters = report.parameters;
-                log.run.objective = task.problem.sum_of_squares(&report.parameters).unwrap_or(f64::INFINITY);
+                log.run.objective = objective(task.problem, &report.parameters);
             }
         }
         let elapsed_ms = clock();
@@ -108,39 +133,48 @@ impl Method {
     }
 }
 
+/// ΔE of Eq. (18), which is the sum of squares for DoLP alone.
+fn objective(problem: &Problem, parameters: &Parameters) -> f64 {
+    problem.sum_of_squares(parameters).unwrap_or(f64::INFINITY)
+}
+
 /// A problem with its truth.
-struct Task<'a> {
-    problem: &'a Problem,
-    truth: &'a Parameters,
+pub(super) struct Task<'a> {
+    pub problem: &'a Problem,
+    /// None where the model is not that of the data.
+    pub truth: Option<&'a Parameters>,
 }
 
 /// What came of one fit.
 #[derive(Debug, Clone)]
-struct Run {
-    elapsed_ms: f64,
-    objective: f64,
-    parameters: Parameters,
-    steps: Vec<Step>,
+pub(super) struct Run {
+    pub elapsed_ms: f64,
+    /// Half the distance between the quartiles of its repetitions over their median.
+    pub spread: f64,
+    /// ΔE.
+    pub objective: f64,
+    pub parameters: Parameters,
+    pub steps: Vec<Step>,
 }
 
 impl Run {
-    fn begun(problem: &Problem) -> Self {
-        Self { elapsed_ms: 0.0, objective: f64::INFINITY, parameters: *Problem::start(problem), steps: Vec::new() }
+    pub(super) fn begun(problem: &Problem) -> Self {
+        Self { elapsed_ms: 0.0, spread: f64::NAN, objective: f64::INFINITY, parameters: *Problem::start(problem), steps: Vec::new() }
     }
 }
 
 /// Notes improvements.
-struct Log<'a> {
-    clock: &'a dyn Fn() -> f64,
-    truth: &'a Parameters,
-    run: Run,
+pub(super) struct Log<'a> {
+    pub clock: &'a dyn Fn() -> f64,
+    pub truth: Option<&'a Parameters>,
+    pub run: Run,
 }
 
 impl Log<'_> {
-    fn note(&mut self, problem: &Problem, parameters: Parameters, residuals: &DVector<f64>) {
+    pub(super) fn note(&mut self, problem: &Problem, parameters: Parameters, residuals: &DVector<f64>) {
         let objective = residuals.norm_squared();
         if objective < self.run.objective {
-            let distance = distance(problem, &parameters, self.truth);
+            let distance = self.truth.map_or(f64::NAN, |truth| distance(problem, &parameters, truth));
             self.run.steps.push([(self.clock)(), objective, distance]);
             (self.run.objective, self.run.parameters) = (objective, parameters);
         }
@@ -209,92 +243,6 @@ impl LeastSquares for Recorded<'_, '_> {
     }
 }
 
-/// The problem as MINPACK's solver takes it.
-struct Adapter<'a, 'b> {
-    task: &'a Task<'a>,
-    phi: DVector<f64>,
-    analytic: bool,
-    log: &'a RefCell<Log<'b>>,
-}
-
-/// φ of a problem's start, a little inside the box.
-fn angles(problem: &Problem) -> DVector<f64> {
-    let free = problem.free();
-    DVector::from_fn(free.len(), |j, _| {
-        let (low, high) = problem.bounds().of(free[j]);
-        let fraction = (Problem::start(problem)[free[j]] - low) / (high - low);
-        std::f64::consts::FRAC_PI_2 - libm::acos(fraction.clamp(MARGIN, 1.0 - MARGIN).sqrt())
-    })
-}
-
-impl Adapter<'_, '_> {
-    fn parameters(&self, phi: &DVector<f64>) -> Parameters {
-        let problem = self.task.problem;
-        let mut parameters = *Problem::start(problem);
-        for (&parameter, phi) in problem.free().iter().zip(phi.iter()) {
-            let (low, high) = problem.bounds().of(parameter);
-            let sin = libm::sin(*phi);
-            parameters[parameter] = problem.bounds().clamp(parameter, low + (high - low) * sin * sin);
-        }
-        parameters
-    }
-
-    fn residuals_of(&self, phi: &DVector<f64>) -> DVector<f64> {
-        let mut residuals = DVector::zeros(self.task.problem.len());
-        if !self.task.problem.residuals(&self.parameters(phi), &mut residuals) {
-            residuals.fill(f64::NAN);
-        }
-        residuals
-    }
-
-    /// Forward differences.
-    fn differences(&self) -> DMatrix<f64> {
-        let here = self.residuals_of(&self.phi);
-        let mut jacobian = DMatrix::zeros(here.len(), self.phi.len());
-        for j in 0..self.phi.len() {
-            let mut moved = self.phi.clone();
-            moved[j] += DIFFERENCE * moved[j].abs().max(SMALLEST_ANGLE);
-            let step = moved[j] - self.phi[j];
-            jacobian.set_column(j, &((self.residuals_of(&moved) - &here) / step));
-        }
-        jacobian
-    }
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, phi: &DVector<f64>) {
-        self.phi.copy_from(phi);
-    }
-
-    fn params(&self) -> DVector<f64> {
-        self.phi.clone()
-    }
-
-    fn residuals(&self) -> Option<DVector<f64>> {
-        let residuals = self.residuals_of(&self.phi);
-        self.log.borrow_mut().note(self.task.problem, self.parameters(&self.phi), &residuals);
-        Some(residuals)
-    }
-
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        if !self.analytic {
-            return Some(self.differences());
-        }
-        let problem = self.task.problem;
-        let mut jacobian = DMatrix::zeros(problem.len(), self.phi.len());
-        problem.jacobian(&self.parameters(&self.phi), &mut jacobian);
-        for (j, &parameter) in problem.free().iter().enumerate() {
-            let (low, high) = problem.bounds().of(parameter);
-            jacobian.column_mut(j).scale_mut((high - low) * libm::sin(2.0 * self.phi[j]));
-        }
-        Some(jacobian)
-    }
-}
-
 /// Angles that determine all parameters of a fit to DoLP, and those of the paper's steel, which do not.
 fn angles_of(dense: bool) -> (Vec<f64>, Vec<f64>) {
     let steps = |count: u32, first: f64, step: f64| (0..count).map(|i| first + step * f64::from(i)).collect();
@@ -302,11 +250,11 @@ fn angles_of(dense: bool) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// 45# steel.
-fn truth() -> Parameters {
+pub(super) fn truth() -> Parameters {
     Parameters { n: 2.07, k: 2.9, sigma: 0.25, ks: 1.0, kd: 0.12, kv: 0.15, q: 1.8, c: -0.4, sigma_v: 0.6 }
 }
 
-fn simulate(preset: &Preset, dense: bool, noise: f64) -> Measurement {
+pub(super) fn simulate(preset: &Preset, dense: bool, noise: f64) -> Measurement {
     let (theta_i, theta_r) = angles_of(dense);
     let surface = Pbrdf::new(preset.model, truth()).ok();
     let simulation = surface.map(|surface| Simulation {
@@ -323,7 +271,7 @@ fn simulate(preset: &Preset, dense: bool, noise: f64) -> Measurement {
     simulation.and_then(|simulation| simulation.run().ok()).unwrap_or_default()
 }
 
-fn problem(preset: &Preset, measurement: &Measurement, start: Parameters) -> Option<Problem> {
+pub(super) fn problem(preset: &Preset, measurement: &Measurement, start: Parameters) -> Option<Problem> {
     let choices = Choices { dolp_only: preset.dolp_only, ..Choices::default() };
     let free = free_by_default(preset.model, measurement, &choices);
     Problem::new(measurement, preset.model, start, free, Bounds::default(), choices).ok()
@@ -350,15 +298,15 @@ struct Instance {
     best: f64,
 }
 
-fn instances() -> Vec<Instance> {
+fn instances(starts: u32) -> Vec<Instance> {
     let mut instances = Vec::new();
     for preset in ["gauss", "cauchy"].iter().filter_map(|key| Preset::from_key(key)) {
         for (dense, noise) in [(true, 0.0), (true, 0.005), (false, 0.0), (false, 0.005)] {
             let measurement = simulate(preset, dense, noise);
             let Some(problem) = problem(preset, &measurement, Parameters::default()) else { continue };
             let best = fit(&problem, Starts::Automatic, SEED, Watch::NOBODY).parameters;
-            let best = problem.sum_of_squares(&best).unwrap_or(f64::INFINITY);
-            for i in 0..STARTS {
+            let best = objective(&problem, &best);
+            for i in 0..starts {
                 let start = start(i, &problem);
                 instances.push(Instance { problem: problem.with_start(start), tells_the_truth: dense && noise == 0.0, best });
             }
@@ -374,64 +322,93 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 impl Race {
     /// Runs it; what there is when it is cancelled.
-    pub(super) fn run(surroundings: Surroundings<'_>) -> Self {
+    pub(super) fn run(extent: Extent, surroundings: Surroundings<'_>) -> Self {
         let mut race = Self::default();
         let truth = truth();
-        let mut instances = instances();
-        // Times of successful fits by method and instance; infinite without success.
-        let mut times: Vec<Vec<f64>> = Vec::new();
-        let mut all: Vec<Vec<Run>> = Vec::new();
+        let mut instances = instances(extent.starts);
+        // By method, and by instance; the starts of a problem follow each other.
+        let mut all: Vec<(String, Vec<Run>)> = Vec::new();
         for (done, method) in (0_u32..).zip(METHODS) {
             let mut runs = Vec::new();
             for instance in &mut instances {
                 if (surroundings.cancelled)() {
                     return race;
                 }
-                let task = Task { problem: &instance.problem, truth: &truth };
-                let repeated: Vec<Run> = (0..REPETITIONS).map(|_| method.run(&task, surroundings)).collect();
-                let run = typical(&repeated);
+                let task = Task { problem: &instance.problem, truth: Some(&truth) };
+                let run = method.repeated(&task, extent, surroundings);
                 instance.best = instance.best.min(run.objective);
                 runs.push(run);
             }
-            race.curves.push((method.name(), runs[0].steps.clone()));
-            all.push(runs);
+            let pooled =
+                matches!(method, Method::Marquardt { .. }).then(|| (method.name_of_all(extent.starts), together(&runs, extent.starts)));
+            all.push((method.name(), runs));
+            all.extend(pooled);
             (surroundings.progress)(0.1 + 0.1 * f64::from(done));
         }
-        for (method, runs) in METHODS.into_iter().zip(&all) {
-            let succeeded = |(run, instance): (&Run, &Instance)| run.objective <= (instance.best * (1.0 + SAME)).max(instance.best + EXACT);
-            let success: Vec<bool> = runs.iter().zip(&instances).map(succeeded).collect();
-            times.push(runs.iter().zip(&success).map(|(run, &ok)| if ok { run.elapsed_ms } else { f64::INFINITY }).collect());
-            race.rows.push(row(method, runs, &instances, &success, &truth));
-        }
-        race.profiles = METHODS.into_iter().zip(profiles(&times)).map(|(method, profile)| (method.name(), profile)).collect();
-        race.rows.extend(ladder(surroundings));
+        race.rows = all.iter().map(|(name, runs)| row(name, runs, &instances, &truth)).collect();
+        let times: Vec<Vec<f64>> = all.iter().map(|(_, runs)| times_of_success(runs, &instances)).collect();
+        race.profiles = all.iter().zip(profiles(&times)).map(|((name, _), profile)| (name.clone(), profile)).collect();
+        race.curves = all.into_iter().filter_map(|(name, mut runs)| Some((name, runs.drain(..).next()?.steps))).collect();
+        let (rows, curves) = ladder_race::run(extent, surroundings);
+        race.rows.extend(rows);
+        race.ladder = curves;
         race
     }
 }
 
 /// The repetitions of one fit as one: they take the same steps, at the median of their times.
-fn typical(repeated: &[Run]) -> Run {
-    let times = repeated.iter().map(|run| run.elapsed_ms).collect();
+pub(super) fn typical(repeated: &[Run]) -> Run {
+    let times = Timing::from_repetitions(repeated.iter().map(|run| run.elapsed_ms * 1e6).collect());
     let mut typical = repeated[0].clone();
     for (i, step) in typical.steps.iter_mut().enumerate() {
         step[0] = median(repeated.iter().filter_map(|run| Some(run.steps.get(i)?[0])).collect());
     }
-    Run { elapsed_ms: median(times), ..typical }
+    Run { elapsed_ms: times.median_ns * 1e-6, spread: times.spread, ..typical }
 }
 
-fn row(method: Method, runs: &[Run], instances: &[Instance], success: &[bool], truth: &Parameters) -> ErrorVsTime {
+/// All starts of each problem as one fit, the best of them, one after the other; given once for each of them.
+fn together(runs: &[Run], starts: u32) -> Vec<Run> {
+    let of_problem = |runs: &[Run]| {
+        let mut whole = Run { steps: Vec::new(), elapsed_ms: 0.0, objective: f64::INFINITY, ..runs[0].clone() };
+        for run in runs {
+            for &[elapsed_ms, objective, distance] in &run.steps {
+                if objective < whole.steps.last().map_or(f64::INFINITY, |step| step[1]) {
+                    whole.steps.push([whole.elapsed_ms + elapsed_ms, objective, distance]);
+                }
+            }
+            if run.objective < whole.objective {
+                (whole.objective, whole.parameters) = (run.objective, run.parameters);
+            }
+            whole.elapsed_ms += run.elapsed_ms;
+            whole.spread = whole.spread.max(run.spread);
+        }
+        vec![whole; runs.len()]
+    };
+    runs.chunks(starts as usize).flat_map(of_problem).collect()
+}
+
+fn has_succeeded(run: &Run, instance: &Instance) -> bool {
+    run.objective <= (instance.best * (1.0 + SAME)).max(instance.best + EXACT)
+}
+
+/// Times of the fits that succeeded; infinite for the others.
+fn times_of_success(runs: &[Run], instances: &[Instance]) -> Vec<f64> {
+    let time = |(run, instance): (&Run, &Instance)| if has_succeeded(run, instance) { run.elapsed_ms } else { f64::INFINITY };
+    runs.iter().zip(instances).map(time).collect()
+}
+
+fn row(method: &str, runs: &[Run], instances: &[Instance], truth: &Parameters) -> ErrorVsTime {
     let told = runs.iter().zip(instances).filter(|(_, instance)| instance.tells_the_truth);
     let mut distances: Vec<f64> = told.map(|(run, instance)| distance(&instance.problem, &run.parameters, truth)).collect();
     distances.sort_by(f64::total_cmp);
-    let mut times: Vec<f64> = runs.iter().map(|run| run.elapsed_ms).collect();
-    times.sort_by(f64::total_cmp);
+    let succeeded = runs.iter().zip(instances).filter(|(run, instance)| has_succeeded(run, instance)).count();
     #[expect(clippy::cast_precision_loss, reason = "numbers of fits")]
-    let rate = success.iter().filter(|ok| **ok).count() as f64 / success.len() as f64;
+    let rate = succeeded as f64 / runs.len() as f64;
     ErrorVsTime {
         task: TaskKind::Fit,
-        method: method.name(),
-        time: quantile(&times, 0.5),
-        spread: 0.5 * (quantile(&times, 0.75) - quantile(&times, 0.25)) / quantile(&times, 0.5),
+        method: method.to_owned(),
+        time: median(runs.iter().map(|run| run.elapsed_ms).collect()),
+        spread: median(runs.iter().map(|run| run.spread).collect()),
         worst_relative_error: quantile(&distances, 1.0),
         median_relative_error: quantile(&distances, 0.5),
         success_rate: Some(rate),
@@ -452,46 +429,12 @@ fn profiles(times: &[Vec<f64>]) -> Vec<Vec<[f64; 2]>> {
     times.iter().map(of).collect()
 }
 
-/// Every model of the ladder on the same data: steel under dense angles with noise. Errors are those of its DoLP against the noise-free one.
-fn ladder(surroundings: Surroundings<'_>) -> Vec<ErrorVsTime> {
-    let Some(full) = Preset::from_key("cauchy") else { return Vec::new() };
-    let (measurement, exact) = (simulate(full, true, 0.005), simulate(full, true, 0.0));
-    let scene = Scene::new(exact.rows.iter().map(|row| row.geometry));
-    let mut rows = Vec::new();
-    for preset in &PRESETS {
-        if (surroundings.cancelled)() {
-            break;
-        }
-        let Some(problem) = problem(preset, &measurement, Parameters::default()) else { continue };
-        let clock = surroundings.clock;
-        let begun = clock();
-        let watch = Watch { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
-        let report = fit(&problem, Starts::Automatic, SEED, watch);
-        let time = clock() - begun;
-        let Ok(surface) = Pbrdf::new(preset.model, report.parameters) else { continue };
-        let truths = exact.rows.iter().map(|row| row.dolp.map_or(0.0, |dolp| dolp.value));
-        let errors = truths.zip(scene.reflections(&surface)).filter(|(truth, _)| *truth > SMALLEST_SIZE);
-        let mut errors: Vec<f64> = errors.map(|(truth, model)| (model.dolp - truth).abs() / truth).collect();
-        errors.sort_by(f64::total_cmp);
-        rows.push(ErrorVsTime {
-            task: TaskKind::Fit,
-            method: format!("{LADDER}{}", preset.key),
-            time,
-            spread: f64::NAN,
-            worst_relative_error: quantile(&errors, 1.0),
-            median_relative_error: quantile(&errors, 0.5),
-            success_rate: None,
-        });
-    }
-    rows
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{DIFFERENCE, Log, Method, Run, Task, angles, instances, profiles, truth};
+    use super::{METHODS, Method, Run, Task, instances, profiles, together, truth, typical};
     use crate::report::Surroundings;
-    use levenberg_marquardt::LeastSquaresProblem as _;
-    use std::cell::RefCell;
+
+    const NOBODY: Surroundings<'static> = Surroundings { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
 
     #[test]
     fn a_method_that_solves_half_of_all_at_twice_the_time_has_that_profile() {
@@ -499,32 +442,56 @@ mod tests {
         assert_eq!(profiles, [vec![[1.0, 0.5], [1.0, 1.0]], vec![[2.0, 0.5]]]);
     }
 
+    fn run(elapsed_ms: f64, objectives: [f64; 2]) -> Run {
+        let problem = instances(1).swap_remove(0).problem;
+        let steps = vec![[0.5 * elapsed_ms, objectives[0], 1.0], [elapsed_ms, objectives[1], 1.0]];
+        Run { elapsed_ms, objective: objectives[1], steps, ..Run::begun(&problem) }
+    }
+
     #[test]
-    fn both_jacobians_of_the_yardstick_agree() {
-        let instance = instances().swap_remove(0);
-        let truth = truth();
-        let task = Task { problem: &instance.problem, truth: &truth };
-        let log = RefCell::new(Log { clock: &|| 0.0, truth: &truth, run: Run::begun(task.problem) });
-        let adapter = |analytic| super::Adapter { task: &task, phi: angles(task.problem), analytic, log: &log };
-        let (analytic, differences) = (adapter(true).jacobian().expect("a matrix"), adapter(false).jacobian().expect("a matrix"));
-        // Forward differences are good to √ε times the curvature.
-        let bar = 100.0 * DIFFERENCE * analytic.amax();
-        assert!((&analytic - &differences).amax() < bar, "{analytic} {differences}");
+    fn starts_of_a_problem_together_take_the_sum_of_their_times_and_keep_the_best() {
+        let whole = together(&[run(2.0, [9.0, 4.0]), run(6.0, [7.0, 3.0]), run(1.0, [8.0, 5.0])], 2);
+        let summary: Vec<_> = whole.iter().map(|run| (run.elapsed_ms, run.objective)).collect();
+        assert_eq!(summary, [(8.0, 3.0), (8.0, 3.0), (1.0, 5.0)]);
+        // The second start's first step is worse than what there is.
+        assert_eq!(whole[0].steps, [[1.0, 9.0, 1.0], [2.0, 4.0, 1.0], [8.0, 3.0, 1.0]]);
+    }
+
+    #[test]
+    fn repetitions_count_by_their_median() {
+        let typical = typical(&[run(2.0, [9.0, 4.0]), run(40.0, [9.0, 4.0]), run(3.0, [9.0, 4.0])]);
+        assert_eq!((typical.elapsed_ms, typical.steps[0][0]), (3.0, 1.5));
     }
 
     #[test]
     fn every_method_brings_the_objective_down() {
-        let instance = instances().swap_remove(0);
+        let instance = instances(1).swap_remove(0);
         let truth = truth();
-        let task = Task { problem: &instance.problem, truth: &truth };
-        let surroundings = Surroundings { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
-        for method in super::METHODS {
-            let run = method.run(&task, surroundings);
+        let task = Task { problem: &instance.problem, truth: Some(&truth) };
+        for method in METHODS {
+            let run = method.run(&task, NOBODY);
             let first = run.steps.first().expect("a first evaluation")[1];
             assert!(run.objective < 0.01 * first, "{}: {first} to {}", method.name(), run.objective);
             assert!(run.steps.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{}", method.name());
         }
-        let run = Method::One.run(&task, surroundings);
+        let run = Method::One.run(&task, NOBODY);
         assert!(run.objective <= 1e-20, "{}", run.objective);
+    }
+
+    #[test]
+    fn the_last_step_of_a_way_has_the_objective_of_eq_18() {
+        let instance = instances(1).swap_remove(1);
+        let task = Task { problem: &instance.problem, truth: None };
+        for method in METHODS {
+            let run = method.run(&task, NOBODY);
+            let (last, delta_e) = (run.steps.last().expect("a step")[1], instance.problem.delta_e(&run.parameters).expect("data"));
+            // The noisy minimum is flat: the two are sums of the same squares.
+            assert!(
+                (last / delta_e - 1.0).abs() < 1e-9 && run.objective == last || method == Method::Many,
+                "{}: {last} {delta_e}",
+                method.name()
+            );
+            assert!((run.objective / delta_e - 1.0).abs() < 1e-9, "{}: {} {delta_e}", method.name(), run.objective);
+        }
     }
 }

@@ -60,7 +60,7 @@ pub struct Stability {
     pub textbook_error: Option<f64>,
     /// Of an evaluation: the largest |∂ln f/∂ln p|. Of a fit: largest over smallest singular value of the scaled Jacobian.
     pub condition: f64,
-    /// Digits held, or how a fit ended.
+    /// Decimal digits held by values, by the gradient and by the textbook form, 16 at most; or how a fit ended.
     pub outcome: String,
     /// Whether that meets the bar.
     pub pass: bool,
@@ -129,7 +129,8 @@ impl Stability {
         };
         let gradient_error = reference.gradient.map(of_gradient);
         let (brdf, dolp) = textbook_f64(model, &parameters, *geometry);
-        let textbook = error(brdf, dolp);
+        let (textbook_brdf, textbook_dolp) = error(brdf, dolp);
+        let textbook = textbook_brdf.max(textbook_dolp);
         let factor = critical_angle_factor(&parameters, *geometry);
         let worst = brdf_error.max(dolp_error);
         Self {
@@ -138,9 +139,14 @@ impl Stability {
             brdf_error: Some(brdf_error),
             dolp_error: Some(dolp_error),
             gradient_error,
-            textbook_error: Some(textbook.0.max(textbook.1)),
+            textbook_error: Some(textbook),
             condition: condition(&reflection, &gradient, &parameters),
-            outcome: format!("{:.1} digits", digits(worst)),
+            outcome: format!(
+                "{:.1} digits, gradient {:.1}, textbook {:.1}",
+                digits(worst),
+                digits(gradient_error.unwrap_or(1.0)),
+                digits(textbook)
+            ),
             pass: worst <= VALUE_BAR * factor && gradient_error.is_some_and(|error| error <= GRADIENT_BAR * factor),
         }
     }
@@ -161,15 +167,18 @@ fn digits_held(rows: &[Stability]) -> Figure {
             series("gradient", &|row| row.gradient_error),
             series("textbook form", &|row| row.textbook_error),
             Series::level("bar on values", digits(VALUE_BAR)),
+            Series::level("bar on gradients", digits(GRADIENT_BAR)),
         ],
         ..Panel::default()
     };
     Figure { title: "Digits held in stiff and extreme cases".to_owned(), panels: vec![panel], ..Figure::default() }
 }
 
-/// Decimal digits that an error leaves; 16 at most.
-fn digits(error: f64) -> f64 {
-    -libm::log10(error.max(1e-16))
+/// Decimal digits that an error leaves, 0 to 16.
+#[must_use]
+pub fn digits(error: f64) -> f64 {
+    // Adding 0 turns -0 into 0.
+    -libm::log10(error.clamp(1e-16, 1.0)) + 0.0
 }
 
 /// The largest `|p ∂f/∂p|/|f|` of BRDF and DoLP, where these are not 0.
