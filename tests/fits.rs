@@ -144,6 +144,32 @@ fn the_trace_falls_and_ends_at_the_objective() {
 }
 
 #[test]
+fn the_path_leads_from_the_winning_start_to_the_solution_and_lies_on_the_trace() {
+    let noisy = simulate(Cauchy, TRUTH, Columns::Dolp, grid(10, 80, 10), grid(0, 85, 5), 0.01);
+    for (starts, choices) in [
+        (Starts::One, Choices::default()),
+        (Starts::Automatic, Choices::default()),
+        (Starts::One, Choices { loss: Loss::Huber, ..Choices::default() }),
+    ] {
+        let start = point_in_box(3);
+        let free = free_by_default(Model::full(Cauchy), &noisy, &choices);
+        let problem = Problem::new(&noisy, Model::full(Cauchy), start, free, Bounds::default(), choices).expect("a valid problem");
+        let report = fit(&problem, starts, 1, Watch::NOBODY);
+        assert_eq!(report.path.len(), report.trace.len());
+        for (point, parameters) in report.trace.iter().zip(&report.path) {
+            let objective = problem.delta_e(parameters).expect("a surface");
+            // Between the batch kernel or the solver's coordinates and this lies rounding alone.
+            assert!((objective - point.objective).abs() <= 1e-9 * objective, "{objective:e} {:e}", point.objective);
+        }
+        if starts == Starts::One && choices.loss == Loss::Linear {
+            assert_eq!(report.path[0], start);
+        }
+        let best = report.minima.first().expect("a minimum");
+        assert!(worst_difference(&best.parameters, &report.parameters, ParameterSet::ALL) < TRUE_TO);
+    }
+}
+
+#[test]
 fn nothing_to_fit_is_said() {
     let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
     measurement.rows.iter_mut().for_each(|row| row.masked = true);

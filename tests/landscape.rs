@@ -44,11 +44,11 @@ fn axes() -> (Axis, Axis) {
 fn is_the_plain_objective(problem: &Problem) {
     let (across, up) = axes();
     let landscape = Landscape::new(problem, across, up, &|| false).expect("not cancelled");
-    assert_eq!(landscape.delta_e.len(), across.count * up.count);
+    assert_eq!(landscape.objective.len(), across.count * up.count);
     for (row, k) in up.values().into_iter().enumerate() {
         for (column, n) in across.values().into_iter().enumerate() {
             let expected = problem.delta_e(&Parameters { n, k, ..TRUTH }).expect("a surface");
-            let value = landscape.delta_e[row * across.count + column];
+            let value = landscape.objective[row * across.count + column];
             // Residuals to 1e-13 of DoLP, squared and summed; ΔE is of the order of 1e-5 at the truth.
             assert!((value - expected).abs() <= 1e-11 * expected, "n = {n}, k = {k}: {value:e} {expected:e}");
         }
@@ -67,6 +67,33 @@ fn a_landscape_is_the_plain_objective() {
     is_the_plain_objective(&problem(&dolp, Choices { weights: Weights::Sigma, ..choices }));
     is_the_plain_objective(&problem(&dolp, Choices { loss: Loss::Huber, ..choices }));
     is_the_plain_objective(&problem(&dolp, Choices { eq17: Eq17::Printed, ..choices }));
+}
+
+#[test]
+fn a_landscape_of_what_is_minimised_is_the_problems_own_sum_of_squares() {
+    let both = measurement(Columns::Both);
+    let choices = Choices::default();
+    for choices in [
+        choices,
+        Choices { brdf_residuals: BrdfResiduals::Absolute, ..choices },
+        Choices { brdf_residuals: BrdfResiduals::Log, ..choices },
+        Choices { weights: Weights::Sigma, ..choices },
+        Choices { loss: Loss::Huber, loss_scale: Some(0.01), ..choices },
+        Choices { loss: Loss::SoftL1, loss_scale: Some(0.01), weights: Weights::Sigma, ..choices },
+        Choices { eq17: Eq17::Printed, ..choices },
+    ] {
+        let problem = problem(&both, choices);
+        let (across, up) = axes();
+        let landscape = Landscape::minimised(&problem, across, up, &|| false).expect("not cancelled");
+        for (row, k) in up.values().into_iter().enumerate() {
+            for (column, n) in across.values().into_iter().enumerate() {
+                let expected = problem.sum_of_squares(&Parameters { n, k, ..TRUTH }).expect("a surface");
+                let value = landscape.objective[row * across.count + column];
+                // As for ΔE: the kernel's 1e-13, squared and summed.
+                assert!((value - expected).abs() <= 1e-11 * expected, "{choices:?} n = {n}, k = {k}: {value:e} {expected:e}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -99,7 +126,7 @@ fn nodes_outside_the_domain_have_no_value_and_a_cancelled_landscape_is_none() {
     let (across, _) = axes();
     let up = Axis { parameter: Parameter::Sigma, low: -0.5, high: 0.5, count: 3, logarithmic: false };
     let landscape = Landscape::new(&problem, across, up, &|| false).expect("not cancelled");
-    assert!(landscape.delta_e[..2 * across.count].iter().all(|delta_e| delta_e.is_nan()));
-    assert!(landscape.delta_e[2 * across.count..].iter().all(|delta_e| delta_e.is_finite()));
+    assert!(landscape.objective[..2 * across.count].iter().all(|objective| objective.is_nan()));
+    assert!(landscape.objective[2 * across.count..].iter().all(|objective| objective.is_finite()));
     assert_eq!(Landscape::new(&problem, across, up, &|| true), None);
 }

@@ -1,7 +1,8 @@
 //! The objective over a grid of two parameters, the others where they are: where minima lie, and how flat the valley is.
 //!
-//! The number at a node is ΔE of Eq. (18), as [`Problem::delta_e`] has it. Where ΔE itself is minimised (no weights, squares, absolute differences)
-//! the batch kernel evaluates the rows of data; other choices go through the problem node by node. Masked rows play no part in either.
+//! The number at a node is ΔE of Eq. (18), as [`Problem::delta_e`] has it, or what the problem's own choices minimise. Where that is ΔE
+//! itself (no weights, squares, absolute differences) both are the same. The batch kernel evaluates the rows of data; only ΔE under other
+//! choices goes through the problem node by node. Masked rows play no part in either.
 
 use super::problem::Problem;
 use crate::model::{Batch, Parameter, Parameters, Pbrdf, Radiances};
@@ -44,53 +45,70 @@ impl Axis {
     }
 }
 
-/// ΔE over two parameters.
+/// The objective over two parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landscape {
     /// Along a row.
     pub across: Axis,
     /// From row to row.
     pub up: Axis,
-    /// ΔE, row by row; NaN where the parameters are no surface or nothing is measured.
-    pub delta_e: Vec<f64>,
+    /// The objective, row by row; NaN where the parameters are no surface or nothing is measured.
+    pub objective: Vec<f64>,
 }
 
 impl Landscape {
-    /// Of a problem around its start; none if it is cancelled. The rows are shared among threads.
+    /// ΔE of a problem around its start; none if it is cancelled. The rows are shared among threads.
     #[must_use]
     pub fn new(problem: &Problem, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        let field = Field::new(problem);
+        Self::of(&Field::new(problem, Height::DeltaE), across, up, cancelled)
+    }
+
+    /// The same of what the problem minimises, [`Problem::sum_of_squares`].
+    #[must_use]
+    pub fn minimised(problem: &Problem, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        Self::of(&Field::new(problem, Height::Minimised), across, up, cancelled)
+    }
+
+    fn of(field: &Field<'_>, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let columns = across.values();
         let row = |value: f64| {
             if cancelled() {
                 return None;
             }
-            let mut parameters = *problem.start();
+            let mut parameters = *field.problem.start();
             parameters[up.parameter] = value;
             Some(field.row(parameters, across.parameter, &columns))
         };
         let rows = map_rows(&up.values(), &row).into_iter().collect::<Option<Vec<_>>>()?;
-        Some(Self { across, up, delta_e: rows.concat() })
+        Some(Self { across, up, objective: rows.concat() })
     }
 
     /// The lowest node: along a row, from row to row; none where no node has a value.
     #[must_use]
     pub fn lowest(&self) -> Option<(usize, usize)> {
-        let finite = self.delta_e.iter().enumerate().filter(|(_, delta_e)| delta_e.is_finite());
+        let finite = self.objective.iter().enumerate().filter(|(_, objective)| objective.is_finite());
         finite.min_by(|a, b| a.1.total_cmp(b.1)).map(|(index, _)| (index % self.across.count, index / self.across.count))
     }
+}
+
+/// What the numbers at the nodes are.
+#[derive(Clone, Copy, PartialEq)]
+enum Height {
+    DeltaE,
+    Minimised,
 }
 
 /// A problem, prepared for many surfaces.
 struct Field<'a> {
     problem: &'a Problem,
-    /// Where ΔE is what is minimised.
+    /// Where the number is what is minimised.
     batch: Option<Batch>,
 }
 
 impl<'a> Field<'a> {
-    fn new(problem: &'a Problem) -> Self {
-        let batch = problem.minimises_delta_e().then(|| Batch::from_facets(problem.facets().to_vec()).single_threaded());
+    fn new(problem: &'a Problem, height: Height) -> Self {
+        let is_minimised = height == Height::Minimised || problem.minimises_delta_e();
+        let batch = is_minimised.then(|| Batch::from_facets(problem.facets().to_vec()).single_threaded());
         Self { problem, batch }
     }
 
@@ -98,11 +116,11 @@ impl<'a> Field<'a> {
         let mut radiances = Radiances::default();
         let mut node = |value: f64| {
             parameters[across] = value;
-            let delta_e = match &self.batch {
+            let objective = match &self.batch {
                 Some(batch) => self.by_batch(batch, parameters, &mut radiances),
                 None => self.problem.delta_e(&parameters),
             };
-            delta_e.filter(|delta_e| delta_e.is_finite()).unwrap_or(f64::NAN)
+            objective.filter(|objective| objective.is_finite()).unwrap_or(f64::NAN)
         };
         columns.iter().map(|&value| node(value)).collect()
     }

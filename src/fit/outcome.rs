@@ -69,6 +69,8 @@ impl Estimate {
 /// The end of one start, for the list of minima.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Minimum {
+    /// Where it ended.
+    pub parameters: Parameters,
     /// ΔE of Eq. (18).
     pub objective: f64,
     /// Why it ended there.
@@ -120,6 +122,8 @@ pub struct FitReport {
     pub minima: Vec<Minimum>,
     /// The improvements on the way of the winning start.
     pub trace: Vec<TracePoint>,
+    /// The parameters of each.
+    pub path: Vec<Parameters>,
 }
 
 /// Cosine between the residuals and a parameter's column of the Jacobian from which the data press on its bound.
@@ -149,12 +153,13 @@ impl FitReport {
     fn new(problem: &Problem, search: Search, elapsed_ms: f64) -> Self {
         let Search { mut found, evaluations } = search;
         let minima = found.iter().map(|found| Minimum {
+            parameters: found.descent.parameters,
             objective: problem.delta_e(&found.descent.parameters).unwrap_or(f64::NAN),
             stop_reason: found.descent.stop_reason,
             reached: found.reached,
         });
         let mut minima: Vec<Minimum> = minima.collect();
-        let Descent { parameters, sum_of_squares, mut stop_reason, trace, .. } = found.swap_remove(0).descent;
+        let Descent { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = found.swap_remove(0).descent;
         let edges: Vec<(Parameter, Edge)> =
             problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
         let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
@@ -199,6 +204,7 @@ impl FitReport {
             band: Band::new(problem, &parameters, uncertainty),
             minima,
             trace,
+            path,
             parameters,
         }
     }

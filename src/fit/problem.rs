@@ -432,15 +432,14 @@ impl Problem {
         self.wanted.brdf
     }
 
-    /// Sum of the squared residuals of DoLP and BRDF evaluated elsewhere at [`Self::facets`]: without logarithm and loss, so for
-    /// those who ask [`Self::minimises_delta_e`] first. None without data.
+    /// Sum of the squared (scaled) residuals of DoLP and BRDF evaluated elsewhere at [`Self::facets`]. None without data.
     pub(super) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64], ks: f64) -> Option<f64> {
         let square = |datum: &Datum| {
             let reflection = match datum.kind {
                 Kind::Dolp => Reflection { dolp: dolp[datum.point], ..Reflection::default() },
                 Kind::Brdf | Kind::LogBrdf => Reflection { brdf: brdf[datum.point], ..Reflection::default() },
             };
-            let residual = self.residual(datum, &reflection, ks);
+            let (residual, _) = self.loss(datum, self.residual(datum, &reflection, ks));
             residual * residual
         };
         (!self.is_empty()).then(|| self.data.iter().map(square).sum())

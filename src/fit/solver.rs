@@ -91,6 +91,8 @@ pub struct Descent {
     pub evaluations: usize,
     /// The improvements on the way.
     pub trace: Vec<TracePoint>,
+    /// The parameters of each.
+    pub path: Vec<Parameters>,
 }
 
 /// The same for any least squares problem.
@@ -106,6 +108,8 @@ pub struct Solution {
     pub evaluations: usize,
     /// The improvements on the way.
     pub trace: Vec<TracePoint>,
+    /// The unknowns of each.
+    pub path: Vec<DVector<f64>>,
 }
 
 /// How far a descent is followed.
@@ -134,8 +138,9 @@ const GLANCE: usize = 1;
 /// Fits from the problem's start.
 #[must_use]
 pub fn descend(problem: &Problem, effort: Effort, watch: Watch<'_>) -> Descent {
-    let Solution { x, sum_of_squares, stop_reason, evaluations, trace } = minimise(problem, effort, watch);
-    Descent { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace }
+    let Solution { x, sum_of_squares, stop_reason, evaluations, trace, path } = minimise(problem, effort, watch);
+    let path = path.iter().map(|x| problem.parameters_at(x)).collect();
+    Descent { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace, path }
 }
 
 /// Minimises a sum of squares from its start.
@@ -204,6 +209,7 @@ pub(super) struct Log<'a> {
     sum_of_squares: f64,
     evaluations: usize,
     trace: Vec<TracePoint>,
+    path: Vec<DVector<f64>>,
 }
 
 impl Descent {
@@ -212,7 +218,10 @@ impl Descent {
         let so_far = self.evaluations;
         let shifted = further.trace.into_iter().map(|point| TracePoint { evaluations: so_far + point.evaluations, ..point });
         let last = self.trace.last().map_or(f64::INFINITY, |point| point.objective);
-        self.trace.extend(shifted.filter(|point| point.objective < last));
+        for (point, parameters) in shifted.zip(further.path).filter(|(point, _)| point.objective < last) {
+            self.trace.push(point);
+            self.path.push(parameters);
+        }
         self.evaluations += further.evaluations;
         if further.sum_of_squares <= self.sum_of_squares {
             self.parameters = further.parameters;
@@ -224,7 +233,7 @@ impl Descent {
 
 impl<'a> Log<'a> {
     fn new(start: &DVector<f64>, watch: Watch<'a>) -> Self {
-        Self { watch, best: start.clone(), sum_of_squares: f64::INFINITY, evaluations: 0, trace: Vec::new() }
+        Self { watch, best: start.clone(), sum_of_squares: f64::INFINITY, evaluations: 0, trace: Vec::new(), path: Vec::new() }
     }
 
     pub(super) fn evaluations(&self) -> usize {
@@ -251,6 +260,7 @@ impl<'a> Log<'a> {
             let objective = problem.objective_at(sum_of_squares, x);
             let point = TracePoint { elapsed_ms: (self.watch.clock)(), evaluations: self.evaluations, objective };
             self.trace.push(point);
+            self.path.push(x.clone());
             (self.watch.progress)(point);
         }
         sum_of_squares
@@ -266,7 +276,7 @@ impl<'a> Log<'a> {
     }
 
     fn into_solution(self, stop_reason: StopReason) -> Solution {
-        let Self { best, sum_of_squares, evaluations, trace, .. } = self;
-        Solution { x: best, sum_of_squares, stop_reason, evaluations, trace }
+        let Self { best, sum_of_squares, evaluations, trace, path, .. } = self;
+        Solution { x: best, sum_of_squares, stop_reason, evaluations, trace, path }
     }
 }

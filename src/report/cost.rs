@@ -502,7 +502,7 @@ fn landscape_difference(surface: &Pbrdf) -> Option<f64> {
     for (row, k) in up.values().into_iter().enumerate() {
         for (column, n) in across.values().into_iter().enumerate() {
             let reference = problem.delta_e(&Parameters { n, k, ..*problem.start() })?;
-            worst = worst.max(relative_error(landscape.delta_e[row * across.count + column], reference));
+            worst = worst.max(relative_error(landscape.objective[row * across.count + column], reference));
         }
     }
     Some(worst)
