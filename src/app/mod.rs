@@ -5,6 +5,7 @@
 
 mod band;
 mod command;
+mod contours;
 mod curves;
 mod derived;
 mod document;

@@ -26,6 +26,7 @@ pub enum Pane {
     Metals,
     Hemisphere,
     Mueller,
+    Landscape,
 }
 
 /// Where a pane lies until the user moves it.
@@ -54,7 +55,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 11] = [
+pub static PANES: [Entry; 12] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -175,6 +176,17 @@ pub static PANES: [Entry; 11] = [
         refresh: views::mueller_refresh,
         ui: views::mueller_ui,
         options: None,
+    },
+    Entry {
+        pane: Pane::Landscape,
+        key: "landscape",
+        title: "Landscape",
+        tooltip: "The objective over any two parameters: valleys, ways of the last fits, minima; a click sets the sliders",
+        shortcut: None,
+        place: Place::Lower,
+        refresh: views::landscape_refresh,
+        ui: views::landscape_ui,
+        options: Some(views::landscape_options_ui),
     },
 ];
 

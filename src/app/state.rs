@@ -81,6 +81,27 @@ pub struct Shown {
     pub hemisphere: Quantity,
 }
 
+/// Which two parameters the landscape is drawn over, and what lies on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct OverTwo {
+    pub across: Parameter,
+    pub up: Parameter,
+    pub contours: bool,
+    /// The ways of the last fits.
+    pub paths: bool,
+    /// Where the starts of the shown fit ended.
+    pub minima: bool,
+    /// Tabulated metals, where the axes are n and k.
+    pub metals: bool,
+}
+
+impl Default for OverTwo {
+    fn default() -> Self {
+        Self { across: Parameter::N, up: Parameter::K, contours: true, paths: true, minima: true, metals: true }
+    }
+}
+
 /// Which tabulated metal is looked at, and at which wavelength.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -143,6 +164,7 @@ pub struct Settings {
     pub refit_live: bool,
     pub shown: Shown,
     pub tabulated: Tabulated,
+    pub landscape: OverTwo,
 }
 
 impl Default for Settings {
@@ -166,6 +188,7 @@ impl Default for Settings {
             refit_live: false,
             shown: Shown::default(),
             tabulated: Tabulated::default(),
+            landscape: OverTwo::default(),
         }
     }
 }

@@ -4,6 +4,7 @@ mod commands;
 mod files;
 mod fitting;
 mod hemisphere;
+mod landscape;
 mod leaving;
 mod lessons;
 mod masks;

@@ -5,6 +5,8 @@ mod convergence;
 mod dolp;
 mod facets;
 mod hemisphere;
+mod landscape;
+mod landscape_marks;
 mod lobes;
 mod metals;
 mod mueller;
@@ -18,6 +20,7 @@ pub use convergence::{convergence_options_ui, convergence_refresh, convergence_u
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
 pub use facets::{facets_options_ui, facets_refresh, facets_ui};
 pub use hemisphere::{hemisphere_refresh, hemisphere_ui};
+pub use landscape::{landscape_options_ui, landscape_refresh, landscape_ui};
 pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
 pub use metals::{metals_refresh, metals_ui, values};
 pub use mueller::{mueller_refresh, mueller_ui};
@@ -32,6 +35,7 @@ pub struct Views {
     pub dolp: dolp::DolpView,
     pub facets: facets::FacetsView,
     pub hemisphere: hemisphere::HemisphereView,
+    pub landscape: landscape::LandscapeView,
     pub lobes: lobes::LobesView,
     pub metals: metals::MetalsView,
     pub mueller: mueller::MuellerView,

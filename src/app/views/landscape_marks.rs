@@ -1,0 +1,184 @@
+//! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated metals, the sliders.
+
+use super::landscape::coordinate;
+use crate::app::document::Document;
+use crate::app::past_fits::{PastFit, PastFits};
+use crate::app::state::{OverTwo, Settings};
+use egui::{Align2, Color32, RichText};
+use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use pbrdf::model::{Parameter, Parameters};
+use pbrdf::optics;
+use tr::tr;
+
+/// Ways that are drawn, of the newest fits.
+const WAYS: usize = 3;
+/// Minima that are drawn, the lowest ones.
+const MINIMA: usize = 24;
+
+/// What the marks depend on: the axes, how many fits there were, the one shown, the measurement, the wavelength in nm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarksKey {
+    axes: (Parameter, Parameter),
+    fits: usize,
+    shown: Option<usize>,
+    number: u64,
+    wavelength_nm: f64,
+}
+
+impl MarksKey {
+    pub fn new(settings: &Settings, document: &Document, past: &PastFits, shown: Option<&PastFit>) -> Self {
+        let OverTwo { across, up, .. } = settings.landscape;
+        let wavelength_nm = settings.tabulated.wavelength_nm;
+        Self { axes: (across, up), fits: past.made(), shown: shown.map(|fit| fit.id), number: document.number, wavelength_nm }
+    }
+}
+
+/// Marks with what a pointer reads at each.
+#[derive(Default)]
+pub struct Noted {
+    points: Vec<PlotPoint>,
+    texts: Vec<String>,
+}
+
+/// What lies on the landscape.
+pub struct Marks {
+    /// The newest first.
+    pub ways: Vec<Noted>,
+    pub minima: Noted,
+    pub metals: Noted,
+    /// Where each metal is named.
+    names: Vec<(PlotPoint, &'static str)>,
+}
+
+impl Noted {
+    fn push(&mut self, point: Option<PlotPoint>, text: impl FnOnce() -> String) {
+        if let Some(point) = point {
+            self.points.push(point);
+            self.texts.push(text());
+        }
+    }
+
+    /// How many there are.
+    #[cfg(test)]
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+}
+
+impl Marks {
+    pub fn new(key: &MarksKey, past: &PastFits, shown: Option<&PastFit>, document: &Document) -> Self {
+        let (across, up) = key.axes;
+        let place = |parameters: &Parameters| {
+            let point = PlotPoint::new(coordinate(across, parameters[across]), coordinate(up, parameters[up]));
+            (point.x.is_finite() && point.y.is_finite()).then_some(point)
+        };
+        let way = |fit: &PastFit| {
+            let mut way = Noted::default();
+            for (step, parameters) in fit.report.trace.iter().zip(&fit.report.path) {
+                way.push(place(parameters), || {
+                    let objective = format!("{:.4e}", step.objective);
+                    tr!("fit {0}, evaluation {1}\nΔE = {2}", fit.id, step.evaluations, objective)
+                });
+            }
+            way.push(place(&fit.report.parameters), || tr!("end of fit {}", fit.id));
+            way
+        };
+        let own = past.iter().filter(|fit| fit.number == document.number);
+        let ways = own.take(WAYS).map(|fit| way(fit)).collect();
+        let mut minima = Noted::default();
+        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.minima).take(MINIMA).enumerate() {
+            minima.push(place(&minimum.parameters), || {
+                let objective = format!("{:.4e}", minimum.objective);
+                tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.reached)
+            });
+        }
+        let (metals, names) = metals(key);
+        Self { ways, minima, metals, names }
+    }
+
+    /// What is known of a mark, by the name of its group and its number.
+    pub fn text(&self, group: &str, index: usize) -> Option<String> {
+        let groups = self.ways.iter().enumerate().map(|(i, way)| (way_name(i), way));
+        let mut groups = groups.chain([(tr!("minima"), &self.minima), (tr!("metals"), &self.metals)]);
+        let (_, noted) = groups.find(|(name, _)| name == group)?;
+        noted.texts.get(index).cloned()
+    }
+}
+
+/// All sources of all metals that have the wavelength, where the axes are n and k.
+fn metals(key: &MarksKey) -> (Noted, Vec<(PlotPoint, &'static str)>) {
+    let (mut noted, mut names) = (Noted::default(), Vec::new());
+    let is_map = matches!(key.axes, (Parameter::N, Parameter::K) | (Parameter::K, Parameter::N));
+    for metal in optics::metals().into_iter().flatten().filter(|_| is_map) {
+        let mut is_named = false;
+        for source in &metal.sources {
+            let Ok(index) = source.index_at(key.wavelength_nm) else { continue };
+            let of = |parameter| coordinate(parameter, if parameter == Parameter::N { index.n() } else { index.k_m() });
+            let point = PlotPoint::new(of(key.axes.0), of(key.axes.1));
+            if !(point.x.is_finite() && point.y.is_finite()) {
+                continue;
+            }
+            noted.push(Some(point), || {
+                let name = metal.name.as_str();
+                format!("{}, {}\nn = {:.4}, k = {:.4}", tr!(name), source.name, index.n(), index.k_m())
+            });
+            if !is_named {
+                names.push((point, metal.key.as_str()));
+                is_named = true;
+            }
+        }
+    }
+    (noted, names)
+}
+
+fn way_name(age: usize) -> String {
+    if age == 0 { tr!("way of the last fit") } else { tr!("way {} fits before", age) }
+}
+
+/// Colours that stand out from viridis.
+const WAY: Color32 = Color32::from_rgb(255, 96, 64);
+const WHITE: Color32 = Color32::WHITE;
+const BLACK: Color32 = Color32::BLACK;
+
+/// Marks with a dark rim, readable on every colour of the map.
+fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shape: MarkerShape, radius: f32, color: Color32) {
+    let of = |name: String| Points::new(name, PlotPoints::Borrowed(points)).shape(shape);
+    plot.points(of(String::new()).color(BLACK).radius(radius + 1.5).allow_hover(false));
+    plot.points(of(name).color(color).radius(radius));
+}
+
+pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
+    if shown.metals && !marks.metals.points.is_empty() {
+        rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, Color32::from_rgb(150, 220, 255));
+        for (point, name) in &marks.names {
+            let text = RichText::new(format!(" {name} ")).size(11.0).color(WHITE).background_color(Color32::from_black_alpha(120));
+            plot.text(Text::new("", *point, text).anchor(Align2::LEFT_BOTTOM).allow_hover(false));
+        }
+    }
+    if shown.paths {
+        for (age, way) in marks.ways.iter().enumerate().rev() {
+            way_in(plot, way, age);
+        }
+    }
+    if shown.minima && !marks.minima.points.is_empty() {
+        rimmed(plot, &marks.minima.points, tr!("minima"), MarkerShape::Diamond, 4.0, Color32::from_rgb(255, 214, 90));
+    }
+}
+
+/// Edge by edge: the corners of one long line are drawn as filled wedges.
+fn way_in<'a>(plot: &mut PlotUi<'a>, way: &'a Noted, age: usize) {
+    let color = if age == 0 { WAY } else { WAY.gamma_multiply(0.55) };
+    for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, color)] {
+        for edge in way.points.windows(2) {
+            plot.line(Line::new("", PlotPoints::Borrowed(edge)).color(color).width(width).allow_hover(false));
+        }
+    }
+    plot.points(Points::new(way_name(age), PlotPoints::Borrowed(&way.points)).color(color).radius(2.0));
+}
+
+/// Where the sliders stand: a cross.
+pub fn sliders_in(plot: &mut PlotUi<'_>, [x, y]: [f64; 2]) {
+    let at = |name: String| Points::new(name, vec![[x, y]]).allow_hover(false);
+    plot.points(at(String::new()).shape(MarkerShape::Circle).color(BLACK).radius(7.0).filled(false));
+    plot.points(at(tr!("sliders")).shape(MarkerShape::Plus).color(WHITE).radius(6.0));
+}
