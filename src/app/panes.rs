@@ -27,6 +27,7 @@ pub enum Pane {
     Hemisphere,
     Mueller,
     Landscape,
+    Audit,
 }
 
 /// Where a pane lies until the user moves it.
@@ -55,7 +56,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 12] = [
+pub static PANES: [Entry; 13] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -187,6 +188,17 @@ pub static PANES: [Entry; 12] = [
         refresh: views::landscape_refresh,
         ui: views::landscape_ui,
         options: Some(views::landscape_options_ui),
+    },
+    Entry {
+        pane: Pane::Audit,
+        key: "audit",
+        title: "Audit",
+        tooltip: "What the physics says of the sliders: reciprocity, reflectance, DoLP against its limit, admissible Mueller matrices",
+        shortcut: Some(Key::Num7),
+        place: Place::Lower,
+        refresh: views::audit_refresh,
+        ui: views::audit_ui,
+        options: None,
     },
 ];
 

@@ -1,5 +1,6 @@
 //! The window, driven headlessly by the names of its controls.
 
+mod audit;
 mod commands;
 mod files;
 mod fitting;

@@ -135,7 +135,7 @@ fn views_draw_whatever_the_sliders_hold() {
                     settings.shown.share = true;
                     settings.shown.filled = logarithmic;
                     settings.shown.overlay = crate::app::state::Overlay::EqualMedian;
-                    harness.run();
+                    wait(&mut harness);
                 }
             }
         }

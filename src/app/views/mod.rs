@@ -1,5 +1,6 @@
 //! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
 
+mod audit;
 mod comparison;
 mod convergence;
 mod dolp;
@@ -15,6 +16,7 @@ mod polar;
 mod residuals;
 mod table;
 
+pub use audit::{audit_refresh, audit_ui};
 pub use comparison::comparison_ui;
 pub use convergence::{convergence_options_ui, convergence_refresh, convergence_ui};
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
@@ -31,6 +33,7 @@ pub use table::{table_refresh, table_ui};
 /// What the panes keep from frame to frame.
 #[derive(Default)]
 pub struct Views {
+    pub audit: audit::AuditView,
     pub convergence: convergence::ConvergenceView,
     pub dolp: dolp::DolpView,
     pub facets: facets::FacetsView,

@@ -1,0 +1,85 @@
+//! The audit: findings of the sliders' surface, with verdicts and reasons, in both languages.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::language::Language;
+use crate::app::panes::Pane;
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
+
+fn shown() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Audit));
+    wait(&mut harness);
+    harness
+}
+
+#[test]
+fn every_finding_has_its_number_verdict_and_reason() {
+    let mut harness = shown();
+    let settings = explorer(&mut harness).settings.clone();
+    let audit = Audit::new(&Pbrdf::new(settings.model, settings.parameters).expect("the defaults"));
+    assert_eq!(explorer(&mut harness).views.audit.audit(), Some(&audit));
+    for finding in &audit.findings {
+        assert!(harness.query_all_by_label(finding.why()).next().is_some(), "{:?}", finding.check);
+    }
+    let passed = audit.findings.iter().filter(|finding| finding.pass).count();
+    assert_eq!(harness.query_all_by_label("✓ pass").count(), passed);
+    assert_eq!(harness.query_all_by_label("✗ fail").count(), audit.findings.len() - passed);
+    let volume = audit.finding(Check::VolumeReciprocity).expect("the model has a volume lobe");
+    assert!(!volume.pass);
+    harness.get_by_label(&crate::app::words::short(volume.value));
+    let reflectance = audit.finding(Check::Reflectance).expect("always there");
+    harness.get_by_label(&format!("{:.4}", reflectance.value));
+}
+
+#[test]
+fn a_surface_that_shines_is_warned_of_and_terms_that_are_absent_are_not_judged() {
+    let mut harness = shown();
+    explorer(&mut harness).settings.parameters.kd = 1.5;
+    wait(&mut harness);
+    harness.get_by_label_contains("More light leaves than falls on the surface from θi = 0° on.");
+    let settings = &mut explorer(&mut harness).settings;
+    settings.parameters.kd = 0.1;
+    settings.model.diffuse = Diffuse::Absent;
+    settings.model.volume = false;
+    wait(&mut harness);
+    harness.get_by_label("Reflectance into all directions, by terms");
+    assert!(harness.query_by_label("Reciprocity: volume lobe").is_none());
+    assert!(harness.query_by_label("Reciprocity: diffuse lobe").is_none());
+}
+
+#[test]
+fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
+    let mut harness = harness();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).views.audit.audit().is_none());
+    let mut harness = shown();
+    explorer(&mut harness).settings.parameters.q = f64::NAN;
+    wait(&mut harness);
+    assert!(explorer(&mut harness).views.audit.audit().is_none());
+}
+
+#[test]
+fn every_reason_is_said_in_chinese() {
+    use pbrdf::model::Finding;
+    crate::app::language::install();
+    crate::app::language::set(Language::Chinese);
+    for check in [
+        Check::SpecularReciprocity,
+        Check::DiffuseReciprocity,
+        Check::VolumeReciprocity,
+        Check::Reflectance,
+        Check::FresnelLimit,
+        Check::Admissibility,
+        Check::Normalisation,
+    ] {
+        for pass in [true, false] {
+            let why = Finding { check, value: 0.0, bar: 0.0, pass, at: None }.why();
+            assert_ne!(tr::tr!(why), why);
+        }
+    }
+    crate::app::language::set(Language::English);
+}

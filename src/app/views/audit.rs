@@ -1,0 +1,304 @@
+//! What the physics says of the sliders' surface: each check with its number and verdict, and the reflectance against θi.
+
+use crate::app::curves::{Pieces, pieces};
+use crate::app::latest_job::LatestJob;
+use crate::app::memo::Memo;
+use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
+use crate::app::theme;
+use crate::app::window::Explorer;
+use crate::app::words::short;
+use egui::{Grid, Label, ScrollArea, Ui};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
+use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};
+use pbrdf::optics::Geometry;
+use tr::tr;
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct AuditView {
+    job: LatestJob<Key, Audit>,
+    curves: Memo<Key, Curves>,
+    axes: Axes,
+    range: Following,
+}
+
+type Key = (Parameters, Model);
+
+/// Reflectance against θi.
+struct Curves {
+    total: Pieces,
+    /// The part of it above 1.
+    above: Pieces,
+    specular: Pieces,
+    diffuse: Pieces,
+    volume: Pieces,
+    /// The largest finite value.
+    top: f64,
+    /// The smallest θi at which more light leaves than falls on the surface.
+    above_from: Option<f64>,
+}
+
+impl Curves {
+    fn new(audit: &Audit, model: Model) -> Self {
+        let along = |value: fn(&Reflectance) -> f64, is_there: bool| {
+            let points = audit.reflectance.iter().map(|at| (at.theta_i, Some(value(at))));
+            if is_there { pieces(points) } else { Pieces::new() }
+        };
+        let totals: Vec<(f64, f64)> = audit.reflectance.iter().map(|at| (at.theta_i, at.total())).collect();
+        let finite = audit.reflectance.iter().map(Reflectance::total).filter(|total| total.is_finite());
+        Self {
+            total: along(Reflectance::total, true),
+            above: above_one(&totals),
+            specular: along(|at| at.specular, model.specular),
+            diffuse: along(|at| at.diffuse, model.diffuse != Diffuse::Absent),
+            volume: along(|at| at.volume, model.volume),
+            top: finite.fold(0.0, f64::max),
+            above_from: audit.reflectance.iter().find(|at| at.total() > 1.0).map(|at| at.theta_i),
+        }
+    }
+}
+
+/// The parts of a curve above 1, from where it crosses that height.
+fn above_one(points: &[(f64, f64)]) -> Pieces {
+    let mut above = Vec::new();
+    for (i, &(x, y)) in points.iter().enumerate() {
+        if let Some(&(before, lower)) = i.checked_sub(1).and_then(|i| points.get(i))
+            && (lower > 1.0) != (y > 1.0)
+        {
+            above.push((before + (x - before) * (1.0 - lower) / (y - lower), Some(1.0)));
+        }
+        above.push((x, (y > 1.0).then_some(y)));
+    }
+    pieces(above.into_iter())
+}
+
+impl AuditView {
+    /// The newest findings.
+    #[cfg(test)]
+    pub fn audit(&self) -> Option<&Audit> {
+        self.job.get()
+    }
+}
+
+pub fn audit_refresh(explorer: &mut Explorer) {
+    let Explorer { settings, views, background, dragging, .. } = explorer;
+    let view = &mut views.audit;
+    let key = (settings.parameters, settings.model);
+    let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else {
+        // Values that are not numbers differ from themselves: a job would follow a job for ever.
+        view.job = LatestJob::default();
+        view.curves.clear();
+        return;
+    };
+    view.job.refresh(background, &key, move || Audit::new(&surface));
+    let (Some(key), Some(audit)) = (view.job.key(), view.job.get()) else { return };
+    view.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
+    if let Some(curves) = view.curves.get() {
+        // The line at 1 is always in sight; what grows without end at grazing incidence is cut.
+        let high = round_up(curves.top.clamp(1.0, HIGHEST));
+        view.range.follow(Range { low: 0.0, high }, *dragging);
+    }
+}
+
+/// Reflectance that the plot shows at most.
+const HIGHEST: f64 = 3.0;
+/// From this width on table and plot lie side by side.
+const SIDE_BY_SIDE: f32 = 760.0;
+/// Least height of the plot, in points.
+const PLOT_HEIGHT: f32 = 190.0;
+
+pub fn audit_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let view = &mut explorer.views.audit;
+    let Some(audit) = view.job.get() else {
+        ui.label("…");
+        return;
+    };
+    let is_wide = ui.available_width() > SIDE_BY_SIDE;
+    if is_wide {
+        let (width, height) = (ui.available_width(), ui.available_height());
+        ui.horizontal_top(|ui| {
+            ui.allocate_ui(egui::vec2(0.56 * width, height), |ui| {
+                ScrollArea::vertical().id_salt("findings").auto_shrink([false; 2]).show(ui, |ui| findings_ui(audit, ui));
+            });
+            ui.vertical(|ui| reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), height, ui));
+        });
+    } else {
+        ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+            let top = ui.cursor().top();
+            findings_ui(audit, ui);
+            ui.add_space(6.0);
+            let left = ui.clip_rect().bottom() - top - (ui.cursor().top() - top);
+            reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), left.max(PLOT_HEIGHT), ui);
+        });
+    }
+}
+
+/// Least widths of numbers and of directions: no column moves with its digits.
+const NUMBER: f32 = 76.0;
+const PLACE: f32 = 104.0;
+const SCROLL_BAR: f32 = 12.0;
+/// Between columns.
+const BETWEEN: f32 = 10.0;
+
+fn findings_ui(audit: &Audit, ui: &mut Ui) {
+    let dark = ui.visuals().dark_mode;
+    let width = (ui.available_width() - 2.0 * NUMBER - PLACE - 3.0 * BETWEEN - SCROLL_BAR).max(150.0);
+    Grid::new("findings").num_columns(4).striped(true).min_col_width(NUMBER).spacing([BETWEEN, 6.0]).show(ui, |ui| {
+        for (heading, help) in [
+            (tr!("check"), tr!("What was looked at, and why it is as it is")),
+            (tr!("number"), tr!("The largest over a mesh of directions")),
+            (tr!("bar"), tr!("What the number must keep")),
+            (tr!("where"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
+        ] {
+            ui.strong(heading).on_hover_text(help);
+        }
+        ui.end_row();
+        for finding in &audit.findings {
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                ui.horizontal(|ui| {
+                    let name = check_name(finding.check);
+                    if finding.pass {
+                        ui.colored_label(theme::series(2, dark), tr!("✓ pass"));
+                    } else {
+                        ui.colored_label(theme::warning(dark), tr!("✗ fail"));
+                    }
+                    ui.strong(name);
+                });
+                let why = finding.why();
+                ui.add(Label::new(tr!(why)).wrap());
+            });
+            ui.monospace(number(finding));
+            ui.monospace(bar(finding));
+            ui.vertical(|ui| {
+                ui.set_min_width(PLACE);
+                ui.label(place(finding));
+            });
+            ui.end_row();
+        }
+    });
+}
+
+fn check_name(check: Check) -> String {
+    match check {
+        Check::SpecularReciprocity => tr!("Reciprocity: specular lobe"),
+        Check::DiffuseReciprocity => tr!("Reciprocity: diffuse lobe"),
+        Check::VolumeReciprocity => tr!("Reciprocity: volume lobe"),
+        Check::Reflectance => tr!("Directional-hemispherical reflectance ρ"),
+        Check::FresnelLimit => tr!("DoLP above the Fresnel limit"),
+        Check::Admissibility => tr!("Mueller matrices admissible"),
+        Check::Normalisation => tr!("Facets cover the surface once"),
+    }
+}
+
+/// The number of a finding; of the distribution's integral its distance from 1.
+fn number(finding: &Finding) -> String {
+    match finding.check {
+        Check::Normalisation => short((finding.value - 1.0).abs()),
+        Check::Reflectance if finding.value.is_finite() => format!("{:.4}", finding.value),
+        // An eigenvalue of nothing but rounding and DoLP below its limit have signs.
+        _ if finding.value.is_infinite() => "∞".to_owned(),
+        _ => short(finding.value),
+    }
+}
+
+/// What the number must keep.
+fn bar(finding: &Finding) -> String {
+    match finding.check {
+        Check::Admissibility => format!("≥ {:e}", finding.bar),
+        Check::Reflectance | Check::FresnelLimit => format!("≤ {}", finding.bar),
+        _ => format!("≤ {:e}", finding.bar),
+    }
+}
+
+fn place(finding: &Finding) -> String {
+    let Some(geometry) = finding.at else { return String::new() };
+    let (theta_i, theta_r, dphi) = angles(geometry);
+    match finding.check {
+        Check::Reflectance => format!("{theta_i}°"),
+        _ => format!("{theta_i}°, {theta_r}°, {dphi}°"),
+    }
+}
+
+fn angles(geometry: Geometry) -> (f64, f64, f64) {
+    (geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0)
+}
+
+fn reflectance_ui(axes: &mut Axes, curves: Option<&Curves>, range: Option<Range>, height: f32, ui: &mut Ui) {
+    let Some(curves) = curves else { return };
+    let dark = ui.visuals().dark_mode;
+    let top = ui.cursor().top();
+    match curves.above_from {
+        Some(theta_i) => {
+            let sentence = tr!("More light leaves than falls on the surface from θi = {}° on.", theta_i);
+            ui.colored_label(theme::warning(dark), sentence)
+        }
+        None => ui.label(tr!("Reflectance into all directions, by terms")),
+    };
+    let height = height - (ui.cursor().top() - top) - ui.spacing().item_spacing.y;
+    let x = axis(AxisHints::new_x(), ui, "θi / °", decimal).min_thickness(40.0);
+    let y = axis(AxisHints::new_y(), ui, "ρ", decimal);
+    let response = plot("reflectance", ui, height, x, y)
+        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
+        .legend(legend())
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                Some(format!("{plot_name}\nθi = {:.1}°\nρ = {:.4}", position.x, position.y))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .show(ui, |plot| {
+            axes.apply(plot, Some(Range { low: 0.0, high: 90.0 }), range);
+            plot.hline(HLine::new("", 1.0).color(theme::muted(dark)).style(LineStyle::dashed_dense()).allow_hover(false));
+            for (pieces, name, color) in [
+                (&curves.specular, tr!("specular"), theme::specular(dark)),
+                (&curves.diffuse, tr!("diffuse"), theme::diffuse(dark)),
+                (&curves.volume, tr!("volume"), theme::volume(dark)),
+            ] {
+                curve(plot, pieces, &name, color, None, 1.5);
+            }
+            curve(plot, &curves.total, &tr!("total"), theme::foreground(dark), None, 2.5);
+            curve(plot, &curves.above, &tr!("above 1"), theme::warning(dark), None, 3.5);
+        });
+    axes.listen(&response, ui);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Audit, Curves, Parameters, Pbrdf, above_one};
+    use pbrdf::model::Model;
+    use pbrdf::optics::SlopeDistribution;
+
+    fn curves(parameters: Parameters) -> Curves {
+        let model = Model::full(SlopeDistribution::Cauchy);
+        Curves::new(&Audit::new(&Pbrdf::new(model, parameters).expect("in range")), model)
+    }
+
+    #[test]
+    fn what_is_above_one_is_drawn_as_such() {
+        let modest = curves(Parameters { c: 0.0, ..Parameters::default() });
+        assert_eq!((modest.above_from, modest.above.len()), (None, 0));
+        // The Minnaert lobe of the defaults grows at grazing incidence.
+        let bright = curves(Parameters::default());
+        let from = bright.above_from.expect("above 1 somewhere");
+        let [first, rest @ ..] = &bright.above[0][..] else { panic!("no points") };
+        assert!(first.x < from && first.y == 1.0 && rest.iter().all(|point| point.x >= from && point.y > 1.0));
+        assert!(bright.top > 1.0);
+    }
+
+    #[test]
+    fn a_curve_is_cut_where_it_crosses_one() {
+        let above = above_one(&[(0.0, 0.5), (1.0, 1.5), (2.0, 1.25), (3.0, 0.75), (4.0, 2.0)]);
+        let points: Vec<Vec<(f64, f64)>> = above.iter().map(|piece| piece.iter().map(|point| (point.x, point.y)).collect()).collect();
+        assert_eq!(points, [vec![(0.5, 1.0), (1.0, 1.5), (2.0, 1.25), (2.5, 1.0)], vec![(3.2, 1.0), (4.0, 2.0)]]);
+        assert!(above_one(&[(0.0, f64::INFINITY), (1.0, f64::INFINITY)]).is_empty());
+    }
+
+    #[test]
+    fn a_reflectance_without_bound_is_no_point_of_a_curve() {
+        let endless = curves(Parameters { c: -2.5, ..Parameters::default() });
+        assert!(endless.total.is_empty() && endless.diffuse.is_empty() && endless.above_from == Some(0.0));
+        assert!(!endless.specular.is_empty());
+    }
+}
