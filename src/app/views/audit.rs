@@ -65,6 +65,7 @@ fn above_one(points: &[(f64, f64)]) -> Pieces {
     for (i, &(x, y)) in points.iter().enumerate() {
         if let Some(&(before, lower)) = i.checked_sub(1).and_then(|i| points.get(i))
             && (lower > 1.0) != (y > 1.0)
+            && (y - lower).is_finite()
         {
             above.push((before + (x - before) * (1.0 - lower) / (y - lower), Some(1.0)));
         }
