@@ -8,7 +8,7 @@ use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words::short;
-use egui::{Grid, Label, ScrollArea, Ui};
+use egui::{Label, ScrollArea, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};
 use pbrdf::optics::Geometry;
@@ -135,48 +135,57 @@ pub fn audit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
 }
 
-/// Least widths of numbers and of directions: no column moves with its digits.
-const NUMBER: f32 = 76.0;
-const PLACE: f32 = 104.0;
-const SCROLL_BAR: f32 = 12.0;
-/// Between columns.
-const BETWEEN: f32 = 10.0;
+/// Widths of numbers and of directions: no column moves with its digits.
+const NUMBER: f32 = 84.0;
+const PLACE: f32 = 100.0;
 
 fn findings_ui(audit: &Audit, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
-    let width = (ui.available_width() - 2.0 * NUMBER - PLACE - 3.0 * BETWEEN - SCROLL_BAR).max(150.0);
-    Grid::new("findings").num_columns(4).striped(true).min_col_width(NUMBER).spacing([BETWEEN, 6.0]).show(ui, |ui| {
-        for (heading, help) in [
-            (tr!("check"), tr!("What was looked at, and why it is as it is")),
-            (tr!("number"), tr!("The largest over a mesh of directions")),
-            (tr!("bar"), tr!("What the number must keep")),
-            (tr!("where"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
-        ] {
-            ui.strong(heading).on_hover_text(help);
-        }
-        ui.end_row();
-        for finding in &audit.findings {
-            ui.vertical(|ui| {
-                ui.set_width(width);
-                ui.horizontal(|ui| {
-                    let name = check_name(finding.check);
+    let stripe = ui.visuals().faint_bg_color;
+    ui.spacing_mut().item_spacing.y = 2.0;
+    let headings = [
+        (tr!("check"), tr!("What was looked at, and why it is as it is")),
+        (tr!("number"), tr!("The largest over a mesh of directions")),
+        (tr!("bar"), tr!("What the number must keep")),
+        (tr!("where"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
+    ];
+    row_ui(ui, |ui, column| {
+        let (heading, help) = &headings[column];
+        ui.strong(heading).on_hover_text(help);
+    });
+    for (i, finding) in audit.findings.iter().enumerate() {
+        let fill = if i % 2 == 0 { stripe } else { egui::Color32::TRANSPARENT };
+        egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(0, 3)).show(ui, |ui| {
+            row_ui(ui, |ui, column| match column {
+                0 => {
                     if finding.pass {
                         ui.colored_label(theme::series(2, dark), tr!("✓ pass"));
                     } else {
                         ui.colored_label(theme::warning(dark), tr!("✗ fail"));
                     }
-                    ui.strong(name);
-                });
-                let why = finding.why();
-                ui.add(Label::new(tr!(why)).wrap());
+                    ui.add(Label::new(egui::RichText::new(check_name(finding.check)).strong()).truncate());
+                }
+                1 => _ = ui.monospace(number(finding)),
+                2 => _ = ui.monospace(bar(finding)),
+                _ => _ = ui.label(place(finding)),
             });
-            ui.monospace(number(finding));
-            ui.monospace(bar(finding));
-            ui.vertical(|ui| {
-                ui.set_min_width(PLACE);
-                ui.label(place(finding));
+            let why = finding.why();
+            ui.add(Label::new(tr!(why)).wrap());
+        });
+    }
+}
+
+/// One row: the check as wide as there is room, and three columns of fixed width.
+fn row_ui(ui: &mut Ui, mut cell: impl FnMut(&mut Ui, usize)) {
+    let gaps = 3.0 * ui.spacing().item_spacing.x;
+    let check = (ui.available_width() - 2.0 * NUMBER - PLACE - gaps).max(120.0);
+    ui.horizontal(|ui| {
+        for (column, width) in [check, NUMBER, NUMBER, PLACE].into_iter().enumerate() {
+            let size = egui::vec2(width, ui.spacing().interact_size.y);
+            ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.set_min_width(width);
+                cell(ui, column);
             });
-            ui.end_row();
         }
     });
 }
@@ -214,7 +223,8 @@ fn bar(finding: &Finding) -> String {
 }
 
 fn place(finding: &Finding) -> String {
-    let Some(geometry) = finding.at else { return String::new() };
+    // Nothing has its largest value everywhere.
+    let Some(geometry) = finding.at.filter(|_| finding.value != 0.0) else { return String::new() };
     let (theta_i, theta_r, dphi) = angles(geometry);
     match finding.check {
         Check::Reflectance => format!("{theta_i}°"),

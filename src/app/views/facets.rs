@@ -10,6 +10,7 @@ use crate::app::window::Explorer;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle, VLine};
 use pbrdf::optics::{Degrees, Facet, SlopeDistribution};
+use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -147,6 +148,30 @@ pub fn facets_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .on_hover_text("The distribution that the model does not have is drawn with the median slope of the other, not with the same σ");
 }
 
+fn name(distribution: SlopeDistribution) -> &'static str {
+    match distribution {
+        SlopeDistribution::Gauss => "Gauss",
+        SlopeDistribution::Cauchy => "Cauchy",
+    }
+}
+
+/// Where the vertical lines of the plot stand.
+fn widths_ui(densities: &[Density; 2], ui: &mut Ui) {
+    let dark = ui.visuals().dark_mode;
+    let help = tr!("Dotted: P has fallen to half of P(0). Dashed: half of the projected facets are tilted less.");
+    ui.horizontal_wrapped(|ui| {
+        for (i, (distribution, density)) in SlopeDistribution::ALL.into_iter().zip(densities).enumerate() {
+            let median = format!("{:.2}", density.median);
+            let text = match density.half_width {
+                Some(half) => tr!("{0}: half at {1}°, median {2}°", name(distribution), format!("{half:.2}"), median),
+                None => tr!("{0}: median {1}°", name(distribution), median),
+            };
+            ui.colored_label(theme::series(i, dark), text).on_hover_text(&help);
+            ui.add_space(8.0);
+        }
+    });
+}
+
 /// Share of the height that the densities have.
 const DENSITIES: f32 = 0.62;
 
@@ -165,6 +190,9 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let Some(densities) = view.densities.get() else { return };
     let dark = ui.visuals().dark_mode;
     let log = settings.shown.facets_log;
+    let top = ui.cursor().top();
+    widths_ui(densities, ui);
+    let height = (height - (ui.cursor().top() - top)).max(60.0);
     let x = axis(AxisHints::new_x(), ui, "α / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "density / (1/sr)", if log { power_of_ten } else { decimal });
     let response = plot("facet densities", ui, height, x, y)
@@ -180,21 +208,16 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         .show(ui, |plot| {
             view.density_axes.apply(plot, view.tilts.get(), view.range.get());
             for (i, (distribution, density)) in SlopeDistribution::ALL.into_iter().zip(densities).enumerate() {
-                let (name, symbol) = match distribution {
-                    SlopeDistribution::Gauss => ("Gauss", "Gauss: D = P / cos α"),
-                    SlopeDistribution::Cauchy => ("Cauchy", "Cauchy: D = P / cos α"),
-                };
                 let color = theme::series(i, dark);
                 let width = if distribution == settings.model.distribution { 2.5 } else { 1.5 };
-                curve(plot, &density.p, &format!("{name}: P"), color, None, width);
-                curve(plot, &density.d, symbol, color, Some(LineStyle::dashed_dense()), 1.0);
+                // One entry of the legend for both: it would cover the curves.
+                let name = format!("{}: P, {}", name(distribution), tr!("dashed D = P / cos α"));
+                curve(plot, &density.p, &name, color, None, width);
+                curve(plot, &density.d, &name, color, Some(LineStyle::dashed_dense()), 1.0);
                 if let Some(half) = density.half_width {
-                    plot.vline(
-                        VLine::new(format!("{name}: half of P(0) at {half:.2}°"), half).color(color).style(LineStyle::dotted_dense()),
-                    );
+                    plot.vline(VLine::new("", half).color(color).style(LineStyle::dotted_dense()).allow_hover(false));
                 }
-                let median = format!("{name}: median slope, α = {:.2}°", density.median);
-                plot.vline(VLine::new(median, density.median).color(color).style(LineStyle::dashed_loose()));
+                plot.vline(VLine::new("", density.median).color(color).style(LineStyle::dashed_loose()).allow_hover(false));
             }
         });
     view.density_axes.listen(&response, ui);

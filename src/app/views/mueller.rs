@@ -291,7 +291,7 @@ fn heat_map(painter: &Painter, room: Rect, matrix: &Mueller, theta_r: f64, style
         let rect = Rect::from_min_size(corner + cell * at, vec2(cell, cell)).shrink(1.0);
         let value = normalised(matrix, element);
         let color = SCALE.color(value);
-        painter.rect_filled(rect, 2.0, color);
+        painter.rect(rect, 2.0, color, Stroke::new(1.0, theme::grid(style.dark)), StrokeKind::Inside);
         painter.text(rect.center(), Align2::CENTER_CENTER, number(value), FontId::proportional(letters), ink_on(color));
     }
 }
