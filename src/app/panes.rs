@@ -267,6 +267,31 @@ impl Panes {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(other) if *other == pane));
     }
 
+    /// Puts panes on screen side by side: one that lies behind another of them moves to a group of tabs that shows none of them,
+    /// if there is one.
+    pub fn show_together(&mut self, panes: &[Pane]) {
+        let mut taken: Vec<TileId> = Vec::new();
+        for pane in panes {
+            let group = self.group(*pane).or_else(|| self.tabs_for(*pane));
+            let free = group.filter(|group| taken.contains(group)).and_then(|_| {
+                let groups = self.tree.active_tiles().into_iter().filter(|tile| is_tabs(&self.tree.tiles, *tile));
+                groups.into_iter().find(|group| !taken.contains(group))
+            });
+            if let Some(free) = free {
+                let tile = self.tree.tiles.find_pane(pane).unwrap_or_else(|| self.tree.tiles.insert_pane(*pane));
+                self.tree.move_tile_to_container(tile, free, usize::MAX, false);
+            }
+            self.show(*pane);
+            taken.extend(self.group(*pane));
+        }
+    }
+
+    /// The tabs that a pane is one of.
+    fn group(&self, pane: Pane) -> Option<TileId> {
+        let tiles = &self.tree.tiles;
+        tiles.parent_of(tiles.find_pane(&pane)?).filter(|parent| is_tabs(tiles, *parent))
+    }
+
     fn insert(&mut self, pane: Pane) {
         let tile = self.tree.tiles.insert_pane(pane);
         let tabs = self.tabs_for(pane).and_then(|tabs| self.tree.tiles.get_mut(tabs));
@@ -391,6 +416,24 @@ mod tests {
             assert_eq!(entry.pane as usize, i);
             assert_eq!(Pane::try_from(entry.key.to_owned()), Ok(entry.pane));
             assert_eq!(PANES.iter().filter(|other| other.title == entry.title || other.key == entry.key).count(), 1);
+        }
+    }
+
+    #[test]
+    fn panes_of_one_group_are_shown_together() {
+        for panes in [[Pane::Dolp, Pane::Mueller], [Pane::Lobes, Pane::PolarLobes], [Pane::Dolp, Pane::Lobes]] {
+            for closed in [false, true] {
+                let mut all = Panes::new(&Layout::default());
+                if closed {
+                    all.close(panes[1]);
+                }
+                all.show_together(&panes);
+                all.settle();
+                assert!(panes.iter().all(|pane| all.is_on_screen(*pane)), "{panes:?}, {closed}");
+                // None is there twice and none is lost.
+                let there = PANES.iter().filter(|entry| all.tree.tiles.find_pane(&entry.pane).is_some()).count();
+                assert_eq!((there, all.tree.tiles.tiles().filter(|tile| tile.is_pane()).count()), (PANES.len(), PANES.len()));
+            }
         }
     }
 

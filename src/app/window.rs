@@ -543,9 +543,8 @@ impl Explorer {
         settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
         settings.dphi = step.dphi.unwrap_or(settings.dphi);
         settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
-        for pane in step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()) {
-            self.panes.show(pane);
-        }
+        let panes: Vec<Pane> = step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()).collect();
+        self.panes.show_together(&panes);
         match EXAMPLES.iter().find(|example| step.example.as_deref() == Some(example.name)) {
             Some(example) => self.worker.open_text(example.name.to_owned(), example.text),
             None => Ok(()),

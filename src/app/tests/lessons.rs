@@ -3,6 +3,7 @@
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::language::Language;
+use crate::app::panes::Pane;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Preset;
 
@@ -16,6 +17,10 @@ fn every_step_of_every_lesson_is_shown() {
             let heading = explorer(&mut harness).lessons.all[lesson].steps[step].heading.in_language("en").to_owned();
             assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
             assert_eq!(explorer(&mut harness).notice, None, "{heading}");
+            for name in explorer(&mut harness).lessons.all[lesson].steps[step].panes.clone() {
+                let pane = Pane::try_from(name.clone()).unwrap_or_else(|error| panic!("{heading}: {error}"));
+                assert!(explorer(&mut harness).panes.is_on_screen(pane), "{heading}: {name}");
+            }
         }
     }
 }
