@@ -40,6 +40,10 @@ pub enum Command {
     /// The lesson of that number at the step of that number: sliders and views as it wants them.
     ShowStep(usize, usize),
     CloseLesson,
+    /// Read the foreign file as it was chosen.
+    Import,
+    /// Leave it; what is open stays.
+    CancelImport,
     /// Stop reading.
     CancelLoading,
     ForgetRecent,

@@ -11,6 +11,7 @@ mod derived;
 mod document;
 mod frame_times;
 mod history;
+mod import;
 mod language;
 #[allow(dead_code, reason = "for panes whose contents take longer than a frame")]
 mod latest_job;
@@ -26,6 +27,7 @@ mod past_fits;
 mod plan;
 mod plots;
 mod problem;
+mod reading;
 mod scans;
 mod session;
 mod state;

@@ -31,7 +31,8 @@ impl Span {
         steps + 1
     }
 
-    fn angles(self) -> impl Iterator<Item = f64> {
+    /// They.
+    pub fn angles(self) -> impl Iterator<Item = f64> {
         #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
         (0..self.count()).map(move |i| self.from + i as f64 * self.step)
     }

@@ -5,6 +5,7 @@ use super::derived::Derived;
 use super::document::{Document, EXAMPLES, Mask};
 use super::frame_times::FrameTimes;
 use super::history::History;
+use super::import::Import;
 use super::latest_job::Background;
 use super::layout::Layout;
 use super::lessons::{self, Lessons};
@@ -12,6 +13,7 @@ use super::palette::{Palette, palette_ui};
 use super::panes::{Pane, Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
 use super::problem::{problem, reason};
+use super::reading::Arrived;
 use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Stored, Theme, WindowSettings};
 use super::views::Views;
@@ -60,6 +62,8 @@ pub struct Explorer {
     pub views: Views,
     pub panes: Panes,
     pub palette: Palette,
+    /// A foreign file that waits for a choice.
+    pub import: Option<Import>,
     pub lessons: Lessons,
     /// Where panes make what takes longer than a frame.
     pub background: Background,
@@ -116,6 +120,7 @@ impl Explorer {
             notice: None,
             views: Views::default(),
             palette: Palette::default(),
+            import: None,
             lessons: Lessons::default(),
             background: Background::new(ctx),
             dragging: false,
@@ -160,6 +165,7 @@ impl Explorer {
     /// Puts a measurement in the place of the one that is open.
     pub fn take(&mut self, name: String, measurement: Measurement) {
         self.generation += 1;
+        self.import = None;
         // With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
         let locked = self.settings.locked;
         self.settings.locked = if measurement.has_brdf() { locked.without(Parameter::Ks) } else { locked.with(Parameter::Ks) };
@@ -222,6 +228,7 @@ impl Explorer {
         self.derived.refresh_status(&self.settings, &self.document);
         let free = self.free();
         self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
+        self.refresh_import();
         self.panes.settle();
         for pane in self.panes.on_screen() {
             (pane.entry().refresh)(self);
@@ -246,17 +253,13 @@ impl Explorer {
             Event::SessionRead { path, result } => self.session_read(&path, result),
             Event::Saved(Ok(path)) => self.say(format!("The measurement is saved to {}.", path.display())),
             Event::Saved(Err(sentence)) => self.say(sentence),
-            Event::Loaded { name, path, sha256, result: Ok(measurement) } => {
-                self.notice = None;
-                path.iter().for_each(|path| self.window.remember(path));
-                self.take(name, measurement);
-                self.document.sha256 = sha256;
-                self.session_file = None;
-            }
-            Event::Loaded { path, result: Err(sentence), .. } => {
-                path.iter().for_each(|path| self.window.forget(path));
+            Event::Loaded { origin, result: Ok(Arrived::Measurement(imported)) } => self.loaded(origin, *imported),
+            Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => self.import = Some(Import::new(origin, foreign)),
+            Event::Loaded { origin, result: Err(sentence) } => {
+                origin.path.iter().for_each(|path| self.window.forget(path));
                 self.say(sentence);
             }
+            Event::Imported(result) => self.imported(result),
             Event::Refitted(report) => {
                 // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
                 for parameter in self.free() {
@@ -355,6 +358,8 @@ impl Explorer {
             Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
             Command::CloseLesson => self.lessons.open = None,
+            Command::Import => self.start_import()?,
+            Command::CancelImport => self.cancel_import(),
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
@@ -609,6 +614,7 @@ impl Explorer {
             panes_ui(self, ui);
         });
         palette_ui(self, ui);
+        panels::import_ui(self, ui);
     }
 }
 

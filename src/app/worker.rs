@@ -3,7 +3,9 @@
 //! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
 //! that was replaced meanwhile are dropped by its number.
 
+use super::import::Origin;
 use super::leaving::{Outgoing, Write};
+use super::reading::{self, Arrived, Choice, Foreign, Imported};
 use super::session::{Recipe, Session};
 use crate::export;
 use crate::open_file::open_file;
@@ -41,15 +43,13 @@ pub enum Event {
         path: PathBuf,
         result: Result<Box<Opened>, String>,
     },
-    /// A measurement was read, or why not.
+    /// A file was read, or why not, as a sentence.
     Loaded {
-        name: String,
-        /// The file it came from, if it did.
-        path: Option<PathBuf>,
-        /// SHA-256 of its bytes, of a file.
-        sha256: Option<String>,
-        result: Result<Measurement, String>,
+        origin: Origin,
+        result: Result<Arrived, String>,
     },
+    /// A foreign file was read as it was chosen, or why not, as a phrase.
+    Imported(Result<Imported, String>),
     Fitted {
         report: Box<FitReport>,
         problem: Arc<Problem>,
@@ -170,7 +170,7 @@ pub fn ask_desktop(question: Question) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
     match question {
         Question::Open => {
-            let dialog = dialog.set_title("Open measurement").add_filter("Tables", &["csv", "tsv", "txt"]);
+            let dialog = dialog.set_title("Open measurement").add_filter("Measurements", &["csv", "tsv", "txt", "dat", "pbsdf"]);
             dialog.add_filter("All files", &["*"]).pick_file()
         }
         Question::OpenSession => dialog.set_title("Open session").add_filter("Sessions", &["json"]).pick_file(),
@@ -306,9 +306,7 @@ impl Worker {
 
     /// Reads a session.
     pub fn open_session(&mut self, path: PathBuf) -> Result<(), String> {
-        if let Some(job) = self.load.take() {
-            job.cancel();
-        }
+        self.abandon_load();
         let job = self.spawn("read session", move |_: &Teller<()>, _| {
             let result = Opened::read(&path).map(Box::new);
             Event::SessionRead { path, result }
@@ -338,43 +336,58 @@ impl Worker {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         self.read(name, Some(path.clone()), move || {
             let file = open_file(&path).map_err(|reason| format!("{}: {reason}.", path.display()))?;
-            Ok((path, file))
+            let length = file.metadata().ok().map(|data| data.len());
+            Ok((path, file, length))
         })
     }
 
     /// Reads a text that is at hand.
     pub fn open_text(&mut self, name: String, text: &'static str) -> Result<(), String> {
         let path = PathBuf::from(&name);
-        self.read(name, None, move || Ok((path, text.as_bytes())))
+        self.read(name, None, move || Ok((path, text.as_bytes(), None)))
     }
 
     fn read<R: Read>(
         &mut self,
         name: String,
         path: Option<PathBuf>,
-        source: impl FnOnce() -> Result<(PathBuf, R), String> + Send + 'static,
+        source: impl FnOnce() -> Result<(PathBuf, R, Option<u64>), String> + Send + 'static,
     ) -> Result<(), String> {
-        if let Some(job) = self.load.take() {
-            job.cancel();
-        }
+        self.abandon_load();
         // A session that is still being read is not wanted any more.
         self.session = None;
         let job = self.spawn("read measurement", move |teller: &Teller<f64>, stop| {
-            let mut progress = |done| {
-                teller.tell(done);
-                if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
+            let mut progress = while_reading(teller, stop);
             let mut sha256 = None;
-            let result = source().and_then(|(at, source)| {
+            let result = source().and_then(|(at, source, length)| {
                 let mut source = Hashing { source, hash: Sha256::new() };
-                let measurement = measurement::read(&mut source, &mut progress).map_err(|error| sentence(&at, &error))?;
+                let said = |reason: &dyn std::fmt::Display| format!("{}: {reason}.", at.display());
+                let bytes = reading::bytes_of(&mut source, length, &mut progress).map_err(|error| said(&error))?;
                 sha256 = Some(export::hexadecimal(&source.hash.finalize()));
-                Ok(measurement)
+                reading::read(bytes, &mut progress).map_err(|reason| said(&reason))
             });
-            Event::Loaded { name, sha256: sha256.filter(|_| path.is_some()), path, result }
+            let sha256 = sha256.filter(|_| path.is_some());
+            Event::Loaded { origin: Origin { name, path, sha256 }, result }
         })?;
         self.load = Some(job);
         Ok(())
+    }
+
+    /// Reads a foreign file, which is in memory, as it was chosen.
+    pub fn import(&mut self, foreign: Foreign, choice: Choice) -> Result<(), String> {
+        self.abandon_load();
+        let job = self.spawn("import measurement", move |teller: &Teller<f64>, stop| {
+            Event::Imported(foreign.import(&choice, &mut while_reading(teller, stop)))
+        })?;
+        self.load = Some(job);
+        Ok(())
+    }
+
+    /// Stops reading; what was read is not wanted any more.
+    pub fn abandon_load(&mut self) {
+        if let Some(job) = self.load.take() {
+            job.cancel();
+        }
     }
 
     /// Fits a document in that state.
@@ -485,7 +498,7 @@ impl Worker {
                 }
                 Event::Profiled(_) | Event::Scattered { .. } => self.scan.take_if(|job| job.number == number).is_some(),
                 Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
-                Event::Loaded { .. } => self.load.take_if(|job| job.number == number).is_some(),
+                Event::Loaded { .. } | Event::Imported(_) => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
                 Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
                 Event::Fitted { .. } => self.fit.take_if(|job| job.number == number).is_some(),
@@ -520,6 +533,10 @@ pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
     written.map_err(|error| format!("{} cannot be written: {error}.", path.display()))
 }
 
-fn sentence(path: &Path, error: &measurement::ReadError) -> String {
-    format!("{}: {error}.", path.display())
+/// Tells how much is read, and stops when asked to.
+fn while_reading(teller: &Teller<f64>, stop: &AtomicBool) -> impl FnMut(f64) -> ControlFlow<()> {
+    move |done| {
+        teller.tell(done);
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
 }

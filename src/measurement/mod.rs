@@ -19,7 +19,7 @@ pub use read::{read, read_mapped};
 pub use series::{Mark, Series};
 pub use simulate::{Columns, Simulation, grid_geometries};
 pub use table::{Column, Progress, ReadError, ReadErrorKind, Record, Table};
-pub use tensor::{Tensor, TensorError, TensorErrorKind, TensorSlice, is_tensor, read_tensor, rusinkiewicz};
+pub use tensor::{Tensor, TensorError, TensorErrorKind, TensorSlice, is_tensor, read_tensor, rusinkiewicz, tensor_from_bytes};
 pub use tensor_write::{TensorGrid, TensorResolution, write_tensor};
 pub use wavelength::{WavelengthError, choose_wavelength};
 pub use woollam::{Depolarisation, Ellipsometry, PsiDelta, SpecularDolp, is_woollam, read_woollam};

@@ -236,6 +236,11 @@ impl Field {
 pub fn read_tensor(mut source: impl Read) -> Result<Tensor, TensorError> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| TensorErrorKind::Io(error).at(None, None))?;
+    tensor_from_bytes(bytes)
+}
+
+/// The tensor of a file that is in memory, without a second copy of it: such files reach a gigabyte.
+pub fn tensor_from_bytes(bytes: Vec<u8>) -> Result<Tensor, TensorError> {
     if !is_tensor(&bytes) {
         return Err(TensorErrorKind::NoTensor.at(Some(0), None));
     }

@@ -5,6 +5,7 @@ mod commands;
 mod files;
 mod fitting;
 mod hemisphere;
+mod imports;
 mod landscape;
 mod leaving;
 mod lessons;

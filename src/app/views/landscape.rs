@@ -13,7 +13,7 @@ use crate::app::problem::problem;
 use crate::app::state::{OverTwo, Settings};
 use crate::app::window::Explorer;
 use egui::{Color32, ColorImage, ComboBox, TextureHandle, TextureOptions, Ui, vec2};
-use egui_plot::{AxisHints, HoverPosition, Line, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Line, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 use pbrdf::fit::{Axis, Choices, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
@@ -30,8 +30,8 @@ pub struct LandscapeView {
     marks: Memo<MarksKey, Marks>,
     /// The parameters of the axes and what is seen of them, once the plot was drawn.
     seen: Option<(Parameter, Parameter, [Range; 2])>,
-    /// Whether the next frame shows the whole ranges.
-    is_reset: bool,
+    /// What the next frame shows, where that is somewhere else.
+    wanted: Option<[Range; 2]>,
 }
 
 /// What a landscape depends on: everything but where the sliders of its own two parameters stand.
@@ -82,6 +82,15 @@ fn whole(parameter: Parameter) -> Range {
     let (low, high) = parameter.range().into_inner();
     let low = if parameter.is_logarithmic() { low.max(1e-4 * high) } else { low };
     Range { low: coordinate(parameter, low), high: coordinate(parameter, high) }
+}
+
+/// What is seen first: of n and k where metals are in the visible, of the others all.
+fn first(parameter: Parameter) -> Range {
+    match parameter {
+        Parameter::N => Range { low: coordinate(parameter, 0.03), high: coordinate(parameter, 10.0) },
+        Parameter::K => Range { low: 0.0, high: 9.0 },
+        _ => whole(parameter),
+    }
 }
 
 /// The axis over what is seen, as far as there are surfaces.
@@ -187,8 +196,11 @@ pub fn landscape_refresh(explorer: &mut Explorer) {
     let Explorer { settings, document, views, background, dragging, last_fit, past_fits, .. } = explorer;
     let view = &mut views.landscape;
     let OverTwo { across, up, .. } = settings.landscape;
-    let seen = view.seen.filter(|seen| (seen.0, seen.1) == (across, up) && !view.is_reset).map(|(_, _, seen)| seen);
-    let [x, y] = seen.unwrap_or([whole(across), whole(up)]);
+    let seen = view.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
+    if seen.is_none() {
+        view.wanted = Some([first(across), first(up)]);
+    }
+    let Some([x, y]) = view.wanted.or(seen) else { return };
     view.marks.refresh(MarksKey::new(settings, document, past_fits, last_fit.as_deref()), |key| {
         Marks::new(key, past_fits, last_fit.as_deref(), document)
     });
@@ -292,6 +304,7 @@ fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { settings, views, .. } = explorer;
     let used = settings.model.parameters();
     let OverTwo { across, up, .. } = &mut settings.landscape;
+    let mut is_reset = false;
     ui.horizontal(|ui| {
         for (id, name, parameter) in [("across", tr!("Across"), across), ("up", tr!("Up"), up)] {
             let label = ui.label(name);
@@ -304,9 +317,14 @@ fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             });
             combo.response.labelled_by(label.id);
         }
-        let reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders"));
-        views.landscape.is_reset |= reset.clicked();
+        is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
     });
+    if is_reset {
+        let OverTwo { across, up, .. } = settings.landscape;
+        views.landscape.wanted = Some([across, up].map(whole));
+        // The landscape over them is made before the next frame.
+        ui.ctx().request_repaint();
+    }
 }
 
 /// The map with what lies on it.
@@ -322,23 +340,23 @@ fn map_ui(explorer: &mut Explorer, height: f32, ui: &mut Ui) -> PlotResponse<()>
             None => *texture = Some(ctx.load_texture("landscape", drawn.image.clone(), TextureOptions::LINEAR)),
         });
     }
-    let is_new = view.seen.is_none_or(|seen| (seen.0, seen.1) != (shown.across, shown.up));
-    let whole_ranges = (is_new || std::mem::take(&mut view.is_reset)).then(|| [whole(shown.across), whole(shown.up)]);
+    let wanted = view.wanted.take();
     let format = |parameter: Parameter| if parameter.is_logarithmic() { logarithmic } else { decimal };
     let marks = view.marks.get();
     let x = axis(AxisHints::new_x(), ui, shown.across.symbol(), format(shown.across)).min_thickness(36.0);
     let y = axis(AxisHints::new_y(), ui, shown.up.symbol(), format(shown.up));
     plot("landscape", ui, height, x, y)
         .width((ui.available_width() - BAR_ROOM).max(80.0))
-        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
+        .x_grid_spacer(move |input| grid(shown.across, &input, 7.0))
+        .y_grid_spacer(move |input| grid(shown.up, &input, 5.0))
         .show_grid(false)
-        .legend(crate::app::plots::legend().position(egui_plot::Corner::RightTop))
+        .legend(crate::app::plots::legend().position(egui_plot::Corner::LeftTop))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, index, .. } => marks.and_then(|marks| marks.text(plot_name, *index)),
             HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
-            if let Some([x, y]) = whole_ranges {
+            if let Some([x, y]) = wanted {
                 plot.set_plot_bounds_x(x.low..=x.high);
                 plot.set_plot_bounds_y(y.low..=y.high);
             }
@@ -369,12 +387,29 @@ fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a Drawn, texture: &TextureHandle
     }
 }
 
+/// Marks of an axis, so many smallest spacings apart; of logarithms at 1, 2 and 5 times powers of ten where there is room.
+fn grid(parameter: Parameter, input: &GridInput, spread: f64) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    if !parameter.is_logarithmic() || high - low < 1.0 {
+        return axis::marks(input, spread, 0.0);
+    }
+    // From 1 to 2 is 0.3 of a decade.
+    if 0.3 < 0.7 * spread * input.base_step_size {
+        return axis::marks(input, spread, 1.0);
+    }
+    let mut marks = Vec::new();
+    let mut decade = low.floor();
+    while decade <= high {
+        marks.extend([1.0, 2.0, 5.0].map(|factor| GridMark { value: decade + libm::log10(factor), step_size: 1.0 }));
+        decade += 1.0;
+    }
+    marks.retain(|mark| mark.value >= low && mark.value <= high);
+    marks
+}
+
 /// A mark of an axis of logarithms: the value itself.
 fn logarithmic(exponent: f64, step_size: f64) -> String {
-    if step_size >= 1.0 && !(-3.0..=3.0).contains(&exponent) {
-        return power_of_ten(exponent, step_size);
-    }
-    crate::app::words::short(libm::exp10(exponent))
+    if (-4.0..=4.0).contains(&exponent) { tidy(libm::exp10(exponent)).to_string() } else { power_of_ten(exponent, step_size) }
 }
 
 #[cfg(test)]

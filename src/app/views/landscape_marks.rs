@@ -4,7 +4,7 @@ use super::landscape::coordinate;
 use crate::app::document::Document;
 use crate::app::past_fits::{PastFit, PastFits};
 use crate::app::state::{OverTwo, Settings};
-use egui::{Align2, Color32, RichText};
+use egui::{Align2, Color32, Rect, RichText};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
 use pbrdf::optics;
@@ -150,10 +150,7 @@ fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shap
 pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
     if shown.metals && !marks.metals.points.is_empty() {
         rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, Color32::from_rgb(150, 220, 255));
-        for (point, name) in &marks.names {
-            let text = RichText::new(format!(" {name} ")).size(11.0).color(WHITE).background_color(Color32::from_black_alpha(120));
-            plot.text(Text::new("", *point, text).anchor(Align2::LEFT_BOTTOM).allow_hover(false));
-        }
+        names_in(plot, &marks.names);
     }
     if shown.paths {
         for (age, way) in marks.ways.iter().enumerate().rev() {
@@ -162,6 +159,27 @@ pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
     }
     if shown.minima && !marks.minima.points.is_empty() {
         rimmed(plot, &marks.minima.points, tr!("minima"), MarkerShape::Diamond, 4.0, Color32::from_rgb(255, 214, 90));
+    }
+}
+
+/// Letters of the names of metals, and the room of one.
+const LETTERS: f32 = 11.0;
+const LETTER: egui::Vec2 = egui::vec2(6.6, 15.0);
+
+/// Names beside their points, on a side where no other one stands; without room a name is left to the pointer.
+fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
+    let mut taken: Vec<Rect> = Vec::new();
+    for (point, name) in names {
+        #[expect(clippy::cast_precision_loss, reason = "a few letters")]
+        let size = egui::vec2((name.len() + 2) as f32 * LETTER.x, LETTER.y);
+        let at = plot.screen_from_plot(*point);
+        let sides = [Align2::LEFT_BOTTOM, Align2::LEFT_TOP, Align2::RIGHT_BOTTOM, Align2::RIGHT_TOP];
+        let free = sides.into_iter().find(|side| taken.iter().all(|other| !other.intersects(side.anchor_size(at, size))));
+        if let Some(side) = free {
+            taken.push(side.anchor_size(at, size));
+            let text = RichText::new(format!(" {name} ")).size(LETTERS).color(WHITE).background_color(Color32::from_black_alpha(110));
+            plot.text(Text::new("", *point, text).anchor(side).allow_hover(false));
+        }
     }
 }
 

@@ -1,0 +1,87 @@
+//! A foreign file that waits for a choice, and what the window keeps while it is asked for.
+
+use super::memo::Memo;
+use super::reading::{Choice, Foreign, Imported};
+use super::window::Explorer;
+use std::path::PathBuf;
+
+/// Where a measurement comes from.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    pub name: String,
+    /// The file, if there is one.
+    pub path: Option<PathBuf>,
+    /// SHA-256 of its bytes, of a file.
+    pub sha256: Option<String>,
+}
+
+/// The file that is asked about.
+pub struct Import {
+    pub origin: Origin,
+    pub foreign: Foreign,
+    pub choice: Choice,
+    /// The beginning of what the choice leads to, or why it leads nowhere.
+    pub preview: Memo<Choice, Result<Imported, String>>,
+    /// Why the whole file could not be read so.
+    pub error: Option<String>,
+}
+
+impl Import {
+    pub fn new(origin: Origin, foreign: Foreign) -> Self {
+        let choice = foreign.first_choice();
+        Self { origin, foreign, choice, preview: Memo::default(), error: None }
+    }
+}
+
+impl Explorer {
+    /// Before each frame: what the choice leads to.
+    pub(super) fn refresh_import(&mut self) {
+        if let Some(Import { foreign, choice, preview, error, .. }) = &mut self.import
+            && preview.refresh(choice.clone(), |choice| foreign.preview(choice))
+        {
+            *error = None;
+        }
+    }
+
+    /// Reads the whole file as it was chosen.
+    pub(super) fn start_import(&mut self) -> Result<(), String> {
+        match &self.import {
+            Some(import) => self.worker.import(import.foreign.clone(), import.choice.clone()),
+            None => Ok(()),
+        }
+    }
+
+    /// Away with the question; what is open stays.
+    pub(super) fn cancel_import(&mut self) {
+        if self.import.take().is_some() {
+            self.worker.abandon_load();
+        }
+    }
+
+    pub(super) fn imported(&mut self, result: Result<Imported, String>) {
+        match (result, self.import.take()) {
+            (Ok(mut imported), Some(import)) => {
+                let name = import.origin.name.replace(char::is_control, " ");
+                imported.measurement.metadata.push(("imported_from".to_owned(), name));
+                self.loaded(import.origin, imported);
+            }
+            (Err(reason), Some(import)) => self.import = Some(Import { error: Some(reason), ..import }),
+            // The question was withdrawn meanwhile.
+            (_, None) => {}
+        }
+    }
+
+    /// Puts a measurement that was read in the place of the one that is open.
+    pub(super) fn loaded(&mut self, origin: Origin, imported: Imported) {
+        let Origin { name, path, sha256 } = origin;
+        self.notice = None;
+        path.iter().for_each(|path| self.window.remember(path));
+        let about = imported.notices.join(" ");
+        if !about.is_empty() {
+            self.say(format!("{name}: {about}"));
+        }
+        self.take(name, imported.measurement);
+        self.document.sha256 = sha256;
+        self.session_file = None;
+    }
+}

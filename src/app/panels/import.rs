@@ -1,0 +1,239 @@
+//! The question that a foreign file asks: which wavelength, which slices, which column is what; with the first rows of the answer.
+
+use crate::app::command::Command;
+use crate::app::import::Import;
+use crate::app::plan::Span;
+use crate::app::reading::{Choice, ForeignTable, Imported, Slices};
+use crate::app::theme;
+use crate::app::window::Explorer;
+use crate::app::words::short;
+use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
+use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
+use tr::tr;
+
+/// Width of the dialog, and height of what scrolls in it.
+const WIDTH: f32 = 640.0;
+const HEIGHT: f32 = 240.0;
+/// Rows of the answer that are shown.
+const SHOWN: usize = 5;
+/// Above so many wavelengths there is a slider in place of a list.
+const LISTED: usize = 12;
+
+pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { import: Some(import), worker, commands, .. } = explorer else { return };
+    let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
+        ui.heading(tr!("Import {}", import.origin.name));
+        choice_ui(import, ui);
+        ui.separator();
+        let is_sound = answer_ui(import, ui);
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            if let Some(job) = &worker.load {
+                #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
+                ui.add(egui::ProgressBar::new(job.progress().unwrap_or(0.0) as f32).desired_width(160.0).text(tr!("Reading…")));
+            } else if ui.add_enabled(is_sound, egui::Button::new(tr!("Open"))).clicked() {
+                commands.push(Command::Import);
+            }
+            if ui.button(tr!("Cancel")).on_hover_text(tr!("What is open stays")).clicked() {
+                commands.push(Command::CancelImport);
+            }
+        });
+    });
+    // A click beside it would lose what was chosen.
+    if response.should_close() && !response.backdrop_response.clicked() {
+        commands.push(Command::CancelImport);
+    }
+}
+
+fn choice_ui(import: &mut Import, ui: &mut Ui) {
+    let wavelengths_nm = import.foreign.wavelengths_nm();
+    match (&mut import.choice, &import.foreign) {
+        (Choice::Ellipsometry(wavelength_nm), _) => {
+            ui.label(tr!("Woollam ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."));
+            wavelength_ui(wavelength_nm, &wavelengths_nm, ui);
+        }
+        (Choice::Tensor(slices), _) => {
+            ui.label(tr!("A tensor of Mueller matrices: slices through it become BRDF and DoLP for unpolarised light."));
+            slices_ui(slices, &wavelengths_nm, ui);
+        }
+        (Choice::Table(mapping), crate::app::reading::Foreign::Table(table)) => columns_ui(mapping, table, ui),
+        (Choice::Table(_), _) => {}
+    }
+}
+
+fn wavelength_ui(wavelength_nm: &mut f64, available_nm: &[f64], ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let label = ui.label(tr!("Wavelength"));
+        let (Some(&first), Some(&last)) = (available_nm.first(), available_nm.last()) else { return };
+        if available_nm.len() <= LISTED {
+            let combo = ComboBox::from_id_salt("wavelength").selected_text(format!("{wavelength_nm} nm")).show_ui(ui, |ui| {
+                for &other in available_nm {
+                    ui.selectable_value(wavelength_nm, other, format!("{other} nm"));
+                }
+            });
+            combo.response.labelled_by(label.id);
+        } else {
+            let mut wanted = *wavelength_nm;
+            ui.spacing_mut().slider_width = 260.0;
+            let slider = Slider::new(&mut wanted, first..=last).show_value(false).clamping(SliderClamping::Never);
+            let slid = ui.add(slider).labelled_by(label.id).changed();
+            let value = DragValue::new(&mut wanted).range(first..=last).speed(1.0).max_decimals(3).suffix(" nm");
+            if ui.add(value).labelled_by(label.id).changed() || slid {
+                // The nearest that the file has, as the import takes it.
+                let distance = |other: f64| (other - wanted).abs();
+                let nearest = available_nm.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+                *wavelength_nm = nearest.unwrap_or(wanted);
+            }
+            ui.weak(tr!("{0} of them, {1} to {2} nm", available_nm.len(), short(first), short(last)));
+        }
+    });
+}
+
+fn slices_ui(slices: &mut Slices, available_nm: &[f64], ui: &mut Ui) {
+    let Slices { wavelength_nm, theta_i, theta_r, dphi } = slices;
+    wavelength_ui(wavelength_nm, available_nm, ui);
+    Grid::new("slices").num_columns(4).show(ui, |ui| {
+        for heading in [String::new(), tr!("from"), tr!("to"), tr!("step")] {
+            ui.weak(heading);
+        }
+        ui.end_row();
+        span_ui(theta_i, "θi", 0.0, ui);
+        // A negative angle of view is the backscatter side of the plane of incidence.
+        let least = if *dphi == 180.0 { -89.9 } else { 0.0 };
+        theta_r.from = theta_r.from.max(least);
+        span_ui(theta_r, "θr", least, ui);
+        let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
+        ui.add(DragValue::new(dphi).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°")).labelled_by(label.id);
+        ui.end_row();
+    });
+}
+
+fn span_ui(span: &mut Span, name: &str, least: f64, ui: &mut Ui) {
+    ui.label(name);
+    let field = |ui: &mut Ui, value: &mut f64, range: std::ops::RangeInclusive<f64>, what: String| {
+        let response = ui.add(DragValue::new(value).range(range).speed(0.5).max_decimals(3).suffix("°"));
+        response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} {what}")));
+    };
+    field(ui, &mut span.from, least..=89.9, tr!("from"));
+    // The other end follows.
+    span.to = span.to.max(span.from);
+    field(ui, &mut span.to, span.from..=89.9, tr!("to"));
+    field(ui, &mut span.step, 0.5..=90.0, tr!("step"));
+    ui.end_row();
+}
+
+/// What each field is called.
+fn field_text(field: Option<Field>) -> String {
+    match field {
+        None => tr!("not used"),
+        Some(Field::ThetaI) => tr!("θi, angle of incidence"),
+        Some(Field::ThetaR) => tr!("θr, angle of view"),
+        Some(Field::Dphi) => tr!("Δφ, relative azimuth"),
+        Some(Field::Dolp) => "DoLP".to_owned(),
+        Some(Field::DolpSigma) => tr!("standard deviation of DoLP"),
+        Some(Field::Brdf) => tr!("BRDF in 1/sr"),
+        Some(Field::BrdfSigma) => tr!("standard deviation of BRDF"),
+        Some(Field::Masked) => tr!("mask, 0 or 1"),
+    }
+}
+
+fn unit_text(field: Field, unit: Unit) -> String {
+    match (unit, field) {
+        (Unit::Radians, _) => tr!("radians"),
+        (Unit::Percent, _) => tr!("percent"),
+        (Unit::Usual, Field::ThetaI | Field::ThetaR | Field::Dphi) => tr!("degrees"),
+        (Unit::Usual, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
+        (Unit::Usual, _) => String::new(),
+    }
+}
+
+/// Every column with its first cells, what it is and in which unit.
+fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
+    ui.add(Label::new(tr!("Which column is what? The header is not the program's own: {}.", table.reason)).wrap());
+    ScrollArea::both().id_salt("columns").max_height(HEIGHT).show(ui, |ui| {
+        Grid::new("columns").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+            for heading in [tr!("Column"), tr!("First rows"), tr!("Meaning"), tr!("Unit")] {
+                ui.strong(heading);
+            }
+            ui.end_row();
+            for (index, name) in table.header.iter().enumerate() {
+                column_ui(mapping, table, index, name, ui);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn column_ui(mapping: &mut Mapping, table: &ForeignTable, index: usize, name: &str, ui: &mut Ui) {
+    let title = if name.is_empty() { tr!("column {}", index + 1) } else { name.to_owned() };
+    let label = ui.label(&title);
+    let cells: Vec<&str> = table.rows.iter().filter_map(|row| row.get(index)).map(String::as_str).collect();
+    let cells: String = cells.join(" · ").chars().take(48).collect();
+    ui.label(RichText::new(cells).weak());
+    let number = ColumnChoice::Number(index + 1);
+    let place = mapping.columns.iter().position(|column| column.column == number);
+    let before = place.map(|place| mapping.columns[place].field);
+    let mut chosen = before;
+    let combo = ComboBox::from_id_salt(("meaning", index)).width(190.0).height(320.0).selected_text(field_text(before)).show_ui(ui, |ui| {
+        for field in std::iter::once(None).chain(Field::ALL.map(Some)) {
+            ui.selectable_value(&mut chosen, field, field_text(field));
+        }
+    });
+    combo.response.labelled_by(label.id);
+    if chosen != before {
+        // A field is in one column, and a column is one field.
+        mapping.columns.retain(|column| column.column != number && Some(column.field) != chosen);
+        mapping.columns.extend(chosen.map(|field| MappedColumn { field, column: number, unit: Unit::Usual }));
+        return;
+    }
+    let Some(column) = place.map(|place| &mut mapping.columns[place]).filter(|column| column.field.units().len() > 1) else { return };
+    let field = column.field;
+    let combo = ComboBox::from_id_salt(("unit", index)).selected_text(unit_text(field, column.unit)).show_ui(ui, |ui| {
+        for &unit in field.units() {
+            ui.selectable_value(&mut column.unit, unit, unit_text(field, unit));
+        }
+    });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("Unit of {}", title)));
+}
+
+/// The first rows of the answer, or why there is none; whether there is one.
+fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
+    let warning = theme::warning(ui.visuals().dark_mode);
+    match import.preview.get() {
+        None => return false,
+        Some(Err(reason)) => {
+            ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", reason)).color(warning)).wrap());
+            return false;
+        }
+        Some(Ok(imported)) => rows_ui(imported, ui),
+    }
+    if let Some(reason) = &import.error {
+        ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", reason)).color(warning)).wrap());
+    }
+    true
+}
+
+fn rows_ui(imported: &Imported, ui: &mut Ui) {
+    let rows = &imported.measurement.rows;
+    ui.weak(tr!("The first of {} rows as they will be:", rows.len()));
+    Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
+        for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF"] {
+            ui.strong(heading);
+        }
+        ui.end_row();
+        for row in rows.iter().take(SHOWN) {
+            let geometry = row.geometry;
+            for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
+                ui.monospace(format!("{}°", super::significant(angle)));
+            }
+            for quantity in [row.dolp, row.brdf] {
+                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| super::significant(quantity.value)));
+            }
+            ui.end_row();
+        }
+    });
+    for notice in &imported.notices {
+        ui.add(Label::new(RichText::new(notice).weak()).wrap());
+    }
+}
