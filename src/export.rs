@@ -1,8 +1,8 @@
 //! Figures and reports of fits as files: what the name of a file asks for, and writing it.
 
 use crate::write_file::write_file;
-use pbrdf::report::Document;
 use pbrdf::report::figure::Figure;
+use pbrdf::report::{Document, Machine};
 use sha2::{Digest as _, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -84,6 +84,13 @@ pub fn program() -> String {
 /// Day and time, UTC.
 pub fn now() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+}
+
+/// This machine.
+pub fn machine() -> Machine {
+    // Absent outside Linux: then the architecture has to do.
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    Machine::new(&cpuinfo, std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
 }
 
 /// SHA-256 in hexadecimal digits.

@@ -4,6 +4,7 @@ use super::document::EXAMPLES;
 use super::language::Language;
 use super::leaving::{Outgoing, PLOTS};
 use super::panes::{PANES, Pane};
+use super::reports::Subject;
 use super::state::Theme;
 use super::views;
 use super::window::Explorer;
@@ -86,6 +87,11 @@ pub enum Command {
     /// Fit all models of the ladder.
     CompareModels,
     CancelComparison,
+    /// Measure, in the background.
+    MakeReport(Subject),
+    CancelReport,
+    /// Sliders, terms and angles as that case of the stability gallery has them.
+    UseCase(usize),
     Toggle(Switch),
     /// A pane to the screen, or off it.
     TogglePane(Pane),
@@ -245,6 +251,14 @@ static ENTRIES: &[Entry] = &[
         |e| only_if(e.worker.comparison.is_none())),
     row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
         |e| only_if(e.worker.comparison.is_some())),
+    row(Command::MakeReport(Subject::ErrorVsTime), Menu::None, "Measure error against run time",
+        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.running.is_none())),
+    row(Command::MakeReport(Subject::Stability), Menu::None, "Run the stability gallery", "Stiff and extreme cases against 60 digits, and fits",
+        None, |e| only_if(e.reports.running.is_none())),
+    row(Command::MakeReport(Subject::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
+        |e| only_if(e.reports.running.is_none())),
+    row(Command::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
+        |e| only_if(e.reports.running.is_some())),
     row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
         |e| only_if(e.last_fit.is_some() && e.worker.scan.is_none())),
     row(Command::CancelScan, Menu::Fit, "Stop profile or bootstrap", "What is done so far is shown", None,

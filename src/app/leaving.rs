@@ -3,6 +3,7 @@
 use super::curves::{Curves, Marks, Pieces};
 use super::panes::Pane;
 use super::plots::Ribbon;
+use super::reports::Subject;
 use super::session::{Recipe, Session};
 use super::window::Explorer;
 use crate::export;
@@ -29,7 +30,7 @@ pub enum Outgoing {
 pub type Write = Box<dyn FnOnce(&Path) -> Result<(), String> + Send>;
 
 /// The panes with a plot that can be exported.
-pub const PLOTS: [Pane; 2] = [Pane::Dolp, Pane::Lobes];
+pub const PLOTS: [Pane; 5] = [Pane::Dolp, Pane::Lobes, Pane::ErrorVsTime, Pane::Stability, Pane::Cost];
 
 const FOREGROUND: Rgb = Rgb(20, 20, 20);
 const MUTED: Rgb = Rgb(150, 150, 150);
@@ -165,7 +166,7 @@ pub fn figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
     match pane {
         Pane::Dolp => dolp(explorer),
         Pane::Lobes => lobes(explorer),
-        _ => None,
+        _ => explorer.reports.figure(Subject::of(pane)?).cloned(),
     }
 }
 

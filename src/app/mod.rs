@@ -28,6 +28,7 @@ mod plan;
 mod plots;
 mod problem;
 mod reading;
+mod reports;
 mod scans;
 mod session;
 mod state;

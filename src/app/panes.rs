@@ -28,6 +28,9 @@ pub enum Pane {
     Mueller,
     Landscape,
     Audit,
+    ErrorVsTime,
+    Stability,
+    Cost,
 }
 
 /// Where a pane lies until the user moves it.
@@ -56,7 +59,7 @@ pub struct Entry {
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 13] = [
+pub static PANES: [Entry; 16] = [
     Entry {
         pane: Pane::Dolp,
         key: "dolp",
@@ -198,6 +201,39 @@ pub static PANES: [Entry; 13] = [
         place: Place::Lower,
         refresh: views::audit_refresh,
         ui: views::audit_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::ErrorVsTime,
+        key: "error_vs_time",
+        title: "Error against time",
+        tooltip: "Error against run time of evaluations and of fits, measured on this machine",
+        shortcut: None,
+        place: Place::Upper,
+        refresh: |_| (),
+        ui: views::error_vs_time_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Stability,
+        key: "stability",
+        title: "Stability",
+        tooltip: "Stiff and extreme cases against 60 digits, beside the textbook form; a click on a case loads it",
+        shortcut: None,
+        place: Place::Upper,
+        refresh: |_| (),
+        ui: views::stability_ui,
+        options: None,
+    },
+    Entry {
+        pane: Pane::Cost,
+        key: "cost",
+        title: "Cost",
+        tooltip: "What a scene costs, and what is left out because it does not need it, measured on this machine",
+        shortcut: None,
+        place: Place::Upper,
+        refresh: |_| (),
+        ui: views::cost_ui,
         options: None,
     },
 ];

@@ -14,6 +14,7 @@ use super::panes::{Pane, Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
 use super::problem::{problem, reason};
 use super::reading::Arrived;
+use super::reports::Reports;
 use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Stored, Theme, WindowSettings};
 use super::views::Views;
@@ -23,6 +24,7 @@ use super::{language, leaving, panels, parameter_text, store, theme};
 use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
+use pbrdf::report::Setting;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -51,6 +53,8 @@ pub struct Explorer {
     pub past_fits: PastFits,
     /// The ladder of models on the open measurement.
     pub comparison: Vec<Rung>,
+    /// What the program found out about itself.
+    pub reports: Reports,
     /// What was asked about the fit that is shown.
     pub scans: Scans,
     pub history: History<Setup>,
@@ -113,6 +117,7 @@ impl Explorer {
             last_fit: None,
             past_fits: PastFits::default(),
             comparison: Vec::new(),
+            reports: Reports::default(),
             scans: Scans::default(),
             history: History::default(),
             outlook_is_shown: false,
@@ -270,6 +275,10 @@ impl Explorer {
                 }
             }
             Event::Compared(rungs) => self.comparison = rungs,
+            Event::Reported { made, is_part } => {
+                self.reports.running = None;
+                self.reports.take(*made, is_part);
+            }
             Event::Profiled(profile) => {
                 let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
                 self.scans.profile = self.last_fit.as_ref().map(curve);
@@ -389,6 +398,13 @@ impl Explorer {
             Command::CancelScan => self.worker.scan.iter().for_each(super::worker::Job::cancel),
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
+            Command::MakeReport(subject) => {
+                if self.reports.running.is_none() {
+                    self.reports.running = Some((subject, self.worker.start_report(subject)?));
+                }
+            }
+            Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
+            Command::UseCase(index) => self.use_case(index),
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
             Command::Toggle(switch) => {
                 let on = switch.of(self);
@@ -514,6 +530,28 @@ impl Explorer {
             self.settings.model = report.model;
             self.refitted = Some(report.parameters);
         }
+    }
+
+    /// Sliders, terms and angles of a case of the stability gallery; of a fit, its data as well.
+    fn use_case(&mut self, index: usize) {
+        let Some(row) = self.reports.stability.as_ref().and_then(|shown| shown.report.rows.get(index)) else { return };
+        let (case, setting) = (row.case.clone(), row.setting.clone());
+        match setting {
+            Setting::Evaluation { model, parameters, geometry } => {
+                self.settings.model = model;
+                self.settings.parameters = parameters;
+                self.settings.theta_i = geometry.theta_i().0;
+                self.settings.dphi = geometry.dphi().0;
+            }
+            Setting::Fit { model, start, measurement } => {
+                self.settings.model = model;
+                self.settings.parameters = start;
+                self.take(case, measurement);
+                self.session_file = None;
+            }
+        }
+        // The sliders are where the case wants them: nothing is fitted again from there.
+        self.refitted = Some(self.settings.parameters);
     }
 
     /// The fit that is shown, with the problem that it solved.

@@ -6,6 +6,7 @@
 use super::import::Origin;
 use super::leaving::{Outgoing, Write};
 use super::reading::{self, Arrived, Choice, Foreign, Imported};
+use super::reports::{Made, Subject};
 use super::session::{Recipe, Session};
 use crate::export;
 use crate::open_file::open_file;
@@ -13,6 +14,7 @@ use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
 use pbrdf::model::{Parameter, Parameters, Preset};
+use pbrdf::report::Surroundings;
 use sha2::{Digest as _, Sha256};
 use std::io::Read;
 use std::ops::ControlFlow;
@@ -60,6 +62,11 @@ pub enum Event {
     /// The ladder of models.
     Compared(Vec<Rung>),
     Profiled(Profile),
+    /// A report of the program about itself, and whether it was stopped before its end.
+    Reported {
+        made: Box<Made>,
+        is_part: bool,
+    },
     /// How the parameters scatter over so many data sets.
     Scattered {
         replicates: usize,
@@ -465,6 +472,20 @@ impl Worker {
         Ok(())
     }
 
+    /// Makes a report; the caller keeps its job.
+    pub fn start_report(&mut self, subject: Subject) -> Result<Job<f64>, String> {
+        self.spawn("report", move |teller: &Teller<f64>, stop| {
+            let begun = Instant::now();
+            let surroundings = Surroundings {
+                clock: &|| begun.elapsed().as_secs_f64() * 1e3,
+                cancelled: &|| stop.load(Ordering::Relaxed),
+                progress: &|done| teller.tell(done),
+            };
+            let made = Box::new(subject.make(surroundings));
+            Event::Reported { made, is_part: stop.load(Ordering::Relaxed) }
+        })
+    }
+
     /// Stops a scan whose fit is not shown any more.
     pub fn abandon_scan(&mut self) {
         if let Some(job) = self.scan.take() {
@@ -497,6 +518,8 @@ impl Worker {
                     self.dialog.take_if(|dialog| *dialog == number).is_some()
                 }
                 Event::Profiled(_) | Event::Scattered { .. } => self.scan.take_if(|job| job.number == number).is_some(),
+                // One at a time, and never replaced: each one matters.
+                Event::Reported { .. } => true,
                 Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
                 Event::Loaded { .. } | Event::Imported(_) => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),

@@ -4,9 +4,9 @@ use super::arguments::{Report as Task, Subject};
 use super::failure::Failure;
 use super::output::Progress;
 use super::{interrupt, output};
-use crate::export::now;
+use crate::export::{machine, now};
 use pbrdf::report::figure::Figure;
-use pbrdf::report::{Cost, ErrorVsTime, Machine, Report, Row, Stability, Surroundings};
+use pbrdf::report::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -87,11 +87,4 @@ fn save(folder: &Path, name: &str, answer: &Answer) -> Result<(), Failure> {
         output::write(Some(&png), |out| out.write_all(&pixels))?;
     }
     Ok(())
-}
-
-/// This machine.
-pub fn machine() -> Machine {
-    // Absent outside Linux: then the architecture has to do.
-    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    Machine::new(&cpuinfo, std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
 }

@@ -50,6 +50,11 @@ pub fn decimal(value: f64, step_size: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer than decades.
+pub fn logarithmic(exponent: f64, step_size: f64) -> String {
+    if step_size >= 1.0 { power_of_ten(exponent, step_size) } else { format!("{:.2e}", libm::exp10(exponent)) }
+}
+
 /// A power of ten.
 pub fn power_of_ten(exponent: f64, _step_size: f64) -> String {
     format!("1e{}", exponent + 0.0)

@@ -2,6 +2,7 @@
 
 pub mod axis;
 mod color_scale;
+mod drawing;
 mod error_bars;
 mod marks;
 mod picking;
@@ -9,6 +10,7 @@ mod range;
 mod ribbon;
 
 pub use color_scale::{BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar, ink_on};
+pub use drawing::Drawing;
 pub use error_bars::ErrorBars;
 pub use marks::marks_in;
 pub use picking::{MASK_HINT, clicked_mask};

@@ -4,9 +4,12 @@ use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::leaving::{Outgoing, PLOTS, figure};
 use crate::app::panes::Pane;
+use crate::app::reports::Subject;
 use crate::app::window::Explorer;
+use crate::app::worker::Event;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use pbrdf::report::Surroundings;
 use pbrdf::report::figure::{Drawn, Scale};
 use std::ops::ControlFlow;
 
@@ -60,6 +63,11 @@ fn each_export_writes_its_file_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
     order(&mut harness, Command::StartFit);
+    for subject in Subject::ALL {
+        let stop = || true;
+        let made = Box::new(subject.make(Surroundings { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
+        explorer(&mut harness).receive(Event::Reported { made, is_part: true });
+    }
     let mut exports =
         vec![(Outgoing::Curves, "c.csv"), (Outgoing::Fitted, "f.csv"), (Outgoing::Report, "r.html"), (Outgoing::Report, "r.md")];
     for pane in PLOTS {

@@ -15,6 +15,7 @@ mod mueller;
 mod options;
 mod panes;
 mod planning;
+mod reports;
 mod scans;
 mod sessions;
 mod sliders;
@@ -61,7 +62,11 @@ fn wait(harness: &mut Harness<'static, Option<Explorer>>) {
     loop {
         harness.step();
         let explorer = explorer(harness);
-        if !explorer.worker.is_busy() && !explorer.background.is_busy() && explorer.commands.is_empty() {
+        if !explorer.worker.is_busy()
+            && !explorer.background.is_busy()
+            && explorer.commands.is_empty()
+            && explorer.reports.running.is_none()
+        {
             break;
         }
         assert!(begun.elapsed() < PATIENCE, "the job does not end");

@@ -3,7 +3,7 @@
 use crate::app::curves::{Pieces, pieces};
 use crate::app::memo::Memo;
 use crate::app::past_fits::PastFit;
-use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
+use crate::app::plots::axis::{self, axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -72,11 +72,6 @@ impl Way {
     }
 }
 
-/// ΔE at a mark of the logarithmic axis: a power of ten, or a number where marks are closer than decades.
-fn objective(exponent: f64, step_size: f64) -> String {
-    if step_size >= 1.0 { power_of_ten(exponent, step_size) } else { format!("{:.2e}", libm::exp10(exponent)) }
-}
-
 pub fn convergence_refresh(explorer: &mut Explorer) {
     let Explorer { last_fit, settings, views, .. } = explorer;
     views.convergence.way.refresh(Key(last_fit.clone(), settings.shown.convergence_by_time), |Key(fit, by_time)| {
@@ -111,7 +106,7 @@ pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let title = if settings.shown.convergence_by_time { "time / ms" } else { "residual evaluations" };
     let x = axis(AxisHints::new_x(), ui, title, decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "ΔE", objective);
+    let y = axis(AxisHints::new_y(), ui, "ΔE", logarithmic);
     let response = plot("convergence", ui, ui.available_height(), x, y)
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {

@@ -3,7 +3,9 @@
 mod audit;
 mod comparison;
 mod convergence;
+mod cost;
 mod dolp;
+mod error_vs_time;
 mod facets;
 mod hemisphere;
 mod landscape;
@@ -13,13 +15,17 @@ mod metals;
 mod mueller;
 mod planner;
 mod polar;
+mod report;
 mod residuals;
+mod stability;
 mod table;
 
 pub use audit::{audit_refresh, audit_ui};
 pub use comparison::comparison_ui;
 pub use convergence::{convergence_options_ui, convergence_refresh, convergence_ui};
+pub use cost::cost_ui;
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
+pub use error_vs_time::error_vs_time_ui;
 pub use facets::{facets_options_ui, facets_refresh, facets_ui};
 pub use hemisphere::{hemisphere_refresh, hemisphere_ui};
 pub use landscape::{landscape_options_ui, landscape_refresh, landscape_ui};
@@ -28,6 +34,7 @@ pub use metals::{metals_refresh, metals_ui, values};
 pub use mueller::{mueller_refresh, mueller_ui};
 pub use planner::{planner_refresh, planner_ui};
 pub use polar::{polar_options_ui, polar_refresh, polar_ui};
+pub use stability::stability_ui;
 pub use table::{table_refresh, table_ui};
 
 /// What the panes keep from frame to frame.

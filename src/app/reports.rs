@@ -1,0 +1,116 @@
+//! The reports of the program about itself, made in the background one at a time, since each measures times, and kept until they are made again.
+
+use super::panes::Pane;
+use super::plots::Drawing;
+use super::worker::Job;
+use crate::export::{machine, now};
+use pbrdf::report::figure::Figure;
+use pbrdf::report::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
+
+/// Which report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    ErrorVsTime,
+    Stability,
+    Cost,
+}
+
+impl Subject {
+    pub const ALL: [Self; 3] = [Self::ErrorVsTime, Self::Stability, Self::Cost];
+
+    /// Where it is shown.
+    pub fn pane(self) -> Pane {
+        match self {
+            Self::ErrorVsTime => Pane::ErrorVsTime,
+            Self::Stability => Pane::Stability,
+            Self::Cost => Pane::Cost,
+        }
+    }
+
+    /// The report shown in that pane.
+    pub fn of(pane: Pane) -> Option<Self> {
+        Self::ALL.into_iter().find(|subject| subject.pane() == pane)
+    }
+
+    /// Makes it; takes seconds to a minute.
+    pub fn make(self, surroundings: Surroundings<'_>) -> Made {
+        match self {
+            Self::ErrorVsTime => Made::ErrorVsTime(ErrorVsTime::run(machine(), now(), surroundings)),
+            Self::Stability => Made::Stability(Stability::run(machine(), now(), surroundings)),
+            Self::Cost => Made::Cost(Cost::run(machine(), now(), surroundings)),
+        }
+    }
+}
+
+/// A report of one kind or another.
+pub enum Made {
+    ErrorVsTime(Report<ErrorVsTime>),
+    Stability(Report<Stability>),
+    Cost(Report<Cost>),
+}
+
+/// A report as it is shown.
+pub struct Shown<R> {
+    pub report: Report<R>,
+    /// Whether it was stopped before its end.
+    pub is_part: bool,
+    /// The table, row by row.
+    pub cells: Vec<Vec<String>>,
+    /// Its figures.
+    pub drawings: Vec<Drawing>,
+    /// 0 is the table, then the figures.
+    pub page: usize,
+}
+
+impl<R: Row> Shown<R> {
+    fn new(report: Report<R>, is_part: bool, page: usize) -> Self {
+        let cells = report.rows.iter().map(|row| row.cells().iter().map(ToString::to_string).collect()).collect();
+        let drawings: Vec<Drawing> = report.figures.iter().map(|(_, figure)| Drawing::new(figure)).collect();
+        let page = page.min(drawings.len());
+        Self { report, is_part, cells, drawings, page }
+    }
+
+    /// The figure that is in front.
+    fn figure(&self) -> Option<&Figure> {
+        // Of the table it is the first.
+        self.report.figures.get(self.page.saturating_sub(1)).map(|(_, figure)| figure)
+    }
+}
+
+/// The reports that there are, and the one that is being made.
+#[derive(Default)]
+pub struct Reports {
+    pub running: Option<(Subject, Job<f64>)>,
+    pub error_vs_time: Option<Shown<ErrorVsTime>>,
+    pub stability: Option<Shown<Stability>>,
+    pub cost: Option<Shown<Cost>>,
+}
+
+impl Reports {
+    /// Takes a report in the place of the one before.
+    pub fn take(&mut self, made: Made, is_part: bool) {
+        fn again<R: Row>(slot: &mut Option<Shown<R>>, report: Report<R>, is_part: bool) {
+            let page = slot.as_ref().map_or(0, |before| before.page);
+            *slot = Some(Shown::new(report, is_part, page));
+        }
+        match made {
+            Made::ErrorVsTime(report) => again(&mut self.error_vs_time, report, is_part),
+            Made::Stability(report) => again(&mut self.stability, report, is_part),
+            Made::Cost(report) => again(&mut self.cost, report, is_part),
+        }
+    }
+
+    /// The figure in front of a report that was made.
+    pub fn figure(&self, subject: Subject) -> Option<&Figure> {
+        match subject {
+            Subject::ErrorVsTime => self.error_vs_time.as_ref()?.figure(),
+            Subject::Stability => self.stability.as_ref()?.figure(),
+            Subject::Cost => self.cost.as_ref()?.figure(),
+        }
+    }
+
+    /// How far the one that is being made is.
+    pub fn progress(&self) -> Option<(Subject, f64)> {
+        self.running.as_ref().map(|(subject, job)| (*subject, job.progress().unwrap_or(0.0)))
+    }
+}

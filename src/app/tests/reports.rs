@@ -1,0 +1,141 @@
+//! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::leaving::{Outgoing, figure};
+use crate::app::reports::{Made, Subject};
+use crate::app::window::Explorer;
+use crate::app::worker::Event;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::report::{Setting, Surroundings};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A report stopped after so many looks at whether to stop, which is early enough for a test.
+fn part(subject: Subject, looks: usize) -> Made {
+    let seen = AtomicUsize::new(0);
+    let time = AtomicUsize::new(0);
+    // A clock that is always a long repetition later.
+    #[expect(clippy::cast_precision_loss, reason = "a handful of looks at the clock")]
+    let clock = || 10.0 * time.fetch_add(1, Ordering::Relaxed) as f64;
+    let cancelled = || seen.fetch_add(1, Ordering::Relaxed) >= looks;
+    subject.make(Surroundings { clock: &clock, cancelled: &cancelled, progress: &|_| {} })
+}
+
+/// The window with that pane in front and a part of its report in it.
+fn with_report(subject: Subject, looks: usize) -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    explorer(&mut harness).panes.show(subject.pane());
+    let made = Box::new(part(subject, looks));
+    explorer(&mut harness).receive(Event::Reported { made, is_part: true });
+    harness.run();
+    harness
+}
+
+#[test]
+fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
+    let mut harness = with_report(Subject::Stability, 0);
+    let before = explorer(&mut harness).settings.clone();
+    let row = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows[2].clone();
+    let Setting::Evaluation { model, parameters, geometry } = row.setting else { panic!("evaluations come first") };
+    harness.get_by_label(&row.case).click();
+    wait(&mut harness);
+    let settings = &explorer(&mut harness).settings;
+    assert_eq!((settings.model, settings.parameters), (model, parameters));
+    assert_eq!((settings.theta_i, settings.dphi), (geometry.theta_i().0, geometry.dphi().0));
+    assert_ne!(*settings, before);
+    explorer(&mut harness).commands.push(Command::Undo);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).settings, before);
+}
+
+#[test]
+fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
+    // Two fits are made.
+    let mut harness = with_report(Subject::Stability, 2);
+    let rows = &explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows;
+    let index = rows.iter().position(|row| row.brdf_error.is_none()).expect("a fit");
+    let Setting::Fit { start, measurement, .. } = rows[index].setting.clone() else { panic!("a fit") };
+    explorer(&mut harness).commands.push(Command::UseCase(index));
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    assert_eq!(explorer.settings.parameters, start);
+    assert_eq!(explorer.document.measurement.rows, measurement.rows);
+    assert!(explorer.reports.stability.is_some(), "the gallery stays");
+}
+
+#[test]
+fn every_case_of_the_gallery_can_be_drawn() {
+    let mut harness = with_report(Subject::Stability, 0);
+    let count = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows.len();
+    for index in 0..count {
+        explorer(&mut harness).commands.push(Command::UseCase(index));
+        harness.run();
+        // Some stand outside the sliders' ranges and none outside the domain.
+        assert_eq!(explorer(&mut harness).derived.fault(), None);
+    }
+}
+
+#[test]
+fn a_report_is_measured_in_the_background_and_can_be_stopped() {
+    let mut harness = harness();
+    explorer(&mut harness).panes.show(Subject::Cost.pane());
+    harness.run();
+    harness.get_by_label("Nothing is measured yet.");
+    harness.get_by_label("Measure costs").click();
+    harness.step();
+    harness.step();
+    assert!(explorer(&mut harness).reports.progress().is_some());
+    // A second one would disturb the first.
+    explorer(&mut harness).commands.push(Command::MakeReport(Subject::Stability));
+    harness.step();
+    assert_eq!(explorer(&mut harness).reports.progress().map(|(subject, _)| subject), Some(Subject::Cost));
+    harness.get_by_label("Stop measuring").click();
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    let shown = explorer.reports.cost.as_ref().expect("what was measured so far");
+    assert!(shown.is_part && shown.report.rows.len() < 19 && explorer.reports.stability.is_none());
+    harness.get_by_label_contains("stopped before its end");
+}
+
+#[test]
+fn costs_are_a_table_with_bars() {
+    let mut harness = with_report(Subject::Cost, 3);
+    let rows = explorer(&mut harness).reports.cost.as_ref().expect("a report").report.rows.clone();
+    assert_eq!(rows.len(), 3);
+    for row in &rows {
+        harness.get_by_label(row.scene);
+    }
+    harness.get_by_label("left out");
+}
+
+#[test]
+fn errors_against_time_are_a_table_and_diagrams() {
+    let mut harness = with_report(Subject::ErrorVsTime, 5);
+    harness.get_by_label("batch kernel, prepared scene");
+    for page in ["Evaluation", "Along one fit", "Performance profile", "Ladder", "Along the ladder"] {
+        harness.get_by_label(page).click();
+        harness.run();
+    }
+    assert!(harness.query_by_label("worst error").is_none());
+    harness.get_by_label("Table").click();
+    harness.run();
+    harness.get_by_label("worst error");
+}
+
+#[test]
+fn the_figure_in_front_is_the_one_that_is_exported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = with_report(Subject::ErrorVsTime, 5);
+    let title = |harness: &mut Harness<'static, Option<Explorer>>| {
+        figure(explorer(harness), Subject::ErrorVsTime.pane()).map(|figure| figure.title)
+    };
+    let first = title(&mut harness).expect("a figure");
+    harness.get_by_label("Performance profile").click();
+    harness.run();
+    assert_ne!(title(&mut harness), Some(first));
+    let path = folder.path().join("profile.svg");
+    explorer(&mut harness).commands.push(Command::Export(Outgoing::Plot(Subject::ErrorVsTime.pane()), path.clone()));
+    wait(&mut harness);
+    assert!(path.exists());
+}

@@ -1,0 +1,94 @@
+//! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
+
+use crate::app::command::Command;
+use crate::app::reports::{Shown, Subject};
+use crate::app::window::Explorer;
+use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
+use egui_extras::{Column, TableBuilder};
+use pbrdf::report::Row;
+use tr::tr;
+
+/// The line with the button; `about` says what it does.
+pub fn run_ui(explorer: &mut Explorer, subject: Subject, button: &str, about: &str, ui: &mut Ui) {
+    let running = explorer.reports.progress();
+    ui.horizontal(|ui| {
+        match running {
+            Some((own, done)) if own == subject => {
+                if ui.button(tr!("Stop measuring")).on_hover_text(tr!("What is done so far is shown")).clicked() {
+                    explorer.commands.push(Command::CancelReport);
+                }
+                #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
+                let done = done as f32;
+                // Nothing that moves by itself: frames would take their time from what is being measured.
+                ui.add(ProgressBar::new(done).desired_width(160.0).show_percentage());
+            }
+            other => {
+                let response = ui.add_enabled(other.is_none(), egui::Button::new(button)).on_hover_text(about);
+                let response = response.on_disabled_hover_text(tr!("Another report is being made; both would be slower for it"));
+                if response.clicked() {
+                    explorer.commands.push(Command::MakeReport(subject));
+                }
+            }
+        }
+    });
+}
+
+/// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
+pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bool {
+    let report = &shown.report;
+    let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
+    let text = RichText::new(format!("{part}{}, {}", report.machine, report.date)).weak().small();
+    ui.add(egui::Label::new(text).truncate()).on_hover_text(report.notes.join("\n\n"));
+    ui.horizontal_wrapped(|ui| {
+        for (page, &name) in (0..=shown.drawings.len()).zip(names) {
+            ui.selectable_value(&mut shown.page, page, tr!(name));
+        }
+    });
+    shown.page == 0
+}
+
+/// A column: heading, what it says, width, and whether it holds numbers.
+pub struct Heading {
+    pub text: &'static str,
+    pub help: &'static str,
+    pub width: f32,
+    pub is_number: bool,
+}
+
+/// A table of so many rows; `cell` draws what stands in a row and a column.
+pub fn table_ui(name: &str, headings: &[Heading], rows: usize, mut cell: impl FnMut(usize, usize, &mut Ui), ui: &mut Ui) {
+    let height = ui.spacing().interact_size.y;
+    ScrollArea::horizontal().id_salt(name).auto_shrink([false; 2]).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let mut builder = TableBuilder::new(ui).id_salt(name).striped(true).auto_shrink([false; 2]);
+        for heading in headings {
+            builder = builder.column(Column::initial(heading.width).resizable(true).clip(true));
+        }
+        let layout = |heading: &Heading| {
+            if heading.is_number { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) }
+        };
+        let table = builder.header(height, |mut header| {
+            for heading in headings {
+                header.col(|ui| {
+                    let Heading { text, help, .. } = *heading;
+                    ui.with_layout(layout(heading), |ui| {
+                        // No text, no translation: an empty one is the head of the catalogue.
+                        if !text.is_empty() {
+                            ui.strong(tr!(text)).on_hover_text(tr!(help));
+                        }
+                    });
+                });
+            }
+        });
+        table.body(|body| {
+            body.rows(height, rows, |mut line| {
+                let row = line.index();
+                for (column, heading) in headings.iter().enumerate() {
+                    line.col(|ui| {
+                        ui.with_layout(layout(heading), |ui| cell(row, column, ui));
+                    });
+                }
+            });
+        });
+    });
+}

@@ -1,0 +1,92 @@
+//! The stability gallery: stiff and extreme cases with the digits that are held, beside those of the textbook form. A click on a case, in the
+//! table or in the figure, loads it.
+
+use super::report::{Heading, pages_ui, run_ui, table_ui};
+use crate::app::command::Command;
+use crate::app::reports::Subject;
+use crate::app::theme;
+use crate::app::window::Explorer;
+use egui::Ui;
+use egui_plot::{Corner, PlotResponse};
+use pbrdf::report::{Setting, Stability, digits};
+use tr::tr;
+
+const HEADINGS: [Heading; 7] = [
+    Heading { text: "", help: "Whether the case meets its bar", width: 18.0, is_number: false },
+    Heading { text: "case", help: "A click puts the sliders there", width: 330.0, is_number: false },
+    Heading { text: "digits", help: "Decimal digits of BRDF and DoLP against 60-digit values, 16 at most", width: 48.0, is_number: true },
+    Heading { text: "gradient", help: "Digits of the nine derivatives of both", width: 58.0, is_number: true },
+    Heading { text: "textbook", help: "Digits of the formulas as they are printed, in the same arithmetic", width: 60.0, is_number: true },
+    Heading {
+        text: "condition",
+        help: "Of an evaluation the largest |∂ln f/∂ln p|, of a fit that of its scaled Jacobian",
+        width: 70.0,
+        is_number: true,
+    },
+    Heading { text: "outcome", help: "How a fit ended", width: 360.0, is_number: false },
+];
+
+pub fn stability_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let about = tr!("Evaluates and fits all cases: some seconds");
+    run_ui(explorer, Subject::Stability, &tr!("Run the gallery"), &about, ui);
+    let Explorer { reports, commands, .. } = explorer;
+    let Some(shown) = &mut reports.stability else {
+        ui.label(tr!("The gallery was not run yet."));
+        return;
+    };
+    let rows = &shown.report.rows;
+    let passed = rows.iter().filter(|row| row.pass).count();
+    ui.label(tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, rows.len()));
+    if pages_ui(shown, &["Table", "Digits held"], ui) {
+        let rows = &shown.report.rows;
+        let cell = |row: usize, column: usize, ui: &mut Ui| cell_ui(&rows[row], &shown.cells[row], row, column, commands, ui);
+        table_ui("stability", &HEADINGS, rows.len(), cell, ui);
+        return;
+    }
+    let (report, page) = (&shown.report, shown.page);
+    let Some(panel) = shown.drawings.get_mut(page - 1).and_then(|drawing| drawing.panels.first_mut()) else { return };
+    let response = panel.ui("digits held", ui.available_height(), Corner::LeftBottom, ui);
+    commands.extend(clicked(&response, &report.rows).map(Command::UseCase));
+}
+
+fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, commands: &mut Vec<Command>, ui: &mut Ui) {
+    let number = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("{:.1}", digits(error)));
+    let values = row.brdf_error.zip(row.dolp_error).map(|(brdf, dolp)| brdf.max(dolp));
+    match column {
+        0 if row.pass => ui.label("✓"),
+        0 => ui.colored_label(theme::warning(ui.visuals().dark_mode), "✗"),
+        1 => {
+            let help = match row.setting {
+                Setting::Evaluation { .. } => tr!("Parameters, terms and angles of this case to the sliders"),
+                Setting::Fit { .. } => tr!("Opens the data of this fit, with the sliders where it begins"),
+            };
+            let response = ui.link(&row.case).on_hover_text(help);
+            if response.clicked() {
+                commands.push(Command::UseCase(index));
+            }
+            response
+        }
+        2 => ui.label(number(values)),
+        3 => ui.label(number(row.gradient_error)),
+        4 => {
+            let text = number(row.textbook_error);
+            let is_worse = row.textbook_error.zip(values).is_some_and(|(textbook, own)| digits(textbook) < digits(own) - LOST);
+            if is_worse { ui.colored_label(theme::warning(ui.visuals().dark_mode), text) } else { ui.label(text) }
+        }
+        5 => ui.label(&cells[column]),
+        // The digits of an evaluation stand in columns of their own.
+        _ => ui.label(if values.is_some() { "" } else { row.outcome.as_str() }),
+    };
+}
+
+/// Digits that the textbook form has lost before it is marked.
+const LOST: f64 = 2.0;
+
+/// The case whose column of points was clicked: they stand at whole numbers, in the order of the table.
+fn clicked(response: &PlotResponse<()>, rows: &[Stability]) -> Option<usize> {
+    let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked())?;
+    let x = response.transform.value_from_position(at).x.round();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list of some hundred, saturating")]
+    let index = x.max(0.0) as usize;
+    rows.get(index).filter(|row| row.brdf_error.is_some()).map(|_| index)
+}
