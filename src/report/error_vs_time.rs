@@ -171,6 +171,14 @@ fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
     Figure { title: title.to_owned(), panels: vec![panel], height_mm: 130.0, ..Figure::default() }
 }
 
+impl ErrorVsTime {
+    /// The method's name where there is little room.
+    #[must_use]
+    pub fn short_method(&self) -> String {
+        short(&self.method)
+    }
+}
+
 /// A method's name as a legend has room for it.
 fn short(method: &str) -> String {
     method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "").replace(LADDER, "")

@@ -50,12 +50,59 @@ pub fn decimal(value: f64, step_size: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// Marks of a decimal logarithm: at powers of ten or, where there are fewer of those than fit, at 1, 2 and 5 times each.
+pub fn decades(input: &GridInput, spread: f64) -> Vec<GridMark> {
+    let wanted = spread * input.base_step_size;
+    // The narrowest of the three gaps is that from 1 to 2.
+    let third = std::f64::consts::LOG10_2;
+    if !(wanted.is_finite() && wanted > 0.0 && wanted <= third) {
+        return marks(input, spread, 1.0);
+    }
+    if input.bounds.1 - input.bounds.0 < third {
+        // A closer look than these marks allow.
+        return marks(input, spread, 0.0);
+    }
+    let mut all = Vec::new();
+    let mut decade = input.bounds.0.floor();
+    while decade <= input.bounds.1 && all.len() < 200 {
+        let at = [1.0, 2.0, 5.0].map(|times| decade + libm::log10(times));
+        all.extend(
+            at.into_iter().filter(|at| (input.bounds.0..=input.bounds.1).contains(at)).map(|value| GridMark { value, step_size: third }),
+        );
+        decade += 1.0;
+    }
+    all
+}
+
 /// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer than decades.
 pub fn logarithmic(exponent: f64, step_size: f64) -> String {
-    if step_size >= 1.0 { power_of_ten(exponent, step_size) } else { format!("{:.2e}", libm::exp10(exponent)) }
+    if step_size >= 1.0 {
+        return power_of_ten(exponent, step_size);
+    }
+    let value = libm::exp10(exponent);
+    let text = if (1e-3..1e4).contains(&value) { format!("{value:.5}") } else { return format!("{value:.2e}").replace(".00", "") };
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// A power of ten.
 pub fn power_of_ten(exponent: f64, _step_size: f64) -> String {
     format!("1e{}", exponent + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{decades, logarithmic};
+    use egui_plot::GridInput;
+
+    fn labels(low: f64, high: f64, base_step_size: f64) -> Vec<String> {
+        let marks = decades(&GridInput { bounds: (low, high), base_step_size }, 5.0);
+        marks.iter().map(|mark| logarithmic(mark.value, mark.step_size)).collect()
+    }
+
+    #[test]
+    fn a_logarithmic_axis_has_round_numbers_at_its_marks() {
+        assert_eq!(labels(-1.1, 1.1, 0.02), ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
+        assert_eq!(labels(4.0, 5.0, 0.02), ["1e4", "2e4", "5e4", "1e5"]);
+        assert_eq!(labels(-16.0, 1.0, 1.0), ["1e-15", "1e-10", "1e-5", "1e0"]);
+    }
 }

@@ -1,11 +1,12 @@
 //! A figure of the core in the window: the same curves, points and names, made ready once and drawn each frame.
 
 use super::axis::{self, axis, decimal, logarithmic};
-use super::{Axes, Range, curve, legend, plot};
+use super::{Axes, Range, curve, plot};
 use crate::app::curves::{Pieces, pieces};
 use crate::app::theme;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{TextStyle, Ui};
-use egui_plot::{AxisHints, Corner, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine};
 use pbrdf::report::figure::{self, Dash, Drawn, Figure, Panel, Scale};
 use tr::tr;
 
@@ -145,22 +146,43 @@ impl DrawnPanel {
         Self { x, y, items, legend: panel.legend, axes: Axes::default() }
     }
 
+    /// The names of what is drawn, in a line above it, where they hide nothing.
+    pub fn legend_ui(&self, ui: &mut Ui) {
+        let dark = ui.visuals().dark_mode;
+        if !self.legend {
+            return;
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            for (i, Item { name, color, .. }) in self.items.iter().enumerate() {
+                if name.is_empty() || self.items[..i].iter().any(|before| before.name == *name) {
+                    continue;
+                }
+                let name = name.as_str();
+                let mut text = LayoutJob::default();
+                let font = TextStyle::Small.resolve(ui.style());
+                text.append("● ", 0.0, TextFormat::simple(font.clone(), theme::series(*color, dark)));
+                text.append(&tr!(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
+                ui.label(text);
+            }
+        });
+    }
+
     /// Draws it; the answer has the place of a click.
-    pub fn ui(&mut self, name: &str, height: f32, corner: Corner, ui: &mut Ui) -> PlotResponse<()> {
+    pub fn ui(&mut self, name: &str, height: f32, ui: &mut Ui) -> PlotResponse<()> {
         let dark = ui.visuals().dark_mode;
         let Self { x, y, items, axes, .. } = self;
         let x_axis = axis(AxisHints::new_x(), ui, &x.title(), x.format()).min_thickness(40.0);
         let y_axis = axis(AxisHints::new_y(), ui, &y.title(), y.format());
-        let mut figure = plot(name, ui, height, x_axis, y_axis).y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0));
-        figure = figure.label_formatter(|hover: &HoverPosition<'_>| match hover {
+        let spacer =
+            |log: bool, spread: f64| move |input| if log { axis::decades(&input, spread) } else { axis::marks(&input, spread, 0.0) };
+        let figure = plot(name, ui, height, x_axis, y_axis).x_grid_spacer(spacer(x.log, 5.0)).y_grid_spacer(spacer(y.log, 4.0));
+        let figure = figure.label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(format!("{plot_name}\n{}\n{}", x.value(position.x), y.value(position.y)))
             }
             HoverPosition::Elsewhere { .. } => None,
         });
-        if self.legend {
-            figure = figure.legend(legend().position(corner).text_style(TextStyle::Small));
-        }
         let response = figure.show(ui, |plot| {
             axes.apply(plot, Some(x.range), Some(y.range));
             items.iter().for_each(|item| item.draw(plot, dark));

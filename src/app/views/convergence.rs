@@ -108,7 +108,7 @@ pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let x = axis(AxisHints::new_x(), ui, title, decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "ΔE", logarithmic);
     let response = plot("convergence", ui, ui.available_height(), x, y)
-        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
+        .y_grid_spacer(|input| axis::decades(&input, 5.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { position, .. } => {
                 Some(format!("{title}: {}\nΔE = {:.6e}", decimal(position.x, 0.1), libm::exp10(position.y)))

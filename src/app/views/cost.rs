@@ -9,23 +9,23 @@ use pbrdf::report::Cost;
 use tr::tr;
 
 const HEADINGS: [Heading; 9] = [
-    Heading { text: "scene", help: "What is looked at", width: 300.0, is_number: false },
-    Heading { text: "ns per point", help: "Median of the repetitions", width: 72.0, is_number: true },
-    Heading { text: "", help: "The same as a bar, logarithmic", width: 130.0, is_number: false },
+    Heading { text: "scene", help: "What is looked at", width: 215.0, is_number: false },
+    Heading { text: "kernel", help: "One point after the other, or many at once", width: 44.0, is_number: false },
+    Heading { text: "ns per point", help: "Median of the repetitions", width: 78.0, is_number: true },
+    Heading { text: "", help: "The same as a bar, logarithmic", width: 100.0, is_number: false },
     Heading { text: "left out", help: "What the scene does not need", width: 330.0, is_number: false },
     Heading { text: "max ulp", help: "Largest difference to the full evaluation in units of the last place", width: 56.0, is_number: true },
     Heading { text: "max error", help: "The same, relative", width: 70.0, is_number: true },
-    Heading { text: "kernel", help: "One point after the other, or many at once", width: 50.0, is_number: false },
     Heading { text: "threads", help: "Threads", width: 52.0, is_number: true },
     Heading { text: "points", help: "Points of one evaluation", width: 62.0, is_number: true },
 ];
 
 /// Columns of the report that stand as they are, by place here.
-const PLAIN: [(usize, usize); 6] = [(1, 7), (3, 8), (4, 9), (5, 10), (7, 3), (8, 6)];
+const PLAIN: [(usize, usize); 6] = [(2, 7), (4, 8), (5, 9), (6, 10), (7, 3), (8, 6)];
 
 pub fn cost_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let about = tr!("Times scenes from the least to everything: some seconds");
-    run_ui(explorer, Subject::Cost, &tr!("Measure costs"), &about, ui);
+    run_ui(explorer, Subject::Cost, (&tr!("Measure costs"), &about), None, ui);
     let Some(shown) = &mut explorer.reports.cost else {
         ui.label(tr!("Nothing is measured yet."));
         return;
@@ -41,7 +41,7 @@ pub fn cost_ui(explorer: &mut Explorer, ui: &mut Ui) {
         match PLAIN.iter().find(|(here, _)| *here == column) {
             Some((_, there)) => _ = ui.label(&cells[*there]).on_hover_text(&cells[*there]),
             None if column == 0 => _ = ui.label(row.scene).on_hover_text(format!("{}, {}", row.distribution.key(), row.terms)),
-            None if column == 2 => bar_ui(row, ends, ui),
+            None if column == 3 => bar_ui(row, ends, ui),
             None => {
                 let kernel = row.kernel;
                 _ = ui.label(tr!(kernel));

@@ -5,23 +5,15 @@ use crate::app::reports::Subject;
 use crate::app::window::Explorer;
 use crate::app::words::short;
 use egui::Ui;
-use egui_plot::Corner;
 use pbrdf::report::TaskKind;
 use tr::tr;
 
-/// The table and the figures of the report, in its order, each with the corner that its curves leave free.
-const PAGES: [(&str, Corner); 6] = [
-    ("Table", Corner::LeftTop),
-    ("Evaluation", Corner::LeftTop),
-    ("Along one fit", Corner::LeftBottom),
-    ("Performance profile", Corner::RightBottom),
-    ("Ladder", Corner::LeftBottom),
-    ("Along the ladder", Corner::RightTop),
-];
+/// The table and the figures of the report, in its order.
+const PAGES: [&str; 6] = ["Table", "Evaluation", "Along one fit", "Performance profile", "Ladder", "Along the ladder"];
 
 const HEADINGS: [Heading; 7] = [
     Heading { text: "task", help: "Evaluations of the model, or fits", width: 58.0, is_number: false },
-    Heading { text: "method", help: "How it is done", width: 360.0, is_number: false },
+    Heading { text: "method", help: "How it is done", width: 230.0, is_number: false },
     Heading { text: "time", help: "Of a point or of a fit, median of the repetitions", width: 80.0, is_number: true },
     Heading { text: "± %", help: "Half the distance between the quartiles over the median", width: 48.0, is_number: true },
     Heading { text: "worst error", help: "Relative; 1 means not a single digit", width: 80.0, is_number: true },
@@ -31,19 +23,19 @@ const HEADINGS: [Heading; 7] = [
 
 pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let about = tr!("Times evaluations and fits on this machine, each several times: up to a minute");
-    run_ui(explorer, Subject::ErrorVsTime, &tr!("Measure error against run time"), &about, ui);
+    run_ui(explorer, Subject::ErrorVsTime, (&tr!("Measure error against run time"), &about), None, ui);
     let Some(shown) = &mut explorer.reports.error_vs_time else {
         ui.label(tr!("Nothing is measured yet."));
         return;
     };
-    if pages_ui(shown, &PAGES.map(|(name, _)| name), ui) {
+    if pages_ui(shown, &PAGES, ui) {
         let rows = &shown.report.rows;
         let cell = |row: usize, column: usize, ui: &mut Ui| {
             let (row, cells) = (&rows[row], &shown.cells[row]);
             let task = row.task.key();
             match column {
                 0 => ui.label(tr!(task)),
-                1 => ui.label(&row.method),
+                1 => ui.label(row.short_method()).on_hover_text(&row.method),
                 2 => ui.label(match row.task {
                     TaskKind::Evaluate => format!("{} ns", short(row.time)),
                     TaskKind::Fit => format!("{} ms", short(row.time)),
@@ -56,15 +48,15 @@ pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
         table_ui("error against time", &HEADINGS, rows.len(), cell, ui);
         return;
     }
-    let (_, corner) = PAGES[shown.page.min(PAGES.len() - 1)];
     let Some(drawing) = shown.drawings.get_mut(shown.page - 1) else { return };
     let title = drawing.title.as_str();
     ui.label(tr!(title));
+    drawing.panels.iter().for_each(|panel| panel.legend_ui(ui));
     let height = ui.available_height();
     let count = drawing.panels.len().max(1);
     ui.columns(count, |columns| {
         for (i, (panel, ui)) in drawing.panels.iter_mut().zip(columns).enumerate() {
-            panel.ui(&format!("error against time {} {i}", shown.page), height, corner, ui);
+            panel.ui(&format!("error against time {} {i}", shown.page), height, ui);
         }
     });
 }

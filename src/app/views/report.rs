@@ -8,8 +8,8 @@ use egui_extras::{Column, TableBuilder};
 use pbrdf::report::Row;
 use tr::tr;
 
-/// The line with the button; `about` says what it does.
-pub fn run_ui(explorer: &mut Explorer, subject: Subject, button: &str, about: &str, ui: &mut Ui) {
+/// The line with the button and what it does, and what has come out.
+pub fn run_ui(explorer: &mut Explorer, subject: Subject, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
     let running = explorer.reports.progress();
     ui.horizontal(|ui| {
         match running {
@@ -30,6 +30,7 @@ pub fn run_ui(explorer: &mut Explorer, subject: Subject, button: &str, about: &s
                 }
             }
         }
+        outcome.map(|outcome| ui.label(outcome));
     });
 }
 

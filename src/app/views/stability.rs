@@ -7,13 +7,13 @@ use crate::app::reports::Subject;
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
-use egui_plot::{Corner, PlotResponse};
+use egui_plot::PlotResponse;
 use pbrdf::report::{Setting, Stability, digits};
 use tr::tr;
 
 const HEADINGS: [Heading; 7] = [
     Heading { text: "", help: "Whether the case meets its bar", width: 18.0, is_number: false },
-    Heading { text: "case", help: "A click puts the sliders there", width: 330.0, is_number: false },
+    Heading { text: "case", help: "A click puts the sliders there", width: 250.0, is_number: false },
     Heading { text: "digits", help: "Decimal digits of BRDF and DoLP against 60-digit values, 16 at most", width: 48.0, is_number: true },
     Heading { text: "gradient", help: "Digits of the nine derivatives of both", width: 58.0, is_number: true },
     Heading { text: "textbook", help: "Digits of the formulas as they are printed, in the same arithmetic", width: 60.0, is_number: true },
@@ -28,15 +28,16 @@ const HEADINGS: [Heading; 7] = [
 
 pub fn stability_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let about = tr!("Evaluates and fits all cases: some seconds");
-    run_ui(explorer, Subject::Stability, &tr!("Run the gallery"), &about, ui);
+    let outcome = explorer.reports.stability.as_ref().map(|shown| {
+        let passed = shown.report.rows.iter().filter(|row| row.pass).count();
+        tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, shown.report.rows.len())
+    });
+    run_ui(explorer, Subject::Stability, (&tr!("Run the gallery"), &about), outcome.as_deref(), ui);
     let Explorer { reports, commands, .. } = explorer;
     let Some(shown) = &mut reports.stability else {
         ui.label(tr!("The gallery was not run yet."));
         return;
     };
-    let rows = &shown.report.rows;
-    let passed = rows.iter().filter(|row| row.pass).count();
-    ui.label(tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, rows.len()));
     if pages_ui(shown, &["Table", "Digits held"], ui) {
         let rows = &shown.report.rows;
         let cell = |row: usize, column: usize, ui: &mut Ui| cell_ui(&rows[row], &shown.cells[row], row, column, commands, ui);
@@ -45,7 +46,8 @@ pub fn stability_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
     let (report, page) = (&shown.report, shown.page);
     let Some(panel) = shown.drawings.get_mut(page - 1).and_then(|drawing| drawing.panels.first_mut()) else { return };
-    let response = panel.ui("digits held", ui.available_height(), Corner::LeftBottom, ui);
+    panel.legend_ui(ui);
+    let response = panel.ui("digits held", ui.available_height(), ui);
     commands.extend(clicked(&response, &report.rows).map(Command::UseCase));
 }
 
