@@ -87,8 +87,9 @@ pub struct Reports {
 }
 
 impl Reports {
-    /// Takes a report in the place of the one before.
+    /// Takes the report that was being made in the place of the one before.
     pub fn take(&mut self, made: Made, is_part: bool) {
+        self.running = None;
         fn again<R: Row>(slot: &mut Option<Shown<R>>, report: Report<R>, is_part: bool) {
             let page = slot.as_ref().map_or(0, |before| before.page);
             *slot = Some(Shown::new(report, is_part, page));

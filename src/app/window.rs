@@ -275,10 +275,7 @@ impl Explorer {
                 }
             }
             Event::Compared(rungs) => self.comparison = rungs,
-            Event::Reported { made, is_part } => {
-                self.reports.running = None;
-                self.reports.take(*made, is_part);
-            }
+            Event::Reported { made, is_part } => self.reports.take(*made, is_part),
             Event::Profiled(profile) => {
                 let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
                 self.scans.profile = self.last_fit.as_ref().map(curve);
