@@ -2,7 +2,7 @@
 
 use super::panes::Pane;
 use super::plots::Drawing;
-use super::worker::Job;
+use super::worker::{Job, Worker};
 use crate::export::{machine, now};
 use pbrdf::report::figure::Figure;
 use pbrdf::report::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
@@ -87,6 +87,14 @@ pub struct Reports {
 }
 
 impl Reports {
+    /// Begins one, unless another is being made: the two would disturb each other.
+    pub fn start(&mut self, subject: Subject, worker: &mut Worker) -> Result<(), String> {
+        if self.running.is_none() {
+            self.running = Some((subject, worker.start_report(subject)?));
+        }
+        Ok(())
+    }
+
     /// Takes the report that was being made in the place of the one before.
     pub fn take(&mut self, made: Made, is_part: bool) {
         self.running = None;

@@ -395,11 +395,7 @@ impl Explorer {
             Command::CancelScan => self.worker.scan.iter().for_each(super::worker::Job::cancel),
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
-            Command::MakeReport(subject) => {
-                if self.reports.running.is_none() {
-                    self.reports.running = Some((subject, self.worker.start_report(subject)?));
-                }
-            }
+            Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
             Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
             Command::UseCase(index) => self.use_case(index),
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),
