@@ -1,25 +1,11 @@
 //! Errors of parameters in words that more than one panel says.
 
+use pbrdf::fit::size_of;
 use pbrdf::model::Parameter;
 
-/// What an error of a parameter is measured by: its distance from where its effect vanishes, or, for c, which has no such place,
-/// the width of its range.
-fn size(parameter: Parameter, value: f64) -> f64 {
-    match parameter {
-        Parameter::Q => value - 1.0,
-        Parameter::C => 1.0,
-        _ => value.abs(),
-    }
-}
-
-/// Whether an error is so large that the value says next to nothing.
-pub fn is_loose(parameter: Parameter, value: f64, error: f64) -> bool {
-    error > 0.5 * size(parameter, value)
-}
-
-/// An error in percent of that size.
+/// An error in percent of the size of what it belongs to.
 pub fn percent(parameter: Parameter, value: f64, error: f64) -> String {
-    let percent = 100.0 * error / size(parameter, value);
+    let percent = 100.0 * error / size_of(parameter, value);
     if percent.is_finite() && percent < 1e4 { format!("{percent:.*} %", usize::from(percent < 10.0)) } else { "—".to_owned() }
 }
 
@@ -38,7 +24,8 @@ pub fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_loose, percent, short};
+    use super::{percent, short};
+    use pbrdf::fit::is_loose;
     use pbrdf::model::Parameter;
 
     #[test]

@@ -64,6 +64,29 @@ impl Estimate {
             (true, None, None) => Standing::Open,
         }
     }
+
+    /// Whether the data determine it, but to no better than half its size.
+    #[must_use]
+    pub fn is_loose(&self) -> bool {
+        matches!(self.standing(), Standing::Determined(error) if is_loose(self.parameter, self.value, error))
+    }
+}
+
+/// What an error of a parameter is measured by: its distance from where its effect vanishes, or, for c, which has no such place, the width of
+/// its range.
+#[must_use]
+pub fn size_of(parameter: Parameter, value: f64) -> f64 {
+    match parameter {
+        Parameter::Q => value - 1.0,
+        Parameter::C => 1.0,
+        _ => value.abs(),
+    }
+}
+
+/// Whether an error is above half of that size: then the value says next to nothing.
+#[must_use]
+pub fn is_loose(parameter: Parameter, value: f64, error: f64) -> bool {
+    error > 0.5 * size_of(parameter, value)
 }
 
 /// The end of one start, for the list of minima.

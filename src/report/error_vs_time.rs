@@ -181,7 +181,7 @@ impl ErrorVsTime {
 
 /// A method's name as a legend has room for it.
 fn short(method: &str) -> String {
-    method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "").replace(LADDER, "")
+    method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "")
 }
 
 /// What is along the vertical axis of a way, by its place in a step.

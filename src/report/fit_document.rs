@@ -6,7 +6,7 @@ use super::fit_figures::FitFigures;
 use super::fitted::dolp_divisor;
 use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
 use crate::measurement::{Measurement, Series};
-use crate::model::{Audit, Check, Diffuse, Finding, Model, Parameter, Pbrdf, Preset};
+use crate::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
 use crate::optics::SlopeDistribution;
 
 /// Where measured data come from.
@@ -73,12 +73,6 @@ fn with_error(value: f64, error: Option<f64>) -> (String, Option<String>) {
 /// Without zeros at the end of a decimal fraction.
 fn idle_zeros_off(text: &str) -> String {
     if text.contains('.') && !text.contains('e') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
-}
-
-/// Whether a parameter is known to no better than half of its size, q by its distance from 1.
-fn is_hardly_known(estimate: &Estimate) -> bool {
-    let origin = if estimate.parameter == Parameter::Q { 1.0 } else { 0.0 };
-    matches!(estimate.standing(), Standing::Determined(error) if error > 0.5 * (estimate.value - origin).abs())
 }
 
 fn number(value: Option<f64>) -> String {
@@ -218,8 +212,7 @@ impl FitDocument<'_> {
                     .to_owned(),
             ));
         }
-        let hardly: Vec<&str> =
-            self.report.estimates.iter().filter(|estimate| is_hardly_known(estimate)).map(|e| e.parameter.symbol()).collect();
+        let hardly: Vec<&str> = self.report.estimates.iter().filter(|estimate| estimate.is_loose()).map(|e| e.parameter.symbol()).collect();
         if !hardly.is_empty() {
             blocks.push(Block::Paragraph(format!(
                 "Hardly determined, with a standard error above half of the value: {}.",

@@ -163,7 +163,8 @@ impl DrawnPanel {
                 let font = TextStyle::Small.resolve(ui.style());
                 text.append("● ", 0.0, TextFormat::simple(font.clone(), theme::series(*color, dark)));
                 text.append(&tr!(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
-                ui.label(text);
+                // A name is not torn at the end of a line.
+                ui.add(egui::Label::new(text).extend());
             }
         });
     }

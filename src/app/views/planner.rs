@@ -7,9 +7,9 @@ use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
-use crate::app::words::{is_loose, percent, short};
+use crate::app::words::{percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::{Eq17, is_loose};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 

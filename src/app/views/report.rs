@@ -40,6 +40,9 @@ pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bo
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
     let text = RichText::new(format!("{part}{}, {}", report.machine, report.date)).weak().small();
     ui.add(egui::Label::new(text).truncate()).on_hover_text(report.notes.join("\n\n"));
+    if names.is_empty() {
+        return true;
+    }
     ui.horizontal_wrapped(|ui| {
         for (page, &name) in (0..=shown.drawings.len()).zip(names) {
             ui.selectable_value(&mut shown.page, page, tr!(name));

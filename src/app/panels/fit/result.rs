@@ -57,11 +57,8 @@ pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Ve
 
 /// What stays open, in words, the badly known included.
 fn open_ui(report: &FitReport, ui: &mut Ui) {
-    let is_loose = |estimate: &&Estimate| {
-        let error = estimate.std_error.filter(|_| estimate.free && estimate.at_bound.is_none());
-        error.is_some_and(|error| words::is_loose(estimate.parameter, estimate.value, error))
-    };
-    let loose: Vec<&str> = report.estimates.iter().filter(is_loose).map(|estimate| estimate.parameter.symbol()).collect();
+    let loose: Vec<&str> =
+        report.estimates.iter().filter(|estimate| estimate.is_loose()).map(|estimate| estimate.parameter.symbol()).collect();
     if report.undetermined.is_empty() && loose.is_empty() {
         return;
     }
