@@ -20,6 +20,8 @@ pub struct Import {
     pub origin: Origin,
     pub foreign: Foreign,
     pub choice: Choice,
+    /// Wavelengths to choose from, in nm.
+    pub wavelengths_nm: Vec<f64>,
     /// The beginning of what the choice leads to, or why it leads nowhere.
     pub preview: Memo<Choice, Result<Imported, String>>,
     /// Why the whole file could not be read so.
@@ -29,7 +31,8 @@ pub struct Import {
 impl Import {
     pub fn new(origin: Origin, foreign: Foreign) -> Self {
         let choice = foreign.first_choice();
-        Self { origin, foreign, choice, preview: Memo::default(), error: None }
+        let wavelengths_nm = foreign.wavelengths_nm();
+        Self { origin, foreign, choice, wavelengths_nm, preview: Memo::default(), error: None }
     }
 }
 

@@ -184,6 +184,11 @@ impl Foreign {
         }
     }
 
+    /// Whether a preview holds every row.
+    pub fn is_seen_whole(&self) -> bool {
+        if let Self::Table(table) = self { table.bytes.len() <= HEAD } else { true }
+    }
+
     /// The beginning of the same, quickly.
     pub fn preview(&self, choice: &Choice) -> Result<Imported, String> {
         match (self, choice) {

@@ -47,15 +47,15 @@ pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 fn choice_ui(import: &mut Import, ui: &mut Ui) {
-    let wavelengths_nm = import.foreign.wavelengths_nm();
-    match (&mut import.choice, &import.foreign) {
+    let Import { foreign, choice, wavelengths_nm, .. } = import;
+    match (choice, &*foreign) {
         (Choice::Ellipsometry(wavelength_nm), _) => {
             ui.label(tr!("Woollam ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."));
-            wavelength_ui(wavelength_nm, &wavelengths_nm, ui);
+            wavelength_ui(wavelength_nm, wavelengths_nm, ui);
         }
         (Choice::Tensor(slices), _) => {
             ui.label(tr!("A tensor of Mueller matrices: slices through it become BRDF and DoLP for unpolarised light."));
-            slices_ui(slices, &wavelengths_nm, ui);
+            slices_ui(slices, wavelengths_nm, ui);
         }
         (Choice::Table(mapping), crate::app::reading::Foreign::Table(table)) => columns_ui(mapping, table, ui),
         (Choice::Table(_), _) => {}
@@ -206,7 +206,7 @@ fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
             ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", reason)).color(warning)).wrap());
             return false;
         }
-        Some(Ok(imported)) => rows_ui(imported, ui),
+        Some(Ok(imported)) => rows_ui(imported, import.foreign.is_seen_whole(), ui),
     }
     if let Some(reason) = &import.error {
         ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", reason)).color(warning)).wrap());
@@ -214,11 +214,11 @@ fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
     true
 }
 
-fn rows_ui(imported: &Imported, ui: &mut Ui) {
+fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
     let rows = &imported.measurement.rows;
-    ui.weak(tr!("The first of {} rows as they will be:", rows.len()));
+    ui.weak(if is_all { tr!("The first of {} rows as they will be:", rows.len()) } else { tr!("The first rows as they will be:") });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
-        for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF"] {
+        for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF / (1/sr)"] {
             ui.strong(heading);
         }
         ui.end_row();

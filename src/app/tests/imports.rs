@@ -142,6 +142,7 @@ fn a_fault_beyond_the_first_rows_keeps_the_question_and_what_is_open() {
     (0..10_000).for_each(|_| table.push_str("30,20,0.125\n"));
     table.push_str("30,20,oops\n");
     let (mut harness, _folder) = opened("long.csv", table.as_bytes());
+    harness.get_by_label("The first rows as they will be:");
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), (OWN.to_owned(), 27, true));
     assert!(harness.query_by_label_contains("line 10002, column 3 (DoLP)").is_some());
