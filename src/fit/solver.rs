@@ -280,3 +280,33 @@ impl<'a> Log<'a> {
         Solution { x: best, sum_of_squares, stop_reason, evaluations, trace, path }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Descent, StopReason, TracePoint};
+    use crate::model::Parameters;
+
+    fn descent(objectives: [f64; 2]) -> Descent {
+        let at = |n: f64| Parameters { n, ..Parameters::default() };
+        let point = |(evaluations, objective)| TracePoint { elapsed_ms: 0.0, evaluations, objective };
+        Descent {
+            parameters: at(objectives[1]),
+            sum_of_squares: objectives[1],
+            stop_reason: StopReason::Converged,
+            evaluations: 10,
+            trace: (1..).zip(objectives).map(point).collect(),
+            path: objectives.map(at).to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_descent_that_goes_on_adds_its_improvements_with_their_places() {
+        let mut whole = descent([4.0, 2.0]);
+        // The first point of what follows is where the one before ended, or worse.
+        whole.go_on(descent([3.0, 1.0]));
+        let objectives: Vec<f64> = whole.trace.iter().map(|point| point.objective).collect();
+        let places: Vec<f64> = whole.path.iter().map(|parameters| parameters.n).collect();
+        assert_eq!((objectives, places), (vec![4.0, 2.0, 1.0], vec![4.0, 2.0, 1.0]));
+        assert_eq!((whole.trace[2].evaluations, whole.evaluations), (12, 20));
+    }
+}

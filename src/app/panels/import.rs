@@ -99,9 +99,8 @@ fn slices_ui(slices: &mut Slices, available_nm: &[f64], ui: &mut Ui) {
         }
         ui.end_row();
         span_ui(theta_i, "θi", 0.0, ui);
-        // A negative angle of view is the backscatter side of the plane of incidence.
+        // A negative angle of view is the backscatter side of the plane of incidence; the field holds to its range.
         let least = if *dphi == 180.0 { -89.9 } else { 0.0 };
-        theta_r.from = theta_r.from.max(least);
         span_ui(theta_r, "θr", least, ui);
         let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
         ui.add(DragValue::new(dphi).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°")).labelled_by(label.id);
