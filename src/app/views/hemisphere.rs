@@ -147,6 +147,12 @@ impl HemisphereView {
         Some(format!("{at}: {}", quantity.reading(value)))
     }
 
+    /// Whether the next frame changes the texture.
+    #[cfg(test)]
+    pub fn is_fresh(&self) -> bool {
+        self.fresh.is_some()
+    }
+
     /// The inputs of the newest map.
     #[cfg(test)]
     pub fn key(&self) -> Option<&MapKey> {
@@ -364,7 +370,27 @@ impl Disc {
 
 #[cfg(test)]
 mod tests {
-    use super::{Quantity, Range, index, place, wanted};
+    use super::{ColorScale, Made, Quantity, Range, SIZE, index, place, values, wanted};
+    use pbrdf::fit::Eq17;
+    use pbrdf::model::{Model, Parameters, Pbrdf};
+    use pbrdf::optics::SlopeDistribution;
+
+    #[test]
+    fn the_image_has_the_values_of_the_map_with_y_upwards() {
+        let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
+        let made = Made::new(&surface, 50.0, Eq17::Consistent, None).expect("a map");
+        // On either side of the plane of incidence the angle of polarisation has the other sign.
+        let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
+        let image = made.image(Quantity::Angle, scale);
+        let (row, column) = (3 * SIZE / 4, SIZE / 2);
+        let (theta_r, dphi) = made.map.direction(row, column).expect("inside the disc");
+        let at = place(theta_r, dphi);
+        assert!(at.y > 0.4, "above the middle: {at:?}");
+        let value = values(&made.map, Quantity::Angle)[row * SIZE + column];
+        assert!(value.abs() > 5.0);
+        assert_eq!(image.pixels[(SIZE - 1 - row) * SIZE + column], scale.table().color(value));
+        assert_ne!(image.pixels[row * SIZE + column], scale.table().color(value));
+    }
 
     #[test]
     fn light_comes_from_the_left_and_the_mirror_is_to_the_right() {
