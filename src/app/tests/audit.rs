@@ -36,6 +36,22 @@ fn every_finding_has_its_number_verdict_and_reason() {
 }
 
 #[test]
+fn findings_stand_below_each_other_in_narrow_and_wide_panes() {
+    let mut harness = shown();
+    for size in [egui::vec2(1280.0, 800.0), egui::vec2(1920.0, 1080.0)] {
+        harness.set_size(size);
+        wait(&mut harness);
+        let audit = explorer(&mut harness).views.audit.audit().expect("an audit").clone();
+        let sentences = audit.findings.iter().map(|finding| finding.why());
+        let rects: Vec<egui::Rect> = sentences.map(|why| harness.get_by_label(why).rect()).collect();
+        for pair in rects.windows(2) {
+            assert!(pair[0].bottom() < pair[1].top() && pair[0].left() == pair[1].left(), "{size}: {pair:?}");
+            assert!(pair[0].width() > 150.0, "{size}: {pair:?}");
+        }
+    }
+}
+
+#[test]
 fn a_surface_that_shines_is_warned_of_and_terms_that_are_absent_are_not_judged() {
     let mut harness = shown();
     explorer(&mut harness).settings.parameters.kd = 1.5;

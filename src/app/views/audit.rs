@@ -119,7 +119,8 @@ pub fn audit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if is_wide {
         let (width, height) = (ui.available_width(), ui.available_height());
         ui.horizontal_top(|ui| {
-            ui.allocate_ui(egui::vec2(0.56 * width, height), |ui| {
+            let size = egui::vec2(0.56 * width, height);
+            ui.allocate_ui_with_layout(size, egui::Layout::top_down(egui::Align::Min), |ui| {
                 ScrollArea::vertical().id_salt("findings").auto_shrink([false; 2]).show(ui, |ui| findings_ui(audit, ui));
             });
             ui.vertical(|ui| reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), height, ui));
