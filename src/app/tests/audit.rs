@@ -42,7 +42,7 @@ fn findings_stand_below_each_other_in_narrow_and_wide_panes() {
         harness.set_size(size);
         wait(&mut harness);
         let audit = explorer(&mut harness).views.audit.audit().expect("an audit").clone();
-        let sentences = audit.findings.iter().map(|finding| finding.why());
+        let sentences = audit.findings.iter().map(pbrdf::model::Finding::why);
         let rects: Vec<egui::Rect> = sentences.map(|why| harness.get_by_label(why).rect()).collect();
         for pair in rects.windows(2) {
             assert!(pair[0].bottom() < pair[1].top() && pair[0].left() == pair[1].left(), "{size}: {pair:?}");
