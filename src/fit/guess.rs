@@ -1,8 +1,8 @@
 //! First guesses: the floors of the objective over a grid of shapes, with k_d and k_v from linear algebra.
 //!
 //! For fixed shapes (n, k, σ, q, c, σ_v), `1/X = (1 + g)/L` with the Fresnel limit L and `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d
-//! and k_v. Since `X − Xm = −X Xm (1/X − 1/Xm)`, a non-negative least squares in which each row counts by (X Xm)² approximates the
-//! objective in DoLP itself: with X = Xm at first, and once more with the X that came of it.
+//! and k_v. Linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`: a least squares problem in the box of k_d and k_v, solved once
+//! about the measured DoLP and once more about what came of it.
 //!
 //! A point of the grid that is lower than its neighbours along each axis is a floor: somewhere below it lies a minimum.
 
@@ -15,14 +15,16 @@ const AXES: [(Parameter, &[f64]); 6] = [
     (Parameter::N, &[0.06, 0.2, 0.5, 0.9, 1.4, 2.2, 3.5, 6.0]),
     (Parameter::K, &[0.05, 0.4, 1.0, 2.0, 3.2, 4.5, 7.0, 11.0]),
     (Parameter::Sigma, &[0.03, 0.07, 0.13, 0.22, 0.35, 0.6, 1.1, 2.5]),
-    (Parameter::Q, &[1.15, 1.5, 2.2, 5.0]),
+    (Parameter::Q, &[1.002, 1.15, 1.5, 2.2, 5.0]),
     (Parameter::C, &[-1.0, -0.7, -0.35, 0.0]),
     (Parameter::SigmaV, &[0.02, 0.06, 0.1, 0.16, 0.25, 0.4, 0.65, 1.1, 2.2]),
 ];
-/// The finer axes on which the lobes of a minimum are looked at again.
-const FINER: [(Parameter, &[f64]); 2] = [
-    (Parameter::C, &[-1.0, -0.85, -0.7, -0.55, -0.4, -0.25, -0.1, 0.0]),
-    (Parameter::SigmaV, &[0.01, 0.02, 0.03, 0.045, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.32, 0.4, 0.5, 0.65, 0.85, 1.1, 1.5, 2.2, 3.0]),
+/// The axes on which a minimum's lobes are looked at again, n and k as they are: k_d and k_v at their bounds are made up for by σ and q.
+const LOBES: [(Parameter, &[f64]); 4] = [
+    (Parameter::Sigma, &[0.01, 0.03, 0.07, 0.13, 0.22, 0.35, 0.6, 1.1, 2.5]),
+    (Parameter::Q, &[1.002, 1.15, 1.5, 2.2, 5.0]),
+    (Parameter::C, &[-1.0, -0.8, -0.6, -0.4, -0.2, 0.0]),
+    (Parameter::SigmaV, &[0.015, 0.03, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.32, 0.4, 0.55, 0.8, 1.2, 2.2]),
 ];
 /// Rows that are looked at, at most.
 const ROWS: usize = 32;
@@ -40,9 +42,9 @@ pub(super) fn floors(problem: &Problem) -> Vec<Guess> {
     grid.floors()
 }
 
-/// The floors over c and σ_v with the other shapes as they are there, the lowest first.
+/// The floors over σ, q, c and σ_v with n and k as they are there, the lowest first.
 pub(super) fn lobes_anew(problem: &Problem, at: &Parameters) -> Vec<Guess> {
-    let Some(grid) = Grid::new(problem, at, &FINER) else { return Vec::new() };
+    let Some(grid) = Grid::new(problem, at, &LOBES) else { return Vec::new() };
     grid.floors()
 }
 
@@ -149,27 +151,25 @@ impl<'a> Grid<'a> {
 
     /// Fits k_d and k_v.
     fn weigh(&self, rows: &[Row], diffuse: &[f64], volume: &[f64], guess: &mut Guess) {
-        let (mut kd, mut kv) = (None, None);
+        // What is not fitted counts once, with the weight that it has.
+        let range = |parameter, fitted| if fitted { self.problem.bounds().of(parameter) } else { (1.0, 1.0) };
+        let (d_range, v_range) = (range(Parameter::Kd, self.fit_d), range(Parameter::Kv, self.fit_v));
+        let mut weights = None;
         for _ in 0..PASSES {
-            let mut normal = [0.0; 5];
+            let mut normal = Normal::default();
             for (row, (&d, &v)) in rows.iter().zip(diffuse.iter().zip(volume)) {
-                let x = match (kd, kv) {
-                    (Some(kd), Some(kv)) => row.dolp(kd * d + kv * v),
-                    _ => row.measured,
-                };
-                row.count(x, self.fit_d, d, self.fit_v, v, &mut normal);
+                row.count(weights, d, v, &mut normal);
             }
-            let [dd, dv, vv, dy, vy] = normal;
-            let (d, v) = non_negative_least_squares([dd, dv, vv], [dy, vy]);
-            let clamp = |parameter, fitted, value| if fitted { self.problem.bounds().clamp(parameter, value) } else { 1.0 };
-            (kd, kv) = (Some(clamp(Parameter::Kd, self.fit_d, d)), Some(clamp(Parameter::Kv, self.fit_v, v)));
+            let (kd, kv) = normal.minimum(d_range, v_range);
+            let difference = |(row, (d, v)): (&Row, (&f64, &f64))| row.dolp(kd * d + kv * v) - row.measured;
+            let misfit: f64 = rows.iter().zip(diffuse.iter().zip(volume)).map(difference).map(|x| x * x).sum();
+            if misfit < guess.misfit {
+                guess.misfit = misfit;
+                guess.parameters.kd = if self.fit_d { kd } else { self.base.kd };
+                guess.parameters.kv = if self.fit_v { kv } else { self.base.kv };
+            }
+            weights = Some((kd, kv));
         }
-        let (kd, kv) = (kd.unwrap_or(1.0), kv.unwrap_or(1.0));
-        let difference = |(row, (d, v)): (&Row, (&f64, &f64))| row.dolp(kd * d + kv * v) - row.measured;
-        let misfit: f64 = rows.iter().zip(diffuse.iter().zip(volume)).map(difference).map(|x| x * x).sum();
-        guess.misfit = if misfit.is_finite() { misfit } else { f64::INFINITY };
-        guess.parameters.kd = if self.fit_d { kd } else { self.base.kd };
-        guess.parameters.kv = if self.fit_v { kv } else { self.base.kv };
     }
 
     /// The points that are lower than their neighbours along each axis; of equal neighbours the first counts as lower.
@@ -220,43 +220,67 @@ impl Row {
         self.limit * self.specular / (self.specular + added)
     }
 
-    /// Adds the row to the normal equations [dd, dv, vv, dy, vy], DoLP being about x.
-    fn count(&self, x: f64, fit_d: bool, d: f64, fit_v: bool, v: f64, normal: &mut [f64; 5]) {
+    /// Adds the row to the normal equations, linearised where k_d and k_v are as given, or where DoLP is as measured.
+    fn count(&self, weights: Option<(f64, f64)>, d: f64, v: f64, normal: &mut Normal) {
         if self.scale == 0.0 {
             return;
         }
-        let weight = x * self.measured * self.scale;
-        let (d, v) = (weight * d, weight * v);
-        let fixed = if fit_d { 0.0 } else { d } + if fit_v { 0.0 } else { v };
-        let y = x - x * self.measured / self.limit - fixed;
-        let (d, v) = (if fit_d { d } else { 0.0 }, if fit_v { v } else { 0.0 });
-        for (sum, term) in normal.iter_mut().zip([d * d, d * v, v * v, d * y, v * y]) {
-            *sum += term;
-        }
+        // X − Xm = X₀ − Xm − (X₀²/L)(g − g₀), and at X₀ = Xm, (X₀²/L) g₀ = X₀ − X₀²/L.
+        let (x, added) = match weights {
+            Some((kd, kv)) => (self.dolp(kd * d + kv * v), kd * d + kv * v),
+            None => (self.measured, self.specular * (self.limit / self.measured.max(f64::MIN_POSITIVE) - 1.0)),
+        };
+        let slope = x * x * self.scale;
+        let (d, v, y) = (slope * d, slope * v, x - self.measured + slope * added);
+        normal.dd += d * d;
+        normal.dv += d * v;
+        normal.vv += v * v;
+        normal.dy += d * y;
+        normal.vy += v * y;
     }
+}
+
+/// The sums of the normal equations of k_d and k_v.
+#[derive(Debug, Clone, Copy, Default)]
+struct Normal {
+    dd: f64,
+    dv: f64,
+    vv: f64,
+    dy: f64,
+    vy: f64,
 }
 
 /// Above this, squares of a row's coefficients come near the end of f64.
 const FAINT: f64 = 1e100;
 
-/// Minimises `aa x² + 2ab xy + bb y² − 2 ax x − 2 by y` over x, y ≥ 0.
-fn non_negative_least_squares([aa, ab, bb]: [f64; 3], [ax, by]: [f64; 2]) -> (f64, f64) {
-    let alone = |square: f64, right: f64| if square > 0.0 { (right / square).max(0.0) } else { 0.0 };
-    let determinant = aa * bb - ab * ab;
-    if determinant > 1e-12 * aa * bb {
-        let (x, y) = ((ax * bb - by * ab) / determinant, (by * aa - ax * ab) / determinant);
-        if x >= 0.0 && y >= 0.0 {
-            return (x, y);
+impl Normal {
+    /// Minimises `dd x² + 2dv xy + vv y² − 2 dy x − 2 vy y` over the box of x and y.
+    fn minimum(&self, x_range: (f64, f64), y_range: (f64, f64)) -> (f64, f64) {
+        let Self { dd, dv, vv, dy, vy } = *self;
+        let within = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
+        let determinant = dd * vv - dv * dv;
+        if determinant > 1e-12 * dd * vv {
+            let (x, y) = ((dy * vv - vy * dv) / determinant, (vy * dd - dy * dv) / determinant);
+            if within(x, x_range) && within(y, y_range) {
+                return (x, y);
+            }
         }
+        // The minimum is on an edge; along an edge it is that of a parabola.
+        let along = |square: f64, right: f64, (low, high): (f64, f64)| if square > 0.0 { (right / square).clamp(low, high) } else { low };
+        let edges = [
+            (x_range.0, along(vv, vy - dv * x_range.0, y_range)),
+            (x_range.1, along(vv, vy - dv * x_range.1, y_range)),
+            (along(dd, dy - dv * y_range.0, x_range), y_range.0),
+            (along(dd, dy - dv * y_range.1, x_range), y_range.1),
+        ];
+        let value = |(x, y): (f64, f64)| x * (dd * x + 2.0 * dv * y - 2.0 * dy) + y * (vv * y - 2.0 * vy);
+        edges.into_iter().fold(edges[0], |best, edge| if value(edge) < value(best) { edge } else { best })
     }
-    let (x, y) = (alone(aa, ax), alone(bb, by));
-    // Each alone lowers the sum by right²/square.
-    if x * ax >= y * by { (x, 0.0) } else { (0.0, y) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{AXES, Grid, floors, lobes_anew, non_negative_least_squares};
+    use super::{AXES, Grid, Normal, floors, lobes_anew};
     use crate::fit::{Bounds, Choices, Problem, free_by_default};
     use crate::measurement::{Columns, Measurement, Simulation};
     use crate::model::{Model, Parameter, Parameters, Pbrdf};
@@ -286,11 +310,15 @@ mod tests {
     }
 
     #[test]
-    fn least_squares_stay_in_the_quadrant() {
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, 3.0]), (2.0, 3.0));
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [2.0, -3.0]), (2.0, 0.0));
-        assert_eq!(non_negative_least_squares([1.0, 0.0, 1.0], [-2.0, -3.0]), (0.0, 0.0));
-        assert_eq!(non_negative_least_squares([1.0, 1.0, 1.0], [1.0, 2.0]), (0.0, 2.0));
+    fn least_squares_stay_in_the_box() {
+        let solve = |[dd, dv, vv]: [f64; 3], [dy, vy]: [f64; 2]| Normal { dd, dv, vv, dy, vy }.minimum((0.0, 10.0), (0.0, 10.0));
+        assert_eq!(solve([1.0, 0.0, 1.0], [2.0, 3.0]), (2.0, 3.0));
+        assert_eq!(solve([1.0, 0.0, 1.0], [2.0, -3.0]), (2.0, 0.0));
+        assert_eq!(solve([1.0, 0.0, 1.0], [-2.0, -3.0]), (0.0, 0.0));
+        assert_eq!(solve([1.0, 1.0, 1.0], [1.0, 2.0]), (0.0, 2.0));
+        // Without edges (14, −4) and (10, 4): the second lies on one edge, the first is moved along it to the corner.
+        assert_eq!(solve([1.0, 0.5, 0.5], [12.0, 5.0]), (10.0, 0.0));
+        assert_eq!(solve([1.0, 0.5, 0.5], [12.0, 7.0]), (10.0, 4.0));
     }
 
     #[test]

@@ -498,9 +498,9 @@ impl Problem {
         }
     }
 
-    /// Prepared geometries with their measured DoLP, evenly picked where there are more than `most`.
+    /// Prepared geometries with their measured DoLP, evenly picked where there are more than `most`, zeros too.
     pub(super) fn dolp_rows(&self, most: usize) -> Vec<(Facet, f64)> {
-        let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp && datum.measured > 0.0);
+        let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp);
         let step = dolp().count().div_ceil(most).max(1);
         dolp().step_by(step).map(|datum| (self.scene.facets()[datum.point], datum.measured)).collect()
     }

@@ -70,8 +70,8 @@ const FINISHED: usize = 4;
 const FINISHES: usize = 12;
 const FINISH_TOLERANCE: f64 = 1e-8;
 /// Minima whose lobes are looked at again, how many floors of each are followed, and how often that is done at most.
-const LOOKED_AT: usize = 6;
-const FLOORS: usize = 6;
+const LOOKED_AT: usize = 14;
+const FLOORS: usize = 14;
 const LOOKS: usize = 4;
 /// Objectives nearer than this fraction, or than [`SAME_ABSOLUTE`], belong to one minimum.
 const SAME: f64 = 1e-6;
