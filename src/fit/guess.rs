@@ -36,7 +36,7 @@ pub(super) struct Guess {
     pub parameters: Parameters,
 }
 
-/// The floors of the whole grid, the lowest first; none where the data have no DoLP, or k_d and k_v are both fixed.
+/// The floors of the whole grid, the lowest first; none where the data have no DoLP but 0, or k_d and k_v are both fixed.
 pub(super) fn floors(problem: &Problem) -> Vec<Guess> {
     let Some(grid) = Grid::new(problem, problem.start(), &AXES) else { return Vec::new() };
     grid.floors()
@@ -71,12 +71,17 @@ impl<'a> Grid<'a> {
         if !problem.knows_only_ratios() || !model.specular || !(fit_d || fit_v) {
             return None;
         }
+        let rows = problem.dolp_rows(ROWS);
+        // Where all is dark, so are the floors.
+        if rows.iter().all(|(_, measured)| *measured <= 0.0) {
+            return None;
+        }
         let axes = AXES.map(|(parameter, _)| {
             let values = finer.iter().find(|axis| axis.0 == parameter).map_or(&[][..], |axis| axis.1);
             let inside: Vec<f64> = values.iter().copied().filter(|&value| problem.bounds().contain(parameter, value)).collect();
             if free.contains(parameter) && !inside.is_empty() { inside } else { vec![base[parameter]] }
         });
-        Some(Self { problem, rows: problem.dolp_rows(ROWS), axes, base: *base, fit_d, fit_v })
+        Some(Self { problem, rows, axes, base: *base, fit_d, fit_v })
     }
 
     /// The guess at each point of the grid, σ_v running fastest; those that make no surface have an infinite misfit.
@@ -225,10 +230,11 @@ impl Row {
         if self.scale == 0.0 {
             return;
         }
-        // X − Xm = X₀ − Xm − (X₀²/L)(g − g₀), and at X₀ = Xm, (X₀²/L) g₀ = X₀ − X₀²/L.
+        // X − Xm = X₀ − Xm − (X₀²/L)(g − g₀), and at X₀ = Xm, (X₀²/L) g₀ = X₀ − X₀²/L; a dark row has no g₀ and no weight there.
         let (x, added) = match weights {
             Some((kd, kv)) => (self.dolp(kd * d + kv * v), kd * d + kv * v),
-            None => (self.measured, self.specular * (self.limit / self.measured.max(f64::MIN_POSITIVE) - 1.0)),
+            None if self.measured > 0.0 => (self.measured, self.specular * (self.limit / self.measured - 1.0)),
+            None => return,
         };
         let slope = x * x * self.scale;
         let (d, v, y) = (slope * d, slope * v, x - self.measured + slope * added);

@@ -95,7 +95,7 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
     let mut candidates = Candidates::new(problem, seed);
     if most > ALL_THE_WAY {
         search.follow_the_best(problem, &candidates.take(most), watch);
-        search.finish(problem, watch);
+        search.finish(problem, FINISHES, watch);
         return search;
     }
     let mut queue = Vec::new();
@@ -128,10 +128,10 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
             break;
         }
     }
-    search.finish(problem, watch);
     if starts == Starts::Automatic {
         search.look_at_lobes_again(problem, watch);
     }
+    search.finish(problem, FINISHES, watch);
     search
 }
 
@@ -167,8 +167,8 @@ impl Search {
     }
 
     /// Goes on from the best minima as long as that brings anything: the solver's memory of a long valley can be worse than none.
-    fn finish(&mut self, problem: &Problem, watch: Watch<'_>) {
-        for _ in 0..FINISHES {
+    fn finish(&mut self, problem: &Problem, times: usize, watch: Watch<'_>) {
+        for _ in 0..times {
             if self.is_exact() || (watch.cancelled)() {
                 return;
             }
@@ -208,7 +208,7 @@ impl Search {
             for descent in run_all(problem, &starts, Effort::Reach, watch) {
                 self.add(descent);
             }
-            self.finish(problem, watch);
+            self.finish(problem, 1, watch);
         }
     }
 

@@ -8,7 +8,7 @@
 use super::lobes::{Lobe, is_plain};
 use super::pbrdf::{Lobes, Pbrdf};
 use super::{Diffuse, Parameters};
-use crate::optics::{Double, Facet, SharpFacet, SlopeDistribution};
+use crate::optics::{Double, SharpFacet, SlopeDistribution};
 use std::f64::consts::LN_2;
 
 /// Exponents up to here hold what the bar of 1e-13 asks for: 64 · 5 roundings.
@@ -42,7 +42,7 @@ impl Lobes {
 impl Pbrdf {
     /// Gives the exponents their digits back where they show.
     #[cold]
-    pub(super) fn sharpen(&self, facet: &Facet, lobes: &mut Lobes) {
+    pub(super) fn sharpen(&self, sharp: impl FnOnce() -> SharpFacet, lobes: &mut Lobes) {
         let p = self.parameters();
         let model = self.model();
         let all = [darkness(lobes.specular, p.ks), darkness(lobes.diffuse, self.diffuse_weight()), darkness(lobes.volume, p.kv)];
@@ -57,7 +57,7 @@ impl Pbrdf {
         if !is_extreme && !all.into_iter().zip(exponents).any(|(darkness, exponent)| shows(darkness, exponent)) {
             return;
         }
-        let sharp = SharpFacet::new(facet.geometry);
+        let sharp = sharp();
         if model.specular
             && lobes.specular.exponent < DARKNESS
             && let Some(exponent) = specular_exponent(model.distribution, &sharp, lobes.w, p)

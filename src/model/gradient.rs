@@ -9,6 +9,7 @@
 //! formed so that none of them is 0/0 at k_s, k_d, k_v, k = 0 or N = 1, nor where a lobe underflows. At k, k_d, k_v = 0 the
 //! derivatives are one-sided; one beyond f64 is infinite.
 
+use super::at_hand::AtHand;
 use super::lobes::Lobe;
 use super::pbrdf::{Lobes, Pbrdf, Reflection};
 use super::single_reflection::Loss;
@@ -72,18 +73,14 @@ impl Pbrdf {
     /// BRDF, DoLP and terms with their derivatives at a prepared geometry: those that are wanted.
     #[must_use]
     pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
-        self.reflection_and_gradient_with(facet, wanted, || Fresnel::new(self.index(), facet))
+        self.reflection_and_gradient_with(facet, wanted)
     }
 
-    /// The same with a Fresnel reflection that may be at hand already.
-    pub(super) fn reflection_and_gradient_with(
-        &self,
-        facet: &Facet,
-        wanted: Wanted,
-        fresnel: impl FnOnce() -> Fresnel,
-    ) -> (Reflection, Gradient) {
+    /// The same of a geometry of which more may be at hand.
+    pub(super) fn reflection_and_gradient_with(&self, at: &impl AtHand, wanted: Wanted) -> (Reflection, Gradient) {
         let p = self.parameters();
-        let lobes = self.lobes(facet);
+        let facet = at.facet();
+        let lobes = self.lobes(at);
         let mut reflection = Reflection::default();
         let mut gradient = Gradient::default();
         if wanted.brdf {
@@ -91,7 +88,7 @@ impl Pbrdf {
             reflection.volume = lobes.volume.weighted(p.kv);
         }
         if self.model().specular {
-            let fresnel = fresnel();
+            let fresnel = at.fresnel(self.index());
             let mean = fresnel.mean();
             let by_index = if wanted.by.contains(Parameter::N) || wanted.by.contains(Parameter::K) {
                 fresnel.gradient()

@@ -5,6 +5,7 @@
 //! the [`Model`]; how strong they are is in the [`Parameters`].
 
 mod assignment;
+mod at_hand;
 mod audit;
 mod batch;
 mod far_tail;

@@ -4,6 +4,7 @@
 //! (14) has it, `DoLP = √(F10² + F20²)/F00 = DoLP_s / (1 + (k_d F^d + k_v F^v)/(k_s F^s00))`: no rotation, no difference,
 //! and right even where the specular term underflows.
 
+use super::at_hand::AtHand;
 use super::lobes::{self, Lobe};
 use super::single_reflection::Loss;
 use super::{Parameter, ParameterError, ParameterSet, Parameters};
@@ -168,20 +169,20 @@ impl Pbrdf {
     /// BRDF, DoLP and the terms at a prepared geometry.
     #[must_use]
     pub fn reflection(&self, facet: &Facet) -> Reflection {
-        self.reflection_with(facet, || Fresnel::new(self.index, facet))
+        self.reflection_with(facet)
     }
 
-    /// The same with a Fresnel reflection that may be at hand already.
-    pub(super) fn reflection_with(&self, facet: &Facet, fresnel: impl FnOnce() -> Fresnel) -> Reflection {
+    /// The same of a geometry of which more may be at hand.
+    pub(super) fn reflection_with(&self, at: &impl AtHand) -> Reflection {
         let p = &self.parameters;
-        let lobes = self.lobes(facet);
+        let lobes = self.lobes(at);
         let mut reflection = Reflection {
             diffuse: lobes.diffuse.weighted(self.diffuse_weight()),
             volume: lobes.volume.weighted(p.kv),
             ..Reflection::default()
         };
         if self.model.specular {
-            let fresnel = fresnel();
+            let fresnel = at.fresnel(self.index);
             let mean = fresnel.mean();
             reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
             reflection.dolp = fresnel.dolp() * self.specular_share(mean, self.depolarised_over_specular(&lobes));
@@ -193,19 +194,19 @@ impl Pbrdf {
     /// DoLP at a prepared geometry, and nothing else.
     #[must_use]
     pub fn dolp(&self, facet: &Facet) -> f64 {
-        self.dolp_with(facet, || Fresnel::new(self.index, facet))
+        self.dolp_with(facet)
     }
 
-    /// The same with a Fresnel reflection that may be at hand already.
-    pub(super) fn dolp_with(&self, facet: &Facet, fresnel: impl FnOnce() -> Fresnel) -> f64 {
+    /// The same of a geometry of which more may be at hand.
+    pub(super) fn dolp_with(&self, at: &impl AtHand) -> f64 {
         if !self.model.specular {
             return 0.0;
         }
-        let fresnel = fresnel();
+        let fresnel = at.fresnel(self.index);
         if self.model.diffuse == Diffuse::Absent && !self.model.volume {
             return if self.reflects_specularly() { fresnel.dolp() } else { 0.0 };
         }
-        let lobes = self.lobes(facet);
+        let lobes = self.lobes(at);
         fresnel.dolp() * self.specular_share(fresnel.mean(), self.depolarised_over_specular(&lobes))
     }
 
@@ -247,8 +248,9 @@ impl Pbrdf {
     }
 
     /// The lobes of unit weight; those of absent terms are dark.
-    pub(super) fn lobes(&self, facet: &Facet) -> Lobes {
+    pub(super) fn lobes(&self, at: &impl AtHand) -> Lobes {
         let Self { model, parameters: p, .. } = self;
+        let facet = at.facet();
         let g_over_cosines = if model.masking { facet.g_over_cosines } else { facet.one_over_cosines };
         let w = if model.specular { crate::optics::reduced_slope_sq(facet.tan_alpha_sq, p.sigma) } else { 0.0 };
         let mut lobes = Lobes {
@@ -264,7 +266,7 @@ impl Pbrdf {
             volume: if model.volume { lobes::volume(facet, p.sigma_v) } else { Lobe::DARK },
         };
         if lobes.are_far(p) {
-            self.sharpen(facet, &mut lobes);
+            self.sharpen(|| at.sharp(), &mut lobes);
         }
         lobes
     }

@@ -1,22 +1,27 @@
 //! A list of geometries prepared once for many evaluations, and, where the index stays the same, their Fresnel reflection as well.
 
+use super::at_hand::AtHand;
 use super::{Gradient, Pbrdf, Reflection, Wanted};
-use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex};
-use std::sync::Arc;
+use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex, SharpFacet};
+use std::sync::{Arc, OnceLock};
 
 /// Geometries, prepared.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Scene {
     facets: Vec<Facet>,
     /// Of each facet, for surfaces of that index.
     fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
+    /// Of each facet, from when it was first asked for; the copies of a scene have it in common.
+    sharp: Arc<[OnceLock<SharpFacet>]>,
 }
 
 impl Scene {
     /// Prepares geometries, keeping their order.
     #[must_use]
     pub fn new(geometries: impl IntoIterator<Item = Geometry>) -> Self {
-        Self { facets: geometries.into_iter().map(Facet::new).collect(), fresnel: None }
+        let facets: Vec<Facet> = geometries.into_iter().map(Facet::new).collect();
+        let sharp = facets.iter().map(|_| OnceLock::new()).collect();
+        Self { facets, fresnel: None, sharp }
     }
 
     /// With the Fresnel reflection of all facets prepared for surfaces of one index; others are evaluated as before.
@@ -56,19 +61,19 @@ impl Scene {
     /// DoLP of the geometry of that number, as [`Pbrdf::dolp`] has it.
     #[must_use]
     pub fn dolp(&self, surface: &Pbrdf, point: usize) -> f64 {
-        surface.dolp_with(&self.facets[point], || self.fresnel(surface, point))
+        surface.dolp_with(&self.at(point))
     }
 
     /// BRDF, DoLP and terms of the geometry of that number, as [`Pbrdf::reflection`] has them.
     #[must_use]
     pub fn reflection(&self, surface: &Pbrdf, point: usize) -> Reflection {
-        surface.reflection_with(&self.facets[point], || self.fresnel(surface, point))
+        surface.reflection_with(&self.at(point))
     }
 
     /// The same with derivatives, as [`Pbrdf::reflection_and_gradient`] has them.
     #[must_use]
     pub fn reflection_and_gradient(&self, surface: &Pbrdf, point: usize, wanted: Wanted) -> (Reflection, Gradient) {
-        surface.reflection_and_gradient_with(&self.facets[point], wanted, || self.fresnel(surface, point))
+        surface.reflection_and_gradient_with(&self.at(point), wanted)
     }
 
     /// BRDF, DoLP and terms of each.
@@ -85,11 +90,31 @@ impl Scene {
         (0..self.len()).map(move |point| self.reflection_and_gradient(surface, point, wanted))
     }
 
-    fn fresnel(&self, surface: &Pbrdf, point: usize) -> Fresnel {
-        match &self.fresnel {
-            Some((index, fresnel)) if *index == surface.index() => fresnel[point],
-            _ => Fresnel::new(surface.index(), &self.facets[point]),
+    fn at(&self, point: usize) -> Place<'_> {
+        Place { scene: self, point }
+    }
+}
+
+/// One geometry of a scene.
+struct Place<'a> {
+    scene: &'a Scene,
+    point: usize,
+}
+
+impl AtHand for Place<'_> {
+    fn facet(&self) -> &Facet {
+        &self.scene.facets[self.point]
+    }
+
+    fn fresnel(&self, wanted: RefractiveIndex) -> Fresnel {
+        match &self.scene.fresnel {
+            Some((index, fresnel)) if *index == wanted => fresnel[self.point],
+            _ => Fresnel::new(wanted, self.facet()),
         }
+    }
+
+    fn sharp(&self) -> SharpFacet {
+        *self.scene.sharp[self.point].get_or_init(|| SharpFacet::new(self.facet().geometry))
     }
 }
 
@@ -116,5 +141,19 @@ mod tests {
                 assert_eq!(scene.reflection_and_gradient(&surface, point, Wanted::ALL), expected);
             }
         }
+    }
+
+    #[test]
+    fn far_tails_are_the_same_in_a_scene() {
+        let surface =
+            Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters { sigma: 0.02, kd: 1e-200, kv: 0.0, ..Parameters::default() })
+                .expect("in range");
+        let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
+        let (scene, facet) = (Scene::new([geometry]), Facet::new(geometry));
+        let copy = scene.clone();
+        assert!(surface.dolp(&facet) > 0.0);
+        assert_eq!(scene.dolp(&surface, 0), surface.dolp(&facet));
+        assert_eq!(copy.reflection(&surface, 0), surface.reflection(&facet));
+        assert!(copy.sharp[0].get().is_some(), "both copies have it from the first that asked");
     }
 }
