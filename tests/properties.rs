@@ -214,6 +214,28 @@ proptest! {
     }
 }
 
+/// tan²α/2σ² overflows below σ = 1e-154; with q near 1 the tail is still bright there.
+#[test]
+fn derivatives_by_q_hold_where_the_reduced_slope_overflows() {
+    // Central differences of steps of 1e-3 (q − 1): curvature 1e-6, rounding far below.
+    const BAR: f64 = 1e-5;
+    let facet = Facet::new(Geometry::new(40.0, 55.0, 150.0).expect("angles in range"));
+    for sigma in [1e-150, 1e-160, 1e-200, 1e-300] {
+        let parameters = Parameters { sigma, q: 1.001, ..Parameters::default() };
+        let at = |q: f64| {
+            let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters { q, ..parameters }).expect("in the domain");
+            let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+            ([reflection.brdf, reflection.dolp], [gradient.brdf, gradient.dolp].map(|by| by[Parameter::Q as usize]))
+        };
+        let step = 1e-3 * (parameters.q - 1.0);
+        let ((low, _), (_, analytic), (high, _)) = (at(parameters.q - step), at(parameters.q), at(parameters.q + step));
+        for i in 0..2 {
+            let numeric = (high[i] - low[i]) / (2.0 * step);
+            assert!((analytic[i] - numeric).abs() <= BAR * numeric.abs(), "σ = {sigma:e}: {} {numeric}", analytic[i]);
+        }
+    }
+}
+
 /// Evaluations of the long run.
 const HUNDRED_MILLION: u64 = 100_000_000;
 

@@ -158,7 +158,7 @@ impl Pbrdf {
         }
         if by.contains(Parameter::Q) {
             let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
-            out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.w, p.q));
+            out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q));
         }
     }
 
@@ -207,7 +207,7 @@ impl Pbrdf {
         let both = limit * (share * rest);
         out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         if by.contains(Parameter::Q) {
-            out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.w, p.q) / distribution.height(p.q));
+            out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q) / distribution.height(p.q));
         }
 
         // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.

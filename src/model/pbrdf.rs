@@ -134,11 +134,20 @@ fn weight_scale(weights: [f64; 3]) -> f64 {
 /// The lobes of unit weight under one geometry.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lobes {
-    /// tan²α/2σ².
+    /// tan²α/2σ², at most the largest f64.
     pub w: f64,
+    /// tan²α.
+    pub tan_alpha_sq: f64,
     pub specular: Lobe,
     pub diffuse: Lobe,
     pub volume: Lobe,
+}
+
+impl Lobes {
+    /// ln(1 + w), also where a σ below 1e-154 makes w overflow.
+    pub(super) fn ln_1p_w(&self, sigma: f64) -> f64 {
+        if self.w < f64::MAX { libm::log1p(self.w) } else { libm::log(self.tan_alpha_sq) - 2.0 * libm::log(sigma) - std::f64::consts::LN_2 }
+    }
 }
 
 impl Pbrdf {
@@ -255,6 +264,7 @@ impl Pbrdf {
         let w = if model.specular { crate::optics::reduced_slope_sq(facet.tan_alpha_sq, p.sigma) } else { 0.0 };
         let mut lobes = Lobes {
             w,
+            tan_alpha_sq: facet.tan_alpha_sq,
             specular: if model.specular { lobes::specular(model.distribution, w, facet, g_over_cosines, p.sigma, p.q) } else { Lobe::DARK },
             diffuse: match model.diffuse {
                 Diffuse::Absent => Lobe::DARK,

@@ -75,7 +75,7 @@ impl Loss {
                 let part = weight * distribution.survival_slope(w, q) * darkness(w) * grooves.lost(sigma * (2.0 * w).sqrt());
                 sums[0] += part;
                 sums[1] += part * distribution.sigma_log_slope(w, q) / sigma;
-                sums[2] += part * distribution.q_slope(w, q) / distribution.height(q);
+                sums[2] += part * distribution.q_slope(x, q) / distribution.height(q);
             }
         }
         let [whole, by_sigma, by_q] = sums;

@@ -70,12 +70,12 @@ impl SlopeDistribution {
         }
     }
 
-    /// `∂P/∂q ÷ (P/h)`: Gauss 0, Cauchy 1 − (q − 1) ln(1 + w).
+    /// `∂P/∂q ÷ (P/h)` from ln(1 + w), which exists where w overflows: Gauss 0, Cauchy 1 − (q − 1) ln(1 + w).
     #[must_use]
-    pub fn q_slope(self, w: f64, q: f64) -> f64 {
+    pub fn q_slope(self, ln_1p_w: f64, q: f64) -> f64 {
         match self {
             Self::Gauss => 0.0,
-            Self::Cauchy => 1.0 - (q - 1.0) * libm::log1p(w),
+            Self::Cauchy => 1.0 - (q - 1.0) * ln_1p_w,
         }
     }
 
