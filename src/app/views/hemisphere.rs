@@ -56,7 +56,7 @@ impl Made {
         map.dolp.iter_mut().for_each(|dolp| *dolp *= gain);
         // Coloured by its decades.
         map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
-        let extremes = Quantity::ALL.map(|quantity| extremes(&map, values(&map, quantity)));
+        let extremes = Quantity::ALL.map(|quantity| extremes(values(&map, quantity)));
         Some(Self { hemisphere, theta_i, map, extremes })
     }
 
@@ -79,16 +79,26 @@ fn values(map: &HemisphereMap, quantity: Quantity) -> &[f64] {
 }
 
 /// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound.
-fn extremes(map: &HemisphereMap, values: &[f64]) -> (f64, f64) {
+fn extremes(values: &[f64]) -> (f64, f64) {
+    // Of the disc of radius 1 that has the horizon at its rim; a square of the radius needs no angle.
+    let rim = (SETS_AXES / 90.0) * (SETS_AXES / 90.0);
     let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
     for (row, values) in values.chunks(SIZE).enumerate() {
-        for (column, value) in values.iter().enumerate() {
-            if value.is_finite() && map.direction(row, column).is_some_and(|(theta_r, _)| theta_r <= SETS_AXES) {
-                ends = (ends.0.min(*value), ends.1.max(*value));
+        let y = center(row);
+        for (column, &value) in values.iter().enumerate() {
+            let x = center(column);
+            if value.is_finite() && x * x + y * y <= rim {
+                ends = (ends.0.min(value), ends.1.max(value));
             }
         }
     }
     ends
+}
+
+/// Where a cell lies between −1 and 1.
+#[expect(clippy::cast_precision_loss, reason = "a number of cells")]
+fn center(index: usize) -> f64 {
+    (2.0 * index as f64 + 1.0) / SIZE as f64 - 1.0
 }
 
 /// The range of colours that fits the values.
@@ -370,7 +380,7 @@ impl Disc {
 
 #[cfg(test)]
 mod tests {
-    use super::{ColorScale, Made, Quantity, Range, SIZE, index, place, values, wanted};
+    use super::{ColorScale, Made, Quantity, Range, SIZE, extremes, index, place, values, wanted};
     use pbrdf::fit::Eq17;
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
@@ -399,6 +409,16 @@ mod tests {
             assert_eq!((at.x, at.y), (x, y), "{dphi}");
         }
         assert_eq!((index(-1.0), index(0.999_9), index(1.0), index(-1.1)), (Some(0), Some(255), None, None));
+    }
+
+    #[test]
+    fn colours_span_what_is_above_the_horizon() {
+        let mut map = vec![f64::NAN; SIZE * SIZE];
+        // In the middle, at θr of about 79° and of about 82°.
+        for (column, value) in [(SIZE / 2, 0.2), (SIZE / 2 + 112, 0.7), (SIZE / 2 + 117, 9.0)] {
+            map[SIZE / 2 * SIZE + column] = value;
+        }
+        assert_eq!(extremes(&map), (0.2, 0.7));
     }
 
     #[test]
