@@ -20,12 +20,14 @@ pub use ribbon::{Ribbon, ribbons_in};
 use super::curves::Pieces;
 use super::theme;
 use egui::Ui;
-use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotResponse, PlotUi};
 
 /// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
 #[derive(Debug, Default)]
 pub struct Axes {
     by_hand: bool,
+    /// Where the plot was when it was drawn last.
+    seen: Option<PlotBounds>,
     shown: Option<(Range, Range)>,
 }
 
@@ -33,6 +35,10 @@ impl Axes {
     /// Moves the plot where the contents want it, if they want it elsewhere than before.
     pub fn apply(&mut self, plot: &mut PlotUi<'_>, x: Option<Range>, y: Option<Range>) {
         let (Some(x), Some(y)) = (x, y) else { return };
+        // One that was closed and opened again has forgotten where it was.
+        if self.seen.is_some_and(|seen| seen != plot.plot_bounds()) {
+            *self = Self::default();
+        }
         if !self.by_hand && self.shown != Some((x, y)) {
             plot.set_plot_bounds_x(x.low..=x.high);
             plot.set_plot_bounds_y(y.low..=y.high);
@@ -42,6 +48,7 @@ impl Axes {
 
     /// Notices panning and zooming; call it with what the plot answered.
     pub fn listen<R>(&mut self, response: &PlotResponse<R>, ui: &Ui) {
+        self.seen = Some(*response.transform.bounds());
         let scrolled =
             response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
         if response.response.double_clicked() {
@@ -85,5 +92,39 @@ pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: 
     let floor = floor as f32;
     for piece in pieces {
         plot.line(Line::new(name.to_owned(), PlotPoints::Borrowed(piece)).color(color).width(1.5).fill(floor).fill_alpha(0.25));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Axes, Plot, Range};
+    use egui_kittest::Harness;
+
+    /// What the axes keep, which plot is drawn, and where it turned out to be.
+    #[derive(Default)]
+    struct State {
+        axes: Axes,
+        plot: usize,
+        seen: [f64; 2],
+    }
+
+    #[test]
+    fn a_plot_that_is_opened_anew_is_moved_where_its_contents_are() {
+        let frame = |ui: &mut egui::Ui, State { axes, plot, seen }: &mut State| {
+            let range = Some(Range { low: 3.0, high: 7.0 });
+            let response = Plot::new(*plot).auto_bounds([false, false]).show(ui, |plot| axes.apply(plot, range, range));
+            axes.listen(&response, ui);
+            *seen = response.transform.bounds().min();
+        };
+        let mut harness = Harness::builder().build_ui_state(frame, State::default());
+        harness.run();
+        assert_eq!(harness.state().seen, [3.0, 3.0]);
+        harness.state_mut().plot = 1;
+        harness.run();
+        assert_eq!(harness.state().seen, [3.0, 3.0]);
+        harness.state_mut().axes.by_hand = true;
+        harness.state_mut().plot = 2;
+        harness.run();
+        assert_eq!(harness.state().seen, [3.0, 3.0]);
     }
 }

@@ -155,3 +155,14 @@ fn the_way_of_a_fit_is_drawn_after_it() {
     wait(&mut harness);
     assert!(harness.query_by_label("There is no fit yet: press Fit, and its way down is drawn here.").is_none());
 }
+
+#[test]
+fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
+    let mut harness = shown(Pane::Landscape);
+    let before = explorer(&mut harness).views.landscape.seen().expect("axes");
+    explorer(&mut harness).commands.push(Command::ClosePane(Pane::Landscape));
+    wait(&mut harness);
+    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).views.landscape.seen(), Some(before));
+}

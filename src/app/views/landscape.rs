@@ -13,7 +13,7 @@ use crate::app::problem::problem;
 use crate::app::state::{OverTwo, Settings};
 use crate::app::window::Explorer;
 use egui::{Color32, ColorImage, ComboBox, TextureHandle, TextureOptions, Ui, vec2};
-use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Line, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Line, PlotBounds, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 use pbrdf::fit::{Axis, Choices, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
@@ -340,7 +340,7 @@ fn map_ui(explorer: &mut Explorer, height: f32, ui: &mut Ui) -> PlotResponse<()>
             None => *texture = Some(ctx.load_texture("landscape", drawn.image.clone(), TextureOptions::LINEAR)),
         });
     }
-    let wanted = view.wanted.take();
+    let (wanted, seen) = (view.wanted.take(), view.seen.map(|(_, _, seen)| seen));
     let format = |parameter: Parameter| if parameter.is_logarithmic() { logarithmic } else { decimal };
     let marks = view.marks.get();
     let x = axis(AxisHints::new_x(), ui, shown.across.symbol(), format(shown.across)).min_thickness(36.0);
@@ -356,7 +356,9 @@ fn map_ui(explorer: &mut Explorer, height: f32, ui: &mut Ui) -> PlotResponse<()>
             HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
-            if let Some([x, y]) = wanted {
+            // A plot that was closed and opened again has forgotten where it was.
+            let forgotten = seen.filter(|[x, y]| plot.plot_bounds() != PlotBounds::from_min_max([x.low, y.low], [x.high, y.high]));
+            if let Some([x, y]) = wanted.or(forgotten) {
                 plot.set_plot_bounds_x(x.low..=x.high);
                 plot.set_plot_bounds_y(y.low..=y.high);
             }
@@ -390,8 +392,15 @@ fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a Drawn, texture: &TextureHandle
 /// Marks of an axis, so many smallest spacings apart; of logarithms at 1, 2 and 5 times powers of ten where there is room.
 fn grid(parameter: Parameter, input: &GridInput, spread: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    if !parameter.is_logarithmic() || high - low < 1.0 {
+    if !parameter.is_logarithmic() {
         return axis::marks(input, spread, 0.0);
+    }
+    if high - low < 1.0 {
+        // At round values, nowhere closer than at the upper end.
+        let (first, last) = (libm::exp10(low), libm::exp10(high));
+        let base_step_size = std::f64::consts::LN_10 * last * input.base_step_size;
+        let marks = axis::marks(&GridInput { bounds: (first, last), base_step_size }, spread, 0.0);
+        return marks.into_iter().map(|mark| GridMark { value: libm::log10(mark.value), ..mark }).collect();
     }
     // From 1 to 2 is 0.3 of a decade.
     if 0.3 < 0.7 * spread * input.base_step_size {
