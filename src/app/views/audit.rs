@@ -106,6 +106,8 @@ pub fn audit_refresh(explorer: &mut Explorer) {
 const HIGHEST: f64 = 3.0;
 /// From this width on table and plot lie side by side.
 const SIDE_BY_SIDE: f32 = 760.0;
+/// What the table needs.
+const NARROWEST: f32 = 500.0;
 /// Least height of the plot, in points.
 const PLOT_HEIGHT: f32 = 190.0;
 
@@ -126,7 +128,9 @@ pub fn audit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             ui.vertical(|ui| reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), height, ui));
         });
     } else {
-        ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+        ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+            // Narrower, the names of the checks would be cut.
+            ui.set_width(ui.available_width().max(NARROWEST));
             let top = ui.cursor().top();
             findings_ui(audit, ui);
             ui.add_space(6.0);
