@@ -2,7 +2,9 @@
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
 use nalgebra::{DMatrix, DVector};
-use pbrdf::fit::{Bounds, BrdfResiduals, Choices, Edge, Eq17, Loss, Problem, Starts, StopReason, Watch, Weights, fit, free_by_default};
+use pbrdf::fit::{
+    Bounds, BrdfResiduals, Choices, Edge, Eq17, Loss, Problem, Standing, Starts, StopReason, Watch, Weights, fit, free_by_default,
+};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::{self, Cauchy, Gauss};
@@ -283,4 +285,28 @@ fn degenerate_data_end_in_a_typed_answer() {
             }
         }
     }
+}
+
+#[test]
+fn a_parameter_without_effect_is_open_and_not_at_a_bound() {
+    let truth = Parameters { kd: 0.0, kv: 0.2, c: -0.3, ..Parameters::default() };
+    let surface = Pbrdf::new(Model::full(Cauchy), truth).expect("a valid surface");
+    let simulation = Simulation {
+        model_name: "test".to_owned(),
+        surface,
+        theta_i: vec![30.0, 50.0],
+        theta_r: grid(0, 80, 5),
+        dphi: 180.0,
+        columns: Columns::Dolp,
+        noise: 0.002,
+        brdf_noise: 0.0,
+        seed: 2,
+    };
+    let measurement = simulation.run().expect("valid angles");
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::Automatic, 1, Watch::NOBODY);
+    let estimate = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("a parameter of the model");
+    assert_eq!(estimate(Parameter::Kd).at_bound, Some(Edge::Lower));
+    // With k_d = 0 there is no lobe for c to shape: wherever the search left it, it goes back to its start.
+    let c = estimate(Parameter::C);
+    assert_eq!((c.value, c.at_bound, c.standing()), (Parameters::default().c, None, Standing::Open));
 }

@@ -183,9 +183,8 @@ impl FitReport {
         });
         let mut minima: Vec<Minimum> = minima.collect();
         let Descent { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = found.swap_remove(0).descent;
-        let edges: Vec<(Parameter, Edge)> =
-            problem.free().iter().filter_map(|&parameter| Some((parameter, edge(problem, &parameters, parameter)?))).collect();
-        let at_bound: ParameterSet = edges.iter().map(|(parameter, _)| *parameter).collect();
+        let at_bound: ParameterSet =
+            problem.free().iter().copied().filter(|&parameter| edge(problem, &parameters, parameter).is_some()).collect();
         let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
         let parameters = with_idle_ones_back(problem, parameters, sum_of_squares, &uncertainty);
         let open = !uncertainty.open.is_empty() || problem.len() < problem.free().len();
@@ -199,7 +198,7 @@ impl FitReport {
             value: parameters[parameter],
             free: problem.free().contains(&parameter),
             std_error: uncertainty.standard_error(parameter),
-            at_bound: edges.iter().find(|(other, _)| *other == parameter).map(|(_, edge)| *edge),
+            at_bound: problem.free().contains(&parameter).then(|| edge(problem, &parameters, parameter)).flatten(),
             determined: uncertainty.determined.contains(&parameter),
         });
         let objective = (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten();
