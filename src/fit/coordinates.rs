@@ -132,3 +132,74 @@ impl LeastSquares for Problem {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::LeastSquares;
+    use crate::fit::{Bounds, Choices, Problem};
+    use crate::measurement::{Columns, Simulation};
+    use crate::model::{Model, Parameters, Pbrdf};
+    use crate::optics::SlopeDistribution::{self, Cauchy, Gauss};
+    use nalgebra::{DMatrix, DVector};
+
+    /// All parameters of the model free, on simulated data.
+    fn problem(distribution: SlopeDistribution, columns: Columns) -> Problem {
+        let model = Model::full(distribution);
+        let measurement = Simulation {
+            model_name: distribution.key().to_owned(),
+            surface: Pbrdf::new(model, Parameters::default()).unwrap(),
+            theta_i: vec![30.0, 60.0],
+            theta_r: vec![0.0, 20.0, 40.0, 60.0, 70.0],
+            dphi: 180.0,
+            columns,
+            noise: 0.0,
+            brdf_noise: 0.0,
+            seed: 1,
+        }
+        .run()
+        .unwrap();
+        let start = Parameters { n: 1.4, k: 2.2, sigma: 0.4, ks: 0.8, kd: 0.2, kv: 0.3, q: 2.6, c: -0.3, sigma_v: 0.7 };
+        Problem::new(&measurement, model, start, model.parameters(), Bounds::default(), Choices::default()).unwrap()
+    }
+
+    #[test]
+    fn straightened_derivatives_are_those_along_the_steps() {
+        // Central differences: h² of a third derivative of order 1, and rounding over h.
+        const STEP: f64 = 1e-5;
+        const NEAR: f64 = 1e-8;
+        for (distribution, columns) in [(Gauss, Columns::Dolp), (Cauchy, Columns::Dolp), (Cauchy, Columns::Brdf), (Cauchy, Columns::Both)] {
+            let problem = problem(distribution, columns);
+            let x = LeastSquares::start(&problem);
+            let moving: Vec<usize> = (0..x.len()).collect();
+            let mut jacobian = DMatrix::zeros(problem.residual_count(), x.len());
+            assert!(problem.jacobian_at(&x, &mut jacobian));
+            problem.straighten(&x, &moving, &mut jacobian);
+            for j in 0..x.len() {
+                let residuals_after = |h: f64| {
+                    let step: Vec<f64> = (0..x.len()).map(|i| if i == j { h } else { 0.0 }).collect();
+                    let (mut there, mut residuals) = (x.clone(), DVector::zeros(problem.residual_count()));
+                    problem.advance(&x, &moving, &step, &mut there);
+                    assert!(problem.residuals_at(&there, &mut residuals));
+                    residuals
+                };
+                let along = (residuals_after(STEP) - residuals_after(-STEP)) / (2.0 * STEP);
+                let column = jacobian.column(j).clone_owned();
+                assert!((&along - &column).amax() <= NEAR * column.amax().max(1.0), "{distribution:?} {columns:?} {j}: {along} {column}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_longest_steps_end_on_the_edges_of_the_box() {
+        let problem = problem(Cauchy, Columns::Dolp);
+        let x = LeastSquares::start(&problem);
+        for j in 0..x.len() {
+            let (down, up) = problem.reach(&x, j);
+            for (step, edge) in [(down, problem.bounds_of(j).0), (up, problem.bounds_of(j).1)] {
+                let mut there = x.clone();
+                problem.advance(&x, &[j], &[step], &mut there);
+                assert!((there[j] - edge).abs() <= 1e-13 * (1.0 + edge.abs()), "{j}: {} instead of {edge}", there[j]);
+            }
+        }
+    }
+}

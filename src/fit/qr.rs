@@ -190,3 +190,95 @@ impl Damped<'_> {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Damped, Qr, Workspace};
+    use nalgebra::{DMatrix, DVector};
+
+    const ROWS: usize = 7;
+    const COLUMNS: usize = 3;
+    /// A few dozen roundings of numbers around 1.
+    const ROUNDING: f64 = 1e-13;
+
+    fn matrix() -> DMatrix<f64> {
+        // No structure: fractions of multiples of irrational numbers.
+        DMatrix::from_fn(ROWS, COLUMNS, |i, j| (7.31 * (i as f64 + 1.3) * (j as f64 + 0.7) * 2.0_f64.sqrt()).fract() - 0.4)
+    }
+
+    fn right() -> DVector<f64> {
+        DVector::from_fn(ROWS, |i, _| (3.0_f64.sqrt() * (i as f64 + 0.2)).fract() - 0.6)
+    }
+
+    fn factorised(a: &DMatrix<f64>) -> Qr {
+        let mut qr = Qr::default();
+        qr.factorise(a.nrows(), a.ncols(), |buffer| buffer.copy_from_slice(a.as_slice()));
+        qr
+    }
+
+    fn rotated(qr: &Qr, b: &DVector<f64>) -> Vec<f64> {
+        let mut rotated = b.as_slice().to_vec();
+        qr.transposed_times(&mut rotated);
+        rotated
+    }
+
+    #[test]
+    fn it_solves_least_squares_as_the_normal_equations_do() {
+        let (a, b) = (matrix(), right());
+        let qr = factorised(&a);
+        let mut x = vec![0.0; COLUMNS];
+        qr.solve(&rotated(&qr, &b), &mut x);
+        let expected = (a.transpose() * &a).lu().solve(&(a.transpose() * &b)).unwrap();
+        assert!((DVector::from_vec(x) - expected).amax() < ROUNDING);
+        // RᵀR = AᵀA.
+        let r = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| if i <= j { qr.r(i, j) } else { 0.0 });
+        assert!((r.transpose() * r - a.transpose() * a).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn an_unknown_without_a_column_stays_where_it_is() {
+        let mut a = matrix();
+        a.column_mut(1).fill(0.0);
+        let qr = factorised(&a);
+        let mut x = vec![1.0; COLUMNS];
+        qr.solve(&rotated(&qr, &right()), &mut x);
+        assert_eq!(x[1], 0.0);
+        assert!(x.iter().all(|x| x.is_finite()));
+    }
+
+    #[test]
+    fn a_damped_step_solves_the_damped_normal_equations() {
+        let (a, b) = (matrix(), right());
+        let (qr, scale, damping) = (factorised(&a), [0.5, 1.0, 2.0], 0.3);
+        let mut step = vec![0.0; COLUMNS];
+        let free = [(f64::NEG_INFINITY, f64::INFINITY); COLUMNS];
+        Damped { qr: &qr, scale: &scale, damping }.solve_within(&rotated(&qr, &b), &free, &mut step, &mut Workspace::default());
+        let squares = DMatrix::from_diagonal(&DVector::from_iterator(COLUMNS, scale.iter().map(|s| damping * s * s)));
+        let expected = (a.transpose() * &a + squares).lu().solve(&(a.transpose() * -b)).unwrap();
+        assert!((DVector::from_vec(step) - expected).amax() < ROUNDING);
+    }
+
+    #[test]
+    fn in_a_box_the_ends_hold_and_the_rest_has_no_slope() {
+        let (a, b) = (matrix(), right());
+        let (qr, scale) = (factorised(&a), [1.0; COLUMNS]);
+        let damped = Damped { qr: &qr, scale: &scale, damping: 0.0 };
+        let rotated = rotated(&qr, &b);
+        let mut free = vec![0.0; COLUMNS];
+        damped.solve_within(&rotated, &[(f64::NEG_INFINITY, f64::INFINITY); COLUMNS], &mut free, &mut Workspace::default());
+        // The unknown that would go furthest is held at half of its way.
+        let held = (0..COLUMNS).max_by(|&i, &j| free[i].abs().total_cmp(&free[j].abs())).unwrap();
+        let mut ends = [(-10.0, 10.0); COLUMNS];
+        ends[held] = (-0.5 * free[held].abs(), 0.5 * free[held].abs());
+        let mut step = vec![0.0; COLUMNS];
+        damped.solve_within(&rotated, &ends, &mut step, &mut Workspace::default());
+        assert_eq!(step[held], 0.5 * free[held]);
+        let residuals = &a * DVector::from_column_slice(&step) + &b;
+        let slope = a.transpose() * &residuals;
+        for j in (0..COLUMNS).filter(|&j| j != held) {
+            assert!(slope[j].abs() < ROUNDING, "{j}: {}", slope[j]);
+        }
+        let fall = b.norm_squared() - residuals.norm_squared();
+        assert!((damped.reduction(&rotated, &step) - fall).abs() < ROUNDING && fall > 0.0);
+    }
+}

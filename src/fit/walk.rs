@@ -291,3 +291,63 @@ fn confine(bounds: &[(f64, f64)], x: &mut DVector<f64>) {
         *value = value.clamp(*low, *high);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fit::{Effort, LeastSquares, StopReason, Watch, minimise};
+    use nalgebra::{DMatrix, DVector, dvector};
+
+    /// Rosenbrock's valley, 10(y − x²) and 1 − x, in a box.
+    struct Valley {
+        bounds: [(f64, f64); 2],
+    }
+
+    impl LeastSquares for Valley {
+        fn residual_count(&self) -> usize {
+            2
+        }
+
+        fn start(&self) -> DVector<f64> {
+            dvector![-1.2, 1.0]
+        }
+
+        fn bounds_of(&self, unknown: usize) -> (f64, f64) {
+            self.bounds[unknown]
+        }
+
+        fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool {
+            out[0] = 10.0 * (x[1] - x[0] * x[0]);
+            out[1] = 1.0 - x[0];
+            true
+        }
+
+        fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool {
+            out.copy_from_slice(&[-20.0 * x[0], -1.0, 10.0, 0.0]);
+            true
+        }
+    }
+
+    const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
+    #[test]
+    fn it_follows_a_curved_valley_to_its_end() {
+        let found = minimise(&Valley { bounds: [ANYWHERE; 2] }, Effort::Finish, Watch::NOBODY);
+        assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-12, "{:?}", found.stop_reason);
+        // A step takes two evaluations; without a way of following the bend it would be thousands.
+        assert!(found.evaluations < 100, "{}", found.evaluations);
+    }
+
+    #[test]
+    fn it_ends_exactly_on_the_edge_that_stops_it() {
+        let found = minimise(&Valley { bounds: [(-2.0, 0.5), ANYWHERE] }, Effort::Finish, Watch::NOBODY);
+        // On x = ½ the valley floor is y = ¼, and 1 − x is left over.
+        assert_eq!((found.x[0], found.stop_reason), (0.5, StopReason::Converged));
+        assert!((found.x[1] - 0.25).abs() < 1e-9 && (found.sum_of_squares - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_start_outside_the_box_is_put_inside() {
+        let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Finish, Watch::NOBODY);
+        assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-9);
+    }
+}
