@@ -3,7 +3,7 @@
 
 use pbrdf::fit::{Bounds, Choices, Contest, HeldGauss, Problem, Starts, Watch, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Preset, Wanted};
+use pbrdf::model::{Diffuse, Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Preset, Wanted};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 const STEEL: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -151,4 +151,20 @@ fn no_distribution_wins_against_the_evidence() {
         "{}",
         costly.text()
     );
+}
+
+#[test]
+fn dolp_depends_on_the_parameters_that_each_model_says_and_on_no_others() {
+    // What cancels leaves rounding behind.
+    const NOTHING: f64 = 1e-12;
+    let parameters = Parameters { n: 1.6, k: 2.4, sigma: 0.4, ks: 0.8, kd: 0.2, kv: 0.3, q: 2.4, c: -0.3, sigma_v: 0.7 };
+    for preset in &PRESETS {
+        let surface = Pbrdf::new(preset.model, parameters).expect("a valid surface");
+        let facets = [(20.0, 65.0), (60.0, 10.0), (75.0, 40.0)].map(|(theta_i, theta_r)| facet(theta_i, theta_r, 180.0));
+        let gradients = facets.map(|facet| surface.reflection_and_gradient(&facet, Wanted::ALL).1.dolp);
+        for parameter in Parameter::ALL {
+            let is_felt = gradients.iter().any(|gradient| gradient[parameter as usize].abs() > NOTHING);
+            assert_eq!(is_felt, preset.model.dolp_parameters().contains(parameter), "{}: {}", preset.key, parameter.key());
+        }
+    }
 }
