@@ -201,13 +201,17 @@ mod tests {
     /// A few dozen roundings of numbers around 1.
     const ROUNDING: f64 = 1e-13;
 
+    /// Numbers without structure, in −0.4 … 0.6.
+    fn numbers(ratio: f64) -> impl Iterator<Item = f64> {
+        (1..).map(move |i: u32| (ratio * f64::from(i * i)).fract() - 0.4)
+    }
+
     fn matrix() -> DMatrix<f64> {
-        // No structure: fractions of multiples of irrational numbers.
-        DMatrix::from_fn(ROWS, COLUMNS, |i, j| (7.31 * (i as f64 + 1.3) * (j as f64 + 0.7) * 2.0_f64.sqrt()).fract() - 0.4)
+        DMatrix::from_iterator(ROWS, COLUMNS, numbers(2.0_f64.sqrt()))
     }
 
     fn right() -> DVector<f64> {
-        DVector::from_fn(ROWS, |i, _| (3.0_f64.sqrt() * (i as f64 + 0.2)).fract() - 0.6)
+        DVector::from_iterator(ROWS, numbers(3.0_f64.sqrt()))
     }
 
     fn factorised(a: &DMatrix<f64>) -> Qr {
