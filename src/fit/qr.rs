@@ -207,11 +207,11 @@ mod tests {
     }
 
     fn matrix() -> DMatrix<f64> {
-        DMatrix::from_iterator(ROWS, COLUMNS, numbers(2.0_f64.sqrt()))
+        DMatrix::from_iterator(ROWS, COLUMNS, numbers(2.0_f64.sqrt()).take(ROWS * COLUMNS))
     }
 
     fn right() -> DVector<f64> {
-        DVector::from_iterator(ROWS, numbers(3.0_f64.sqrt()))
+        DVector::from_iterator(ROWS, numbers(3.0_f64.sqrt()).take(ROWS))
     }
 
     fn factorised(a: &DMatrix<f64>) -> Qr {
