@@ -423,8 +423,8 @@ impl Problem {
     }
 
     /// The prepared geometries of the rows that are not masked.
-    pub(super) fn facets(&self) -> &[Facet] {
-        self.scene.facets()
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// Whether the BRDF is needed.
@@ -432,7 +432,7 @@ impl Problem {
         self.wanted.brdf
     }
 
-    /// Sum of the squared (scaled) residuals of DoLP and BRDF evaluated elsewhere at [`Self::facets`]. None without data.
+    /// Sum of the squared (scaled) residuals of DoLP and BRDF evaluated elsewhere in [`Self::scene`]. None without data.
     pub(super) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64], ks: f64) -> Option<f64> {
         let square = |datum: &Datum| {
             let reflection = match datum.kind {

@@ -5,11 +5,10 @@
 //! lobes that are there are dark, or their weights faint), x is formed in double-double arithmetic, and so are the logarithms of a σ whose
 //! square leaves the range of f64.
 
-use super::lobes::{Lobe, is_plain};
+use super::lobes::{Lobe, has_plain_factor, is_plain};
 use super::pbrdf::{Lobes, Pbrdf};
-use super::{Diffuse, Parameters};
-use crate::optics::{Double, SharpFacet, SlopeDistribution};
-use std::f64::consts::LN_2;
+use super::{Diffuse, Model, Parameters};
+use crate::optics::{Double, LN_2, SharpFacet, SlopeDistribution};
 
 /// Exponents up to here hold what the bar of 1e-13 asks for: 64 · 5 roundings.
 const FAR: f64 = 64.0;
@@ -19,12 +18,30 @@ const INVISIBLE: f64 = 120.0;
 const DARKNESS: f64 = 1e200;
 /// Beyond this ln(1 + w) is ln w, which is formed without w: that could overflow.
 const LARGE: f64 = 1e40;
+/// A σ below this makes w larger than that under nearly all geometries.
+const NARROW: f64 = 1e-20;
+
+/// ln σ and the logarithm of [`SlopeDistribution::height`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Logarithms {
+    sigma: Double,
+    height: Double,
+}
+
+impl Logarithms {
+    /// Of a surface whose exponents need them under nearly all geometries; of others they are formed where they are needed.
+    pub(super) fn where_needed(model: Model, p: &Parameters) -> Option<Self> {
+        let height = model.distribution.height(p.q);
+        let is_needed = model.specular && (p.sigma < NARROW || !has_plain_factor(p.sigma, height));
+        is_needed.then(|| Self { sigma: Double::from(p.sigma).ln(), height: Double::from(height).ln() })
+    }
+}
 
 /// −ln of a weighted lobe, to within its binary magnitude.
 fn darkness(lobe: Lobe, weight: f64) -> f64 {
     let factor = lobe.factor.min(f64::MAX);
     if weight > 0.0 && factor > 0.0 {
-        lobe.exponent - LN_2 * (f64::from(libm::ilogb(weight)) + f64::from(libm::ilogb(factor)))
+        lobe.exponent - LN_2.hi * (f64::from(libm::ilogb(weight)) + f64::from(libm::ilogb(factor)))
     } else {
         f64::INFINITY
     }
@@ -60,7 +77,7 @@ impl Pbrdf {
         let sharp = sharp();
         if model.specular
             && lobes.specular.exponent < DARKNESS
-            && let Some(exponent) = specular_exponent(model.distribution, &sharp, lobes.w, p)
+            && let Some(exponent) = self.specular_exponent(&sharp, lobes.w)
         {
             lobes.specular = lobes.specular.with_exponent(exponent);
         }
@@ -72,18 +89,20 @@ impl Pbrdf {
             lobes.volume = lobes.volume.with_exponent(reduced * reduced * 0.5);
         }
     }
-}
-
-/// The exponent of the specular lobe as [`super::lobes::specular`] splits it; none where w overflows under a Gaussian.
-fn specular_exponent(distribution: SlopeDistribution, sharp: &SharpFacet, w: f64, p: &Parameters) -> Option<Double> {
-    let ln_sigma = || Double::from(p.sigma).ln();
-    let sharp_w = || sharp.tan_alpha_sq / p.sigma / p.sigma * 0.5;
-    let tail = match distribution {
-        SlopeDistribution::Gauss if w < DARKNESS => sharp_w(),
-        SlopeDistribution::Gauss => return None,
-        SlopeDistribution::Cauchy if w < LARGE => sharp_w().ln_1p() * p.q,
-        SlopeDistribution::Cauchy => (sharp.tan_alpha_sq.ln() - ln_sigma() * 2.0 - Double::from(2.0).ln()) * p.q,
-    };
-    let height = distribution.height(p.q);
-    Some(if is_plain(p.sigma) && is_plain(height.max(1.0)) { tail } else { tail + ln_sigma() * 2.0 - Double::from(height).ln() })
+    /// The exponent of the specular lobe as [`super::lobes::specular`] splits it; none where w overflows under a Gaussian.
+    fn specular_exponent(&self, sharp: &SharpFacet, w: f64) -> Option<Double> {
+        let p = self.parameters();
+        let distribution = self.model().distribution;
+        let height = distribution.height(p.q);
+        let ln_sigma = || self.logarithms().map_or_else(|| Double::from(p.sigma).ln(), |known| known.sigma);
+        let ln_height = || self.logarithms().map_or_else(|| Double::from(height).ln(), |known| known.height);
+        let sharp_w = || sharp.tan_alpha_sq / p.sigma / p.sigma * 0.5;
+        let tail = match distribution {
+            SlopeDistribution::Gauss if w < DARKNESS => sharp_w(),
+            SlopeDistribution::Gauss => return None,
+            SlopeDistribution::Cauchy if w < LARGE => sharp_w().ln_1p() * p.q,
+            SlopeDistribution::Cauchy => (sharp.ln_tan_alpha_sq - ln_sigma() * 2.0 - LN_2) * p.q,
+        };
+        Some(if has_plain_factor(p.sigma, height) { tail } else { tail + ln_sigma() * 2.0 - ln_height() })
+    }
 }

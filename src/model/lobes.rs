@@ -130,12 +130,17 @@ pub(crate) fn specular(distribution: SlopeDistribution, w: f64, facet: &Facet, g
     let geometric = one_over_cos_sq * one_over_cos_sq * g_over_cosines / (8.0 * PI);
     let height = distribution.height(q);
     let exponent = distribution.exponent(w, q).min(DARKEST);
-    if is_plain(sigma) && is_plain(height.max(1.0)) {
+    if has_plain_factor(sigma, height) {
         Lobe::new(height * geometric / sigma / sigma, exponent)
     } else {
         // h/σ² alone would leave the range of f64.
         Lobe::new(geometric, exponent + 2.0 * libm::log(sigma) - libm::log(height))
     }
+}
+
+/// Whether the height over σ² stays in the range of f64.
+pub(super) fn has_plain_factor(sigma: f64, height: f64) -> bool {
+    is_plain(sigma) && is_plain(height.max(1.0))
 }
 
 /// Whether squares and quotients of a value are far from the ends of f64.

@@ -5,6 +5,7 @@
 //! and right even where the specular term underflows.
 
 use super::at_hand::AtHand;
+use super::far_tail::Logarithms;
 use super::lobes::{self, Lobe};
 use super::single_reflection::Loss;
 use super::{Parameter, ParameterError, ParameterSet, Parameters};
@@ -108,6 +109,7 @@ pub struct Pbrdf {
     parameters: Parameters,
     index: RefractiveIndex,
     weight_scale: f64,
+    logarithms: Option<Logarithms>,
 }
 
 /// Weights below this lose digits when they are multiplied, and above [`GLARING`] the products overflow: DoLP, a ratio, is then
@@ -160,7 +162,8 @@ impl Pbrdf {
         let index = index.or(vacuum).map_err(|_| ParameterError::NoIndex)?;
         let used = |parameter| if model.parameters().contains(parameter) { parameters[parameter] } else { 0.0 };
         let weight_scale = weight_scale([Parameter::Ks, Parameter::Kd, Parameter::Kv].map(used));
-        Ok(Self { model, parameters, index, weight_scale })
+        let logarithms = Logarithms::where_needed(model, &parameters);
+        Ok(Self { model, parameters, index, weight_scale, logarithms })
     }
 
     /// Which terms there are.
@@ -315,5 +318,9 @@ impl Pbrdf {
 
     pub(super) fn index(&self) -> RefractiveIndex {
         self.index
+    }
+
+    pub(super) fn logarithms(&self) -> Option<Logarithms> {
+        self.logarithms
     }
 }

@@ -11,17 +11,28 @@ pub struct Scene {
     facets: Vec<Facet>,
     /// Of each facet, for surfaces of that index.
     fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
-    /// Of each facet, from when it was first asked for; the copies of a scene have it in common.
-    sharp: Arc<[OnceLock<SharpFacet>]>,
+    /// Of each facet, from when it was first asked for, and room for it from when any was; the copies of a scene have it in common.
+    sharp: Arc<OnceLock<Box<[OnceLock<SharpFacet>]>>>,
+}
+
+/// Equal where the geometries are: what else is prepared changes no result.
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        self.facets == other.facets
+    }
 }
 
 impl Scene {
     /// Prepares geometries, keeping their order.
     #[must_use]
     pub fn new(geometries: impl IntoIterator<Item = Geometry>) -> Self {
-        let facets: Vec<Facet> = geometries.into_iter().map(Facet::new).collect();
-        let sharp = facets.iter().map(|_| OnceLock::new()).collect();
-        Self { facets, fresnel: None, sharp }
+        Self::from_facets(geometries.into_iter().map(Facet::new).collect())
+    }
+
+    /// From geometries that are prepared already.
+    #[must_use]
+    pub fn from_facets(facets: Vec<Facet>) -> Self {
+        Self { facets, ..Self::default() }
     }
 
     /// With the Fresnel reflection of all facets prepared for surfaces of one index; others are evaluated as before.
@@ -114,14 +125,15 @@ impl AtHand for Place<'_> {
     }
 
     fn sharp(&self) -> SharpFacet {
-        *self.scene.sharp[self.point].get_or_init(|| SharpFacet::new(self.facet().geometry))
+        let all = self.scene.sharp.get_or_init(|| self.scene.facets.iter().map(|_| OnceLock::new()).collect());
+        *all[self.point].get_or_init(|| SharpFacet::new(self.facet().geometry))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Scene;
-    use crate::model::{Model, Parameters, Pbrdf, Wanted};
+    use crate::model::{Batch, Model, Parameters, Pbrdf, Wanted};
     use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
 
     #[test]
@@ -154,6 +166,21 @@ mod tests {
         assert!(surface.dolp(&facet) > 0.0);
         assert_eq!(scene.dolp(&surface, 0), surface.dolp(&facet));
         assert_eq!(copy.reflection(&surface, 0), surface.reflection(&facet));
-        assert!(copy.sharp[0].get().is_some(), "both copies have it from the first that asked");
+        let sharp = copy.sharp.get().expect("a far tail was asked for");
+        assert!(sharp[0].get().is_some(), "both copies have it from the first that asked");
+    }
+
+    #[test]
+    fn a_batch_takes_far_tails_from_its_scene() {
+        let extreme = Parameters { sigma: 1e-200, ..Parameters::default() };
+        for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
+            let surface = Pbrdf::new(Model::full(distribution), extreme).expect("in range");
+            let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
+            let scene = Scene::new([geometry]);
+            let mut dolp = Vec::new();
+            Batch::from_scene(scene.clone()).dolp(&surface, &mut dolp);
+            assert_eq!(dolp, [surface.dolp(&Facet::new(geometry))]);
+            assert!(scene.sharp.get().is_some_and(|sharp| sharp[0].get().is_some()), "made once, for all that share the scene");
+        }
     }
 }

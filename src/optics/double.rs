@@ -16,7 +16,7 @@ pub(crate) struct Double {
 
 /// π/180 and ln 2 to 106 bits.
 const RADIANS_PER_DEGREE: Double = Double { hi: 0.017_453_292_519_943_295, lo: 2.948_652_270_870_168_7e-19 };
-const LN_2: Double = Double { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
+pub(crate) const LN_2: Double = Double { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
 /// Terms of the sine and cosine series that 45° needs, and of the exponential series for ln 2 / 2.
 const ANGLE_TERMS: u32 = 14;
@@ -104,7 +104,10 @@ impl Div<f64> for Double {
     type Output = Self;
 
     fn div(self, divisor: f64) -> Self {
-        self / Self::from(divisor)
+        let first = self.hi / divisor;
+        // What the quotient leaves of hi is an f64.
+        let rest = (-first).mul_add(divisor, self.hi) + self.lo;
+        quick_two_sum(first, rest / divisor)
     }
 }
 

@@ -17,7 +17,7 @@ mod refractive_index;
 mod sharp_facet;
 
 pub use angle::Degrees;
-pub(crate) use double::{Double, two_sum};
+pub(crate) use double::{Double, LN_2, two_sum};
 pub use facets::SlopeDistribution;
 pub(crate) use facets::reduced_slope_sq;
 pub use fresnel::{Fresnel, FresnelGradient};

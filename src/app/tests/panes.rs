@@ -135,12 +135,7 @@ fn views_draw_whatever_the_sliders_hold() {
                     settings.shown.share = true;
                     settings.shown.filled = logarithmic;
                     settings.shown.overlay = crate::app::state::Overlay::EqualMedian;
-                    if entry.pane == Pane::Landscape {
-                        // In an unoptimised build some of these maps take half a minute: nobody waits for them.
-                        harness.run_steps(4);
-                    } else {
-                        wait(&mut harness);
-                    }
+                    wait(&mut harness);
                 }
             }
         }

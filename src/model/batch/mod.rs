@@ -15,7 +15,7 @@ mod kernels;
 mod lanes;
 mod prepared;
 
-use super::{Diffuse, ParameterSet, Pbrdf, Wanted};
+use super::{Diffuse, ParameterSet, Pbrdf, Scene, Wanted};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use coefficients::Coefficients;
 use gradient::DolpGradient;
@@ -27,7 +27,8 @@ use prepared::{Eight, eights};
 /// Geometries prepared for many evaluations at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
-    facets: Vec<Facet>,
+    /// For the scalar form.
+    scene: Scene,
     eights: Vec<Eight>,
     instructions: Instructions,
     single_threaded: bool,
@@ -84,7 +85,13 @@ impl Batch {
     /// From geometries that are prepared already.
     #[must_use]
     pub fn from_facets(facets: Vec<Facet>) -> Self {
-        Self { eights: eights(&facets), facets, ..Self::default() }
+        Self::from_scene(Scene::from_facets(facets))
+    }
+
+    /// From a scene, and all that is prepared in it.
+    #[must_use]
+    pub fn from_scene(scene: Scene) -> Self {
+        Self { eights: eights(scene.facets()), scene, ..Self::default() }
     }
 
     /// With other instructions than the widest that the processor has.
@@ -102,24 +109,24 @@ impl Batch {
     /// How many points.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.facets.len()
+        self.scene.len()
     }
 
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.facets.is_empty()
+        self.scene.is_empty()
     }
 
     /// The prepared geometries.
     #[must_use]
     pub fn facets(&self) -> &[Facet] {
-        &self.facets
+        self.scene.facets()
     }
 
     /// DoLP of each point, as [`Pbrdf::dolp`] has it; `out` takes as many numbers as there are points.
     pub fn dolp(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
-        let scalar = |point: usize| [surface.dolp(&self.facets[point])];
+        let scalar = |point: usize| [self.scene.dolp(surface, point)];
         let job = self.job([out], &scalar);
         match Coefficients::new(surface).map(Coefficients::lit) {
             Some(of) => run_with_terms!(self, job, Dolp, &of),
@@ -129,7 +136,7 @@ impl Batch {
 
     /// BRDF of each point in sr⁻¹, as [`Pbrdf::reflection`] has it; `out` takes as many numbers as there are points.
     pub fn brdf(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
-        let scalar = |point: usize| [surface.reflection(&self.facets[point]).brdf];
+        let scalar = |point: usize| [self.scene.reflection(surface, point).brdf];
         let job = self.job([out], &scalar);
         match Coefficients::new(surface).map(Coefficients::lit) {
             Some(of) => run_with_terms!(self, job, Brdf, &of),
@@ -140,7 +147,7 @@ impl Batch {
     /// DoLP, BRDF and its specular part of each point, as [`Pbrdf::reflection`] has them.
     pub fn radiances(&self, surface: &Pbrdf, out: &mut Radiances) {
         let scalar = |point: usize| {
-            let reflection = surface.reflection(&self.facets[point]);
+            let reflection = self.scene.reflection(surface, point);
             [reflection.dolp, reflection.brdf, reflection.specular]
         };
         let job = self.job([&mut out.dolp, &mut out.brdf, &mut out.specular], &scalar);
@@ -154,7 +161,7 @@ impl Batch {
     pub fn dolp_gradients(&self, surface: &Pbrdf, out: &mut DolpGradients) {
         let wanted = Wanted { by: ParameterSet::ALL, brdf: false, dolp: true };
         let scalar = |point: usize| {
-            let (reflection, gradient) = surface.reflection_and_gradient(&self.facets[point], wanted);
+            let (reflection, gradient) = self.scene.reflection_and_gradient(surface, point, wanted);
             std::array::from_fn(|column| if column == 0 { reflection.dolp } else { gradient.dolp[column - 1] })
         };
         let DolpGradients { dolp, by: [n, k, sigma, ks, kd, kv, q, c, sigma_v] } = out;
