@@ -8,10 +8,12 @@ use super::reports::Subject;
 use super::state::Theme;
 use super::views;
 use super::window::Explorer;
+use crate::app::language::translated;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use pbrdf::model::{FINISHES, PRESETS, Parameter, Preset};
 use std::borrow::Cow;
 use std::path::PathBuf;
+use tr::tr;
 
 /// An order from the window.
 #[derive(Debug, Clone, PartialEq)]
@@ -287,8 +289,28 @@ fn item(command: Command, menu: Menu, text: Cow<'static, str>, tooltip: Cow<'sta
 
 fn finishes() -> impl Iterator<Item = Item> {
     FINISHES.iter().enumerate().map(|(i, finish)| {
-        let text = format!("Surface finish: {}", finish.name);
+        let text = tr!("Surface finish: {}", translated(finish.name));
         item(Command::UseFinish(i), Menu::None, text.into(), views::values(finish).into(), Status::Possible)
+    })
+}
+
+/// Of the panes with a plot; possible for those on screen.
+fn plots(on_screen: &[Pane]) -> impl Iterator<Item = Item> {
+    PLOTS.iter().flat_map(move |&pane| {
+        let title = translated(pane.entry().title);
+        let status = only_if(on_screen.contains(&pane));
+        let export = tr!("Plot {} as SVG or PNG…", title);
+        let copy = tr!("Copy plot {}", title);
+        [
+            item(
+                Command::ChooseExport(Outgoing::Plot(pane)),
+                Menu::Export,
+                export.into(),
+                tr!("With axes and legend, for print").into(),
+                status,
+            ),
+            item(Command::CopyPlot(pane), Menu::Edit, copy.into(), tr!("As an image, to the clipboard").into(), status),
+        ]
     })
 }
 
@@ -297,13 +319,19 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
     let fixed = ENTRIES.iter().map(|entry| Item {
         command: entry.command.clone(),
         menu: entry.menu,
-        text: entry.text.into(),
-        tooltip: entry.tooltip.into(),
+        text: translated(entry.text).into(),
+        tooltip: translated(entry.tooltip).into(),
         shortcut: entry.shortcut,
         status: (entry.status)(explorer),
     });
     let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
-        item(Command::OpenExample(i), Menu::Example, example.name.into(), "A bundled measurement, simulated".into(), Status::Possible)
+        item(
+            Command::OpenExample(i),
+            Menu::Example,
+            translated(example.name).into(),
+            tr!("A bundled measurement, simulated").into(),
+            Status::Possible,
+        )
     });
     let recent = explorer.window.recent.iter().map(|path| {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
@@ -320,43 +348,32 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         ..item(
             Command::TogglePane(entry.pane),
             Menu::Pane,
-            entry.title.into(),
-            entry.tooltip.into(),
+            translated(entry.title).into(),
+            translated(entry.tooltip).into(),
             switch(on_screen.contains(&entry.pane)),
         )
     });
-    let plots = PLOTS.iter().flat_map(|&pane| {
-        let title = pane.entry().title;
-        let status = only_if(on_screen.contains(&pane));
-        let export = format!("Plot {title} as SVG or PNG…");
-        let copy = format!("Copy plot {title}");
-        [
-            item(
-                Command::ChooseExport(Outgoing::Plot(pane)),
-                Menu::Export,
-                export.into(),
-                "With axes and legend, for print".into(),
-                status,
-            ),
-            item(Command::CopyPlot(pane), Menu::Edit, copy.into(), "As an image, to the clipboard".into(), status),
-        ]
-    });
-    let plots: Vec<Item> = plots.collect();
     let current = Preset::of(explorer.settings.model).map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
-        let text = format!("Model: {}", preset.name);
-        item(Command::UseModel(preset.key), Menu::None, text.into(), preset.citation.into(), switch(current == Some(preset.key)))
+        let text = tr!("Model: {}", translated(preset.name));
+        item(
+            Command::UseModel(preset.key),
+            Menu::None,
+            text.into(),
+            translated(preset.citation).into(),
+            switch(current == Some(preset.key)),
+        )
     });
     let themes = Theme::ALL.into_iter().map(|theme| {
-        let tooltip = "Colours of the window".into();
-        item(Command::SetTheme(theme), Menu::Theme, theme.name().into(), tooltip, switch(explorer.window.theme == theme))
+        let tooltip = tr!("Colours of the window").into();
+        item(Command::SetTheme(theme), Menu::Theme, translated(theme.name()).into(), tooltip, switch(explorer.window.theme == theme))
     });
     let languages = Language::ALL.into_iter().map(|language| {
-        let tooltip = "Language of the window".into();
+        let tooltip = tr!("Language of the window").into();
         item(Command::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
     });
     fixed
-        .chain(plots)
+        .chain(plots(&on_screen))
         .chain(examples)
         .chain(lessons)
         .chain(recent)

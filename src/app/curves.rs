@@ -8,6 +8,7 @@ use egui_plot::PlotPoint;
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::{Degrees, Facet};
+use tr::tr;
 
 pub use pbrdf::report::directions;
 
@@ -176,8 +177,8 @@ impl MarkSet {
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         let left_out = match (hidden, step) {
             (0, 1) => None,
-            (0, _) => Some(format!("every {step}th of {total} points is drawn")),
-            _ => Some(format!("{MOST_SERIES} of {} angles of incidence are drawn", document.series.len())),
+            (0, _) => Some(tr!("every {0}th of {1} points is drawn", step, total)),
+            _ => Some(tr!("{0} of {1} angles of incidence are drawn", MOST_SERIES, document.series.len())),
         };
         Self { series: series.collect(), left_out }
     }

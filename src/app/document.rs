@@ -1,7 +1,9 @@
 //! The measurement that is open, in the groups that it is plotted in.
 
+use crate::app::language::translated;
 use pbrdf::measurement::{Measurement, Row};
 use std::sync::Arc;
+use tr::tr;
 
 pub use pbrdf::measurement::{Mark, Series};
 
@@ -114,14 +116,15 @@ impl Document {
     /// What its metadata say about it, for a line under the plots.
     pub fn description(&self) -> String {
         let simulated = self.measurement.metadata("simulated") == Some("true");
-        let mut parts = vec![self.name.clone()];
+        let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
+        let mut parts = vec![if is_example { translated(&self.name) } else { self.name.clone() }];
         parts.extend(self.measurement.metadata("material").map(str::to_owned));
         parts.extend(self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm")));
         if simulated && !self.name.contains("simulated") {
-            parts.push("simulated".to_owned());
+            parts.push(tr!("simulated"));
         }
         let rows = self.measurement.rows.len();
-        parts.push(if self.mask.is_empty() { format!("{rows} rows") } else { format!("{rows} rows, {} masked", self.mask.len()) });
+        parts.push(if self.mask.is_empty() { tr!("{} rows", rows) } else { tr!("{0} rows, {1} masked", rows, self.mask.len()) });
         parts.join(" · ")
     }
 }

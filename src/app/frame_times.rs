@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
+use tr::tr;
 
 /// The frames of the last five seconds.
 #[derive(Debug, Default)]
@@ -24,8 +25,8 @@ impl FrameTimes {
     pub fn text(&self) -> String {
         let mut times: Vec<f32> = self.frames.iter().map(|(_, time)| 1e3 * time).collect();
         times.sort_by(f32::total_cmp);
-        let Some(last) = times.len().checked_sub(1) else { return "no frames".to_owned() };
+        let Some(last) = times.len().checked_sub(1) else { return tr!("no frames") };
         let (median, p99) = (times[last / 2], times[last * 99 / 100]);
-        format!("frames: median {median:.2} ms, p99 {p99:.2} ms of {}", times.len())
+        tr!("frames: median {0} ms, p99 {1} ms of {2}", format!("{median:.2}"), format!("{p99:.2}"), times.len())
     }
 }

@@ -2,13 +2,13 @@
 //!
 //! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
 //! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
-//! `tr!("{} rows", count)`. A text that comes out of a table goes in with a second pair of brackets: `tr!((parameter.help()))`.
+//! `tr!("{} rows", count)`. A text that comes out of a table goes through [`translated`]: `translated(parameter.help())`.
 //! Names of parameters, models and files are the same in all languages.
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::HashMap;
-use tr::Translator;
+use tr::{Translator, tr};
 
 /// A language of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,6 +66,10 @@ impl Translator for Catalogue {
             Language::English => None,
             Language::Chinese => self.chinese.get(text),
         };
+        #[cfg(test)]
+        if current() == Language::Chinese && translated.is_none() {
+            MISSED.with_borrow_mut(|missed| missed.insert(text.to_owned()));
+        }
         Cow::Borrowed(translated.map_or(text, String::as_str))
     }
 
@@ -73,6 +77,18 @@ impl Translator for Catalogue {
     fn ntranslate<'a>(&'a self, n: u64, singular: &'a str, plural: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
         self.translate(if n == 1 && current() == Language::English { singular } else { plural }, context)
     }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Texts that were looked up in vain, those out of tables among them.
+    pub static MISSED: std::cell::RefCell<std::collections::BTreeSet<String>> = const { std::cell::RefCell::new(std::collections::BTreeSet::new()) };
+}
+
+/// A text out of a table, in the language of the window.
+pub fn translated(text: &str) -> String {
+    // An empty text is the head of the catalogue.
+    if text.is_empty() { String::new() } else { tr!(text) }
 }
 
 /// Makes the catalogue known.
@@ -143,19 +159,67 @@ mod tests {
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
     }
 
-    /// The literals inside `tr!("…")` in the sources of the window.
-    fn texts() -> Vec<String> {
-        let mut texts = Vec::new();
+    #[test]
+    fn no_control_has_a_bare_text() {
+        let mut bare = Vec::new();
+        for (name, source) in sources() {
+            // What tests say nobody reads.
+            let source = source.split("mod tests {").next().unwrap_or_default();
+            for call in CALLS {
+                for (at, _) in source.match_indices(call) {
+                    let text = source[at + call.len()..].split('"').next().unwrap_or_default();
+                    // Symbols and names are the same in all languages.
+                    if text.split(|letter: char| !letter.is_ascii_alphabetic()).any(|word| word.len() > 3) {
+                        bare.push(format!("{name}: {call}{text}"));
+                    }
+                }
+            }
+        }
+        assert!(bare.is_empty(), "without tr!: {bare:#?}");
+    }
+
+    /// What shows a text: a literal right behind it is not translated.
+    const CALLS: [&str; 16] = [
+        ".label(\"",
+        ".weak(\"",
+        ".strong(\"",
+        ".heading(\"",
+        ".small(\"",
+        ".button(\"",
+        ".small_button(\"",
+        ".menu_button(\"",
+        ".hint_text(\"",
+        ".on_hover_text(\"",
+        ".on_disabled_hover_text(\"",
+        "Button::new(\"",
+        "RichText::new(\"",
+        "CollapsingHeader::new(\"",
+        ".collapsing(\"",
+        ".say(\"",
+    ];
+
+    /// The sources of the window with their names, without this file and the tests.
+    fn sources() -> Vec<(String, String)> {
+        let mut sources = Vec::new();
         let mut folders = vec![std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app")];
         while let Some(folder) = folders.pop() {
             for entry in std::fs::read_dir(folder).expect("a folder of sources") {
                 let path = entry.expect("an entry").path();
-                if path.is_dir() {
+                if path.is_dir() && !path.ends_with("tests") {
                     folders.push(path);
-                } else if !path.ends_with("language.rs") {
-                    literals(&std::fs::read_to_string(path).expect("a source file"), &mut texts);
+                } else if path.is_file() && !path.ends_with("language.rs") {
+                    sources.push((path.display().to_string(), std::fs::read_to_string(&path).expect("a source file")));
                 }
             }
+        }
+        sources
+    }
+
+    /// The literals inside `tr!("…")` in the sources of the window.
+    fn texts() -> Vec<String> {
+        let mut texts = Vec::new();
+        for (_, source) in sources() {
+            literals(&source, &mut texts);
         }
         texts.sort();
         texts.dedup();

@@ -6,6 +6,7 @@ use super::plots::Ribbon;
 use super::reports::Subject;
 use super::session::{Recipe, Session};
 use super::window::Explorer;
+use crate::app::language::translated;
 use crate::export;
 use crate::write_file::write_file;
 use egui_plot::PlotPoint;
@@ -13,6 +14,7 @@ use pbrdf::model::Pbrdf;
 use pbrdf::report::figure::{Axis, Dash, Drawn, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
 use pbrdf::report::{FitDocument, Source, write_curves, write_fitted};
 use std::path::{Path, PathBuf};
+use tr::tr;
 
 /// Something that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,7 +87,7 @@ impl Outgoing {
     pub fn taken_from(self, explorer: &Explorer) -> Result<Write, String> {
         match self {
             Self::Plot(pane) => {
-                let figure = figure(explorer, pane).ok_or("There is no plot to export.")?;
+                let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to export."))?;
                 Ok(Box::new(move |path| {
                     let kind = export::picture_kind(path).map_err(|reason| format!("{reason}."))?;
                     export::write_picture(path, kind, &figure).map_err(|error| failure(path, &error))
@@ -98,7 +100,7 @@ impl Outgoing {
                 Ok(written(move |out| write_curves(&surface, &series, backscatter, out)))
             }
             Self::Fitted => {
-                let fit = explorer.last_fit.as_ref().ok_or(NO_FIT)?;
+                let fit = explorer.last_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| format!("{error}."))?;
                 let (choices, measurement) = (*fit.problem.choices(), explorer.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.eq17, choices.dolp_only, out)))
@@ -115,7 +117,7 @@ impl Outgoing {
 const NO_FIT: &str = "There is no fit yet.";
 
 fn failure(path: &Path, error: &std::io::Error) -> String {
-    format!("{} cannot be written: {error}.", path.display())
+    tr!("{0} cannot be written: {1}.", path.display(), error)
 }
 
 fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + Send + 'static) -> Write {
@@ -123,11 +125,11 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
 }
 
 fn surface(explorer: &Explorer) -> Result<Pbrdf, String> {
-    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| format!("There are no curves: {error}."))
+    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| tr!("There are no curves: {}.", error))
 }
 
 fn report(explorer: &Explorer) -> Result<Write, String> {
-    let fit = explorer.last_fit.clone().ok_or(NO_FIT)?;
+    let fit = explorer.last_fit.clone().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
     let (measurement, document) = (explorer.document.measurement.clone(), &explorer.document);
     let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
@@ -156,8 +158,8 @@ pub fn session(explorer: &Explorer) -> Session {
 
 /// The plot of a pane as an image for the clipboard.
 pub fn image(explorer: &Explorer, pane: Pane) -> Result<egui::ColorImage, String> {
-    let figure = figure(explorer, pane).ok_or("There is no plot to copy.")?;
-    let image = figure.image(SCREEN_DPI).map_err(|error| format!("The plot cannot be drawn: {error}."))?;
+    let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to copy."))?;
+    let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", error))?;
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
 }
 

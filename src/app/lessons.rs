@@ -3,6 +3,7 @@
 use super::store;
 use pbrdf::model::{Lesson, Step};
 use std::path::Path;
+use tr::tr;
 
 /// The bundled lessons, in their order; a test sees to it that none of the folder is missing.
 const BUNDLED: [&str; 12] = [
@@ -40,7 +41,7 @@ impl Lessons {
         for path in own.map(text_files).unwrap_or_default() {
             match std::fs::read_to_string(&path).map_err(|error| error.to_string()).and_then(|text| lesson(&text)) {
                 Ok(lesson) => all.push(lesson),
-                Err(reason) => faults.push(format!("{} is no lesson: {reason}.", path.display())),
+                Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
         }
         (Self { all, open: None }, faults)

@@ -44,6 +44,7 @@ mod working;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use tr::tr;
 use window::Explorer;
 
 const TITLE: &str = "pBRDF explorer";
@@ -76,7 +77,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     quiet_until_started();
     match std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| eframe::run_native(TITLE, options, create))) {
         Ok(Ok(())) => Ok(()),
-        Ok(Err(error)) => Err(format!("The window cannot be opened: {}.", reason(&error))),
+        Ok(Err(error)) => Err(tr!("The window cannot be opened: {}.", reason(&error))),
         // winit panics where a library of X11 is missing; a panic of our own goes on.
         Err(panic) if STARTED.load(Ordering::Relaxed) => std::panic::resume_unwind(panic),
         Err(_) => Err("The window cannot be opened: a library of the window system is missing (on Debian: libxkbcommon-x11-0).".to_owned()),

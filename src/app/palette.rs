@@ -3,6 +3,7 @@
 use super::command::{self, Item, Status};
 use super::window::Explorer;
 use egui::{Key, Modifiers, Role, Ui};
+use tr::tr;
 
 /// What the palette keeps while it is open.
 #[derive(Debug, Default)]
@@ -44,9 +45,9 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
         let enter = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
 
         let field =
-            egui::TextEdit::singleline(&mut palette.filter).hint_text("Type a few letters of a command").desired_width(f32::INFINITY);
+            egui::TextEdit::singleline(&mut palette.filter).hint_text(tr!("Type a few letters of a command")).desired_width(f32::INFINITY);
         let field = ui.add(field);
-        field.widget_info(|| egui::WidgetInfo::labeled(Role::TextInput, true, "Find a command"));
+        field.widget_info(|| egui::WidgetInfo::labeled(Role::TextInput, true, tr!("Find a command")));
         field.request_focus();
         if field.changed() {
             palette.chosen = 0;
@@ -58,7 +59,7 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         }
         if items.is_empty() {
-            ui.weak("No command has these letters in this order.");
+            ui.weak(tr!("No command has these letters in this order."));
         }
         clicked.or(enter.then_some(palette.chosen))
     });
@@ -73,7 +74,7 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn row_ui(item: &Item, is_chosen: bool, ui: &mut Ui) -> bool {
     let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
-    let state = if item.status == Status::On { "on" } else { "" };
+    let state = if item.status == Status::On { tr!("on") } else { String::new() };
     let button = egui::Button::selectable(is_chosen, item.text.as_ref()).right_text(format!("{state}  {keys}"));
     let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
     ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).clicked()

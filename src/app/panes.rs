@@ -7,9 +7,11 @@ use super::command::Command;
 use super::layout::Layout;
 use super::views;
 use super::window::Explorer;
+use crate::app::language::translated;
 use egui::{Key, Ui, WidgetText};
 use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 use serde::{Deserialize, Serialize};
+use tr::tr;
 
 /// Which pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -373,7 +375,7 @@ fn is_tabs(tiles: &Tiles<Pane>, tile: TileId) -> bool {
 /// Draws the panes.
 pub fn panes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if explorer.panes.on_screen().is_empty() {
-        ui.centered_and_justified(|ui| ui.label("All panes are closed. The View menu opens them again."));
+        ui.centered_and_justified(|ui| ui.label(tr!("All panes are closed. The View menu opens them again.")));
         return;
     }
     // The panes draw from the explorer that holds their tiles.
@@ -396,12 +398,12 @@ impl Behavior<Pane> for Shown<'_> {
     }
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
-        pane.entry().title.into()
+        translated(pane.entry().title).into()
     }
 
     fn on_tab_button(&mut self, tiles: &mut Tiles<Pane>, tile: TileId, response: egui::Response) -> egui::Response {
         match tiles.get_pane(&tile) {
-            Some(pane) => response.on_hover_text(pane.entry().tooltip),
+            Some(pane) => response.on_hover_text(translated(pane.entry().tooltip)),
             None => response,
         }
     }
@@ -422,9 +424,9 @@ impl Behavior<Pane> for Shown<'_> {
         if let Some((pane, options)) = active.and_then(|pane| Some((pane, pane.entry().options?))) {
             // A switch is seldom set alone.
             let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-            let (button, _) = egui::containers::menu::MenuButton::new("Show").config(config).ui(ui, |ui| options(self.explorer, ui));
-            let name = format!("Show in {}", pane.entry().title);
-            button.on_hover_text("What this pane shows").widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            let (button, _) = egui::containers::menu::MenuButton::new(tr!("Show")).config(config).ui(ui, |ui| options(self.explorer, ui));
+            let name = tr!("Show in {}", translated(pane.entry().title));
+            button.on_hover_text(tr!("What this pane shows")).widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         }
     }
 

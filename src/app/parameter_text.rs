@@ -1,6 +1,7 @@
 //! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
 
 use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
+use tr::tr;
 
 /// All nine, with all digits.
 pub fn text(parameters: &Parameters) -> String {
@@ -11,11 +12,11 @@ pub fn text(parameters: &Parameters) -> String {
 pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
     let refuse = |reason: &str| {
         let start: String = text.trim().chars().take(40).collect();
-        format!("The pasted text {start:?} is no set of parameters such as n=2.07, k=2.9: {reason}.")
+        tr!("The pasted text {0} is no set of parameters such as n=2.07, k=2.9: {1}.", format!("{start:?}"), reason)
     };
     let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&error.to_string()))?;
     if assignments.is_empty() {
-        return Err(refuse("it is empty"));
+        return Err(refuse(&tr!("it is empty")));
     }
     let mut parameters = before;
     for (parameter, value) in assignments {

@@ -6,6 +6,7 @@ use pbrdf::measurement::{Columns, Measurement};
 use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::Geometry;
 use serde::{Deserialize, Serialize};
+use tr::tr;
 
 /// Angles from one to another in steps, in degrees; a single one where both ends are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -124,7 +125,7 @@ impl Prediction {
     pub fn of_plan(settings: &Settings, free: ParameterSet) -> Result<Self, String> {
         let (incidences, views) = settings.plan.counts();
         if incidences * views > MOST_PLANNED {
-            return Err(format!("{incidences} × {views} angles are more than the {MOST_PLANNED} points that can be planned at once."));
+            return Err(tr!("{0} × {1} angles are more than the {2} points that can be planned at once.", incidences, views, MOST_PLANNED));
         }
         Self::new(settings, free, settings.plan.geometries())
     }
@@ -133,14 +134,14 @@ impl Prediction {
     pub fn of_measurement(settings: &Settings, free: ParameterSet, measurement: &Measurement) -> Result<Self, String> {
         let used = measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
         if used.clone().count() > MOST_PLANNED {
-            return Err(format!("The open measurement has more than {MOST_PLANNED} rows."));
+            return Err(tr!("The open measurement has more than {} rows.", MOST_PLANNED));
         }
         Self::new(settings, free, used.collect())
     }
 
     fn new(settings: &Settings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
         if geometries.is_empty() {
-            return Err("There is no angle: add one of incidence and one of view.".to_owned());
+            return Err(tr!("There is no angle: add one of incidence and one of view."));
         }
         let plan = fit::Plan {
             model: settings.model,

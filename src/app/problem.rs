@@ -4,6 +4,7 @@ use super::state::Settings;
 use pbrdf::fit::{Bounds, Choices, Eq17, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, ParameterSet, Parameters};
+use tr::tr;
 
 /// The problem of fitting those parameters from the sliders.
 ///
@@ -39,8 +40,8 @@ pub fn start_in_bounds(settings: &Settings, free: ParameterSet) -> (Parameters, 
 pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
     match error {
         ProblemError::MissingSigma { row, .. } => match measurement.lines.get(*row) {
-            Some(line) => format!("line {line}: {error}"),
-            None => format!("row {}: {error}", row + 1),
+            Some(line) => tr!("line {0}: {1}", line, error),
+            None => tr!("row {0}: {1}", row + 1, error),
         },
         _ => error.to_string(),
     }

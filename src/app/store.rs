@@ -4,6 +4,7 @@ use super::language::Language;
 use super::state::{Stored, WindowSettings};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use tr::tr;
 
 /// Name of the program in the folders of the desktop.
 pub const APP: &str = "pbrdf-explorer";
@@ -30,20 +31,20 @@ pub fn load_from(path: &Path) -> (Stored, Option<String>) {
             return (Stored { window, ..Stored::default() }, None);
         }
         Err(error) => {
-            return (Stored::default(), Some(format!("The settings of the last session cannot be read ({error}); the defaults are used.")));
+            return (Stored::default(), Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", error)));
         }
         Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
             Ok(settings) if settings.are_sound() => return (settings, None),
-            Ok(_) => "a value is outside its range".to_owned(),
+            Ok(_) => tr!("a value is outside its range"),
             Err(error) => error.to_string(),
         },
     };
     let aside = path.with_extension("damaged.json");
     let kept = match std::fs::rename(path, &aside) {
-        Ok(()) => format!("it is kept as {}", aside.display()),
-        Err(error) => format!("it could not be set aside ({error})"),
+        Ok(()) => tr!("it is kept as {}", aside.display()),
+        Err(error) => tr!("it could not be set aside ({})", error),
     };
-    (Stored::default(), Some(format!("The settings file {} is damaged ({reason}); {kept}, and the defaults are used.", path.display())))
+    (Stored::default(), Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), reason, kept)))
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.

@@ -28,6 +28,7 @@ use pbrdf::report::Setting;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
+use tr::tr;
 
 /// What a step of undo brings back: everything the user sets.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,7 +154,7 @@ impl Explorer {
         let example = &EXAMPLES[0];
         match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
-            Err(error) => self.say(format!("The bundled example cannot be read: {error}.")),
+            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", error)),
         }
         self.commands.extend(file.map(Command::OpenMeasurement));
     }
@@ -256,7 +257,7 @@ impl Explorer {
                 }
             }
             Event::SessionRead { path, result } => self.session_read(&path, result),
-            Event::Saved(Ok(path)) => self.say(format!("The measurement is saved to {}.", path.display())),
+            Event::Saved(Ok(path)) => self.say(tr!("The measurement is saved to {}.", path.display())),
             Event::Saved(Err(sentence)) => self.say(sentence),
             Event::Loaded { origin, result: Ok(Arrived::Measurement(imported)) } => self.loaded(origin, *imported),
             Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => self.import = Some(Import::new(origin, foreign)),
@@ -559,11 +560,11 @@ impl Explorer {
 
     fn start_fit(&mut self) -> Result<(), String> {
         let Settings { model, parameters, choices, starts, seed, .. } = self.settings;
-        parameters.validate(model.parameters()).map_err(|error| format!("The fit cannot begin: {error}."))?;
+        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error))?;
         let measurement = &self.document.measurement;
         match problem(&self.settings, measurement, model, self.free(), choices) {
             Ok(problem) => self.worker.start_fit(problem, self.document.generation, starts, seed),
-            Err(error) => Err(format!("The fit cannot begin: {}.", reason(&error, measurement))),
+            Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }
 
@@ -623,7 +624,7 @@ impl Explorer {
         if let Some(path) = &self.settings_file
             && let Err(error) = store::save(path, &self.saved)
         {
-            let sentence = format!("The settings cannot be saved to {}: {error}.", path.display());
+            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), error);
             self.settings_file = None;
             self.say(sentence);
         }

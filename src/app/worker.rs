@@ -23,6 +23,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use tr::tr;
 
 /// What a job has come to.
 pub enum Event {
@@ -86,7 +87,7 @@ impl Opened {
         let mut text = String::new();
         let said = |reason: &dyn std::fmt::Display| format!("{}: {reason}.", path.display());
         let mut file = open_file(path).map_err(|reason| said(&reason))?;
-        file.read_to_string(&mut text).map_err(|error| said(&format!("the file cannot be read: {error}")))?;
+        file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", error)))?;
         let session = Session::read(&text).map_err(|error| said(&error))?;
         let again = |recipe: &Recipe| {
             let (report, problem) = recipe.again(session.measurement.as_ref()?)?;
@@ -177,15 +178,15 @@ pub fn ask_desktop(question: Question) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
     match question {
         Question::Open => {
-            let dialog = dialog.set_title("Open measurement").add_filter("Measurements", &["csv", "tsv", "txt", "dat", "pbsdf"]);
-            dialog.add_filter("All files", &["*"]).pick_file()
+            let dialog = dialog.set_title(tr!("Open measurement")).add_filter(tr!("Measurements"), &["csv", "tsv", "txt", "dat", "pbsdf"]);
+            dialog.add_filter(tr!("All files"), &["*"]).pick_file()
         }
-        Question::OpenSession => dialog.set_title("Open session").add_filter("Sessions", &["json"]).pick_file(),
+        Question::OpenSession => dialog.set_title(tr!("Open session")).add_filter(tr!("Sessions"), &["json"]).pick_file(),
         Question::Export(name, endings) => endings
             .iter()
-            .fold(dialog.set_title("Export").set_file_name(name), |dialog, ending| dialog.add_filter(*ending, &[*ending]))
+            .fold(dialog.set_title(tr!("Export")).set_file_name(name), |dialog, ending| dialog.add_filter(*ending, &[*ending]))
             .save_file(),
-        Question::Save(name) => dialog.set_title("Save measurement as").add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
+        Question::Save(name) => dialog.set_title(tr!("Save measurement as")).add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
     }
 }
 
@@ -249,7 +250,7 @@ impl Worker {
         };
         match std::thread::Builder::new().name(name.to_owned()).spawn(run) {
             Ok(_) => Ok(job),
-            Err(error) => Err(format!("The job cannot be started: {error}.")),
+            Err(error) => Err(tr!("The job cannot be started: {}.", error)),
         }
     }
 
@@ -331,7 +332,7 @@ impl Worker {
             let written = write_file(&path, |out| measurement::write(&measurement, out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
-                Err(error) => Err(format!("{} cannot be written: {error}.", path.display())),
+                Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), error)),
             })
         })?;
         self.save = Some(job);
@@ -553,7 +554,7 @@ impl Worker {
 pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
-    written.map_err(|error| format!("{} cannot be written: {error}.", path.display()))
+    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), error))
 }
 
 /// Tells how much is read, and stops when asked to.

@@ -8,9 +8,11 @@ use super::past_fits::PastFit;
 use super::state::Settings;
 use super::window::{Explorer, SAVE_AFTER};
 use super::worker::{Opened, save_session};
+use crate::app::language::translated;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+use tr::tr;
 
 /// What the working state depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +98,7 @@ impl Explorer {
     pub fn exported(&mut self, what: Outgoing, result: Result<PathBuf, String>) {
         match result {
             Ok(path) => {
-                self.say(format!("{} is saved to {}.", what.name(), path.display()));
+                self.say(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
                 if what == Outgoing::Session {
                     self.session_file = Some(path);
                 }
@@ -123,8 +125,8 @@ impl Explorer {
                 // The next autosave would write over it.
                 let aside = path.with_extension("damaged.json");
                 let kept = std::fs::rename(path, &aside)
-                    .map_or_else(|error| format!("it could not be set aside ({error})"), |()| format!("it is kept as {}", aside.display()));
-                self.say(format!("The state of the last time cannot be restored; {kept}. {sentence}"));
+                    .map_or_else(|error| tr!("it could not be set aside ({})", error), |()| tr!("it is kept as {}", aside.display()));
+                self.say(tr!("The state of the last time cannot be restored; {0}. {1}", kept, sentence));
             }
             Err(sentence) => {
                 self.window.forget(path);

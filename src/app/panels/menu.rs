@@ -32,23 +32,23 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let items = command::items(explorer);
     let Explorer { commands, typed_path, typed_export, typed_save_path, window, .. } = explorer;
-    ui.menu_button("Examples", |ui| items_ui(&items, Menu::Example, commands, ui));
+    ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
-        ui.menu_button("Recent", |ui| items_ui(&items, Menu::Recent, commands, ui));
+        ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, commands, ui));
     });
-    ui.menu_button("Export", |ui| {
+    ui.menu_button(tr!("Export"), |ui| {
         items_ui(&items, Menu::Export, commands, ui);
         ui.separator();
-        let label = ui.label("Or type a path first, and then choose above:");
+        let label = ui.label(tr!("Or type a path first, and then choose above:"));
         ui.add(egui::TextEdit::singleline(typed_export).desired_width(260.0)).labelled_by(label.id);
     });
-    let label = ui.label("Type a path to open and press Enter:");
+    let label = ui.label(tr!("Type a path to open and press Enter:"));
     let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
     if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
         commands.push(Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
         ui.close();
     }
-    let label = ui.label("Type a path to save to and press Enter:");
+    let label = ui.label(tr!("Type a path to save to and press Enter:"));
     let field = ui.add(egui::TextEdit::singleline(typed_save_path).desired_width(260.0)).labelled_by(label.id);
     if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_save_path.trim().is_empty() {
         commands.push(Command::SaveMeasurement(PathBuf::from(typed_save_path.trim())));
@@ -60,7 +60,7 @@ fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn view_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let items = command::items(explorer);
-    ui.weak("Panes");
+    ui.weak(tr!("Panes"));
     items_ui(&items, Menu::Pane, &mut explorer.commands, ui);
     ui.separator();
     items_ui(&items, Menu::View, &mut explorer.commands, ui);

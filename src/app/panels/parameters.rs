@@ -1,12 +1,14 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
+use crate::app::language::translated;
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
+use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
 use std::cell::RefCell;
+use tr::tr;
 
 pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { settings, notice, .. } = explorer;
@@ -20,7 +22,7 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
         volume_ui(settings, notice, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
-        if ui.button("Reset all parameters").on_hover_text("All nine parameters to their defaults").clicked() {
+        if ui.button(tr!("Reset all parameters")).on_hover_text(tr!("All nine parameters to their defaults")).clicked() {
             settings.parameters = Parameters::default();
         }
     });
@@ -30,26 +32,33 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
 fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
     let current = Preset::of(settings.model);
     ui.horizontal(|ui| {
-        let label = ui.label("Model");
-        let combo =
-            egui::ComboBox::from_id_salt("preset").width(288.0).selected_text(current.map_or("as switched below", |preset| preset.name));
+        let label = ui.label(tr!("Model"));
+        let combo = egui::ComboBox::from_id_salt("preset")
+            .width(288.0)
+            .selected_text(current.map_or_else(|| tr!("as switched below"), |preset| translated(preset.name)));
         let response = combo.show_ui(ui, |ui| {
             for preset in &PRESETS {
                 let chosen = current.is_some_and(|current| current.key == preset.key);
-                if ui.selectable_label(chosen, preset.name).on_hover_text(preset.citation).clicked() {
+                if ui.selectable_label(chosen, translated(preset.name)).on_hover_text(translated(preset.citation)).clicked() {
                     settings.model = preset.model;
                 }
             }
         });
-        response.response.labelled_by(label.id).on_hover_text(current.map_or("a set of terms without a name", |preset| preset.citation));
+        response
+            .response
+            .labelled_by(label.id)
+            .on_hover_text(current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
     });
 }
 
 fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.show_bounds, "Bounds of fits")
-            .on_hover_text("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range");
-        if !settings.bounds.is_empty() && ui.button("Reset bounds").on_hover_text("All bounds back to the sliders' ranges").clicked() {
+        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_text(tr!(
+            "Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"
+        ));
+        if !settings.bounds.is_empty()
+            && ui.button(tr!("Reset bounds")).on_hover_text(tr!("All bounds back to the sliders' ranges")).clicked()
+        {
             settings.bounds.clear();
         }
     });
@@ -57,18 +66,18 @@ fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
 
 fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.model.specular, "Specular lobe")
-            .on_hover_text("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises");
+        ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
+            .on_hover_text(tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
     });
     if settings.model.specular {
         ui.horizontal(|ui| {
-            for (distribution, name) in [(SlopeDistribution::Gauss, "Gauss"), (SlopeDistribution::Cauchy, "Cauchy")] {
+            for (distribution, name) in [(SlopeDistribution::Gauss, tr!("Gauss")), (SlopeDistribution::Cauchy, tr!("Cauchy"))] {
                 ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_text(match distribution {
-                    SlopeDistribution::Gauss => "Gaussian facet slopes, Eq. (5): Beckmann",
-                    SlopeDistribution::Cauchy => "Hyper-Cauchy facet slopes, Eq. (7): q = 2 is GGX",
+                    SlopeDistribution::Gauss => tr!("Gaussian facet slopes, Eq. (5): Beckmann"),
+                    SlopeDistribution::Cauchy => tr!("Hyper-Cauchy facet slopes, Eq. (7): q = 2 is GGX"),
                 });
             }
-            ui.checkbox(&mut settings.model.masking, "Masking").on_hover_text("V-groove masking–shadowing, Eq. (6)");
+            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_text(tr!("V-groove masking–shadowing, Eq. (6)"));
         });
         let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
         if settings.model.distribution == SlopeDistribution::Cauchy {
@@ -81,16 +90,17 @@ fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui
 
 fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
-    let switch = ui.checkbox(&mut present, "Diffuse lobe").on_hover_text("Minnaert, Eq. (12), or one of its relatives: depolarises");
+    let switch =
+        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_text(tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
     if switch.changed() {
         settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
     }
     if present {
         ui.horizontal(|ui| {
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, "Minnaert").on_hover_text("(cos θi cos θr)^c / π");
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, "Lambert").on_hover_text("1/π in all directions: c = 0");
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, "Hyde")
-                .on_hover_text("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_text("(cos θi cos θr)^c / π");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_text(tr!("1/π in all directions: c = 0"));
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
+                .on_hover_text(tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
         });
         let shown: &[Parameter] = match settings.model.diffuse {
             Diffuse::Absent | Diffuse::Hyde => &[],
@@ -103,8 +113,8 @@ fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui)
 }
 
 fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
-    ui.checkbox(&mut settings.model.volume, "Volume lobe")
-        .on_hover_text("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal");
+    ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
+        .on_hover_text(tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
     if settings.model.volume {
         sliders_ui(settings, notice, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
@@ -112,21 +122,21 @@ fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) 
 }
 
 fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
-    ui.strong("Lobes are seen at");
+    ui.strong(tr!("Lobes are seen at"));
     Grid::new("geometry").num_columns(3).show(ui, |ui| {
         let defaults = Settings::default();
-        let angles: [(&mut f64, f64, std::ops::RangeInclusive<f64>, &str, &str); 2] = [
-            (&mut settings.theta_i, defaults.theta_i, 0.0..=89.9, "θi", "Angle of incidence of the lobes, degrees"),
+        let angles: [(&mut f64, f64, std::ops::RangeInclusive<f64>, &str, String); 2] = [
+            (&mut settings.theta_i, defaults.theta_i, 0.0..=89.9, "θi", tr!("Angle of incidence of the lobes, degrees")),
             (
                 &mut settings.dphi,
                 defaults.dphi,
                 0.0..=360.0,
                 "Δφ",
-                "Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence",
+                tr!("Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence"),
             ),
         ];
         for (angle, default, range, name, help) in angles {
-            let label = name_ui(ui, name, help);
+            let label = name_ui(ui, name, &help);
             let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
             let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help);
             if is_double_clicked(ui, &[&label, &slider]) {
@@ -168,11 +178,11 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui,
 fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
     let range = parameter.range();
     let outside = !range.contains(&settings.parameters[parameter]);
-    let help = format!(
-        "{} {}: {}\nSlider from {} to {}; a double click resets it, arrow keys step it.",
-        parameter.name(),
+    let help = tr!(
+        "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it.",
+        translated(parameter.name()),
         parameter.symbol(),
-        parameter.help(),
+        translated(parameter.help()),
         range.start(),
         range.end()
     );
@@ -192,7 +202,9 @@ fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
     let domain = parameter.domain();
     let speed = (0.005 * value.abs()).max(1e-4);
     let refused = RefCell::new(None);
-    let refuse = |found: &str| *refused.borrow_mut() = Some(format!("{}: found {found:?}, expected {domain}.", parameter.symbol()));
+    let refuse = |found: &str| {
+        *refused.borrow_mut() = Some(tr!("{0}: found {1}, expected {2}.", parameter.symbol(), format!("{found:?}"), domain_text(domain)));
+    };
     let typed = DragValue::from_get_set(|new| {
         match new {
             // Text as it was shown means the value as it was, with all its digits.
@@ -218,30 +230,30 @@ fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
     )
     .labelled_by(label.id)
     .on_hover_text(if outside {
-        format!("outside the slider's range {} to {}", range.start(), range.end())
+        tr!("outside the slider's range {0} to {1}", range.start(), range.end())
     } else {
-        format!("type a value: {domain}")
+        tr!("type a value: {}", domain_text(domain))
     });
 
     if let Some(sentence) = refused.into_inner() {
         *notice = Some(sentence);
     }
     let mut locked = settings.locked.contains(parameter);
-    let lock = ui.checkbox(&mut locked, "fixed").on_hover_text(format!("{} stays as it is in a fit", parameter.symbol()));
-    lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, format!("Fix {}", parameter.key())));
+    let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_text(tr!("{} stays as it is in a fit", parameter.symbol()));
+    lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
     if lock.changed() {
         settings.locked = if locked { settings.locked.with(parameter) } else { settings.locked.without(parameter) };
     }
 
     let is_default = settings.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
-    let text = egui::RichText::new(if outside { "outside" } else { "reset" }).color(color);
-    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(format!(
-        "back to {}{}",
-        parameter.default_value(),
-        if outside { ": the value is outside the slider's range" } else { "" }
-    ));
-    reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, format!("Reset {}", parameter.key())));
+    let text = egui::RichText::new(if outside { tr!("outside") } else { tr!("reset") }).color(color);
+    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(if outside {
+        tr!("back to {}: the value is outside the slider's range", parameter.default_value())
+    } else {
+        tr!("back to {}", parameter.default_value())
+    });
+    reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, tr!("Reset {}", parameter.key())));
     if reset.clicked() {
         settings.parameters[parameter] = parameter.default_value();
     }
@@ -255,12 +267,13 @@ fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
     let mut wanted = (low, high);
     let refused = RefCell::new(None);
     ui.label("");
-    for (value, name, sign) in [(&mut wanted.0, "Lower bound", "≥ "), (&mut wanted.1, "Upper bound", "≤ ")] {
+    for (value, name, sign) in [(&mut wanted.0, tr!("Lower bound"), "≥ "), (&mut wanted.1, tr!("Upper bound"), "≤ ")] {
         let before = *value;
         let parse = |text: &str| {
             let parsed = number_from_text(text.trim().trim_start_matches(sign.trim()), parameter.unit());
             if parsed.is_none() {
-                *refused.borrow_mut() = Some(format!("{name} of {}: found {text:?}, expected a number.", parameter.symbol()));
+                *refused.borrow_mut() =
+                    Some(tr!("{0} of {1}: found {2}, expected a number.", name, parameter.symbol(), format!("{text:?}")));
             }
             parsed
         };
@@ -279,22 +292,31 @@ fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
                 ui.add_sized([92.0, 18.0], field.update_while_editing(false).prefix(sign))
             })
             .inner;
-        response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} of {}", parameter.key())));
-        response.on_hover_text(format!("{name} of {} in fits: {}", parameter.symbol(), parameter.domain()));
+        response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("{0} of {1}", name, parameter.key())));
+        response.on_hover_text(tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
     }
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
     {
-        *notice = Some(format!("The bounds stay as they are: {error}."));
+        *notice = Some(tr!("The bounds stay as they are: {}.", error));
     }
     if let Some(sentence) = refused.into_inner() {
         *notice = Some(sentence);
     }
     ui.label("");
-    let reset = ui.add_enabled(own, egui::Button::new("reset")).on_hover_text("back to the slider's range");
-    reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, format!("Reset bounds of {}", parameter.key())));
+    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_text(tr!("back to the slider's range"));
+    reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         settings.reset_bounds(parameter);
+    }
+}
+
+/// What values a parameter can have, in the language of the window.
+fn domain_text(domain: Domain) -> String {
+    match domain {
+        Domain::From(low) => tr!("a finite number ≥ {}", low),
+        Domain::Above(low) => tr!("a finite number > {}", low),
+        Domain::Finite => tr!("a finite number"),
     }
 }
 

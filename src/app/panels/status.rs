@@ -3,20 +3,21 @@
 use crate::app::command::Command;
 use crate::app::theme;
 use crate::app::window::Explorer;
+use tr::tr;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     let Explorer { derived, document, worker, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
-        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(
-            "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both.",
-        );
+        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(tr!(
+            "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both."
+        ));
         ui.separator();
         if let Some(job) = &worker.load {
             let done = job.progress().unwrap_or(0.0);
             #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
-            ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text("Reading…"));
-            if ui.button("Cancel reading").clicked() {
+            ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text(tr!("Reading…")));
+            if ui.button(tr!("Cancel reading")).clicked() {
                 commands.push(Command::CancelLoading);
             }
             ui.separator();
@@ -35,7 +36,7 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
 
 /// ΔE as a label.
 pub fn delta_e_text(delta_e: Option<f64>) -> String {
-    delta_e.map_or_else(|| "ΔE not defined".to_owned(), |value| format!("ΔE = {value:.4e}"))
+    delta_e.map_or_else(|| tr!("ΔE not defined"), |value| format!("ΔE = {value:.4e}"))
 }
 
 /// What went wrong, until it is dismissed.
@@ -44,7 +45,7 @@ pub fn notice_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     let color = theme::warning(ui.visuals().dark_mode);
     egui::Frame::new().stroke(egui::Stroke::new(1.0, color)).inner_margin(6).corner_radius(4).show(ui, |ui| {
         ui.horizontal(|ui| {
-            if ui.button("Dismiss").clicked() {
+            if ui.button(tr!("Dismiss")).clicked() {
                 explorer.commands.push(Command::DismissNotice);
             }
             ui.add(egui::Label::new(notice.as_str()).wrap());
@@ -55,6 +56,6 @@ pub fn notice_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
 /// Why there is no curve.
 pub fn fault_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     if let Some(fault) = explorer.derived.fault() {
-        ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("There is no curve: {fault}"));
+        ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("There is no curve: {}", fault));
     }
 }

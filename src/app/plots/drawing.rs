@@ -3,12 +3,12 @@
 use super::axis::{self, axis, decimal, logarithmic};
 use super::{Axes, Range, curve, plot};
 use crate::app::curves::{Pieces, pieces};
+use crate::app::language::translated;
 use crate::app::theme;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{TextStyle, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine};
 use pbrdf::report::figure::{self, Dash, Drawn, Figure, Panel, Scale};
-use tr::tr;
 
 /// A figure, its panels side by side.
 pub struct Drawing {
@@ -79,7 +79,7 @@ impl DrawnAxis {
 
     fn label(&self) -> String {
         let title = self.title.as_str();
-        tr!(title)
+        translated(title)
     }
 
     fn title(&self) -> String {
@@ -162,7 +162,7 @@ impl DrawnPanel {
                 let mut text = LayoutJob::default();
                 let font = TextStyle::Small.resolve(ui.style());
                 text.append("● ", 0.0, TextFormat::simple(font.clone(), theme::series(*color, dark)));
-                text.append(&tr!(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
+                text.append(&translated(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
                 // A name is not torn at the end of a line.
                 ui.add(egui::Label::new(text).extend());
             }
@@ -197,7 +197,7 @@ impl Item {
     fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool) {
         let color = theme::series(self.color, dark);
         let name = self.name.as_str();
-        let name = tr!(name);
+        let name = translated(name);
         match &self.kind {
             Kind::Line(pieces, style) => curve(plot, pieces, &name, color, *style, 1.5),
             Kind::Points(pieces) => {

@@ -5,6 +5,7 @@ use crate::app::curves::Marks;
 use crate::app::theme;
 use egui::Color32;
 use egui_plot::{MarkerShape, PlotPoints, PlotUi, Points};
+use tr::tr;
 
 /// Points with their error bars, masked ones hollow and grey.
 pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, name: &str, color: Color32, dark: bool) {
@@ -15,7 +16,7 @@ pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, name: &str, color: 
         plot.points(Points::new(name.to_owned(), PlotPoints::Borrowed(&marks.used)).color(color).radius(3.0));
     }
     if !marks.masked.is_empty() {
-        let points = Points::new("masked", PlotPoints::Borrowed(&marks.masked)).color(theme::muted(dark)).radius(3.0);
+        let points = Points::new(tr!("masked"), PlotPoints::Borrowed(&marks.masked)).color(theme::muted(dark)).radius(3.0);
         plot.points(points.shape(MarkerShape::Circle).filled(false));
     }
 }

@@ -2,6 +2,7 @@
 
 use egui::Color32;
 use egui_plot::{FilledArea, PlotUi};
+use tr::tr;
 
 /// A band without gaps.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,7 +30,7 @@ const OPACITY: f32 = 0.2;
 /// A curve's band in its pieces, under one name for all bands.
 pub fn ribbons_in(plot: &mut PlotUi<'_>, ribbons: &[Ribbon], color: Color32) {
     for ribbon in ribbons {
-        let area = FilledArea::new("± 1 standard error", &ribbon.x, &ribbon.low, &ribbon.high);
+        let area = FilledArea::new(tr!("± 1 standard error"), &ribbon.x, &ribbon.low, &ribbon.high);
         plot.add(area.fill_color(color.gamma_multiply(OPACITY)).allow_hover(false));
     }
 }

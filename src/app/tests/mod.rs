@@ -7,6 +7,7 @@ mod fitting;
 mod hemisphere;
 mod imports;
 mod landscape;
+mod languages;
 mod leaving;
 mod lessons;
 mod masks;

@@ -1,6 +1,7 @@
 //! What the physics says of the sliders' surface: each check with its number and verdict, and the reflectance against θi.
 
 use crate::app::curves::{Pieces, pieces};
+use crate::app::language::translated;
 use crate::app::latest_job::LatestJob;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
@@ -175,7 +176,7 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
                 _ => _ = ui.label(place(finding)),
             });
             let why = finding.why();
-            ui.add(Label::new(tr!(why)).wrap());
+            ui.add(Label::new(translated(why)).wrap());
         });
     }
 }

@@ -1,6 +1,7 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::panels::significant;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -9,6 +10,7 @@ use crate::app::worker::{Job, Rung};
 use egui::{CollapsingHeader, Grid, ScrollArea, Ui};
 use pbrdf::fit::{Contest, FitReport, Standing};
 use pbrdf::model::Parameter;
+use tr::tr;
 
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
 const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
@@ -17,21 +19,22 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { comparison, worker, commands, settings, .. } = explorer;
     let running = worker.comparison.as_ref().map(Job::progress);
     ui.horizontal(|ui| {
-        let compare = ui.add_enabled(running.is_none(), egui::Button::new("Fit all models"));
-        if compare.on_hover_text("Fit the whole ladder of models to this measurement, with the options and bounds of a fit").clicked() {
+        let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
+        if compare.on_hover_text(tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit")).clicked()
+        {
             commands.push(Command::CompareModels);
         }
         if let Some(at) = running {
-            if ui.button("Stop comparing").clicked() {
+            if ui.button(tr!("Stop comparing")).clicked() {
                 commands.push(Command::CancelComparison);
             }
             ui.spinner();
-            ui.label(format!("Fitting: {}", at.unwrap_or("…")));
+            ui.label(tr!("Fitting: {}", at.unwrap_or("…")));
         }
     });
     if comparison.is_empty() {
         if running.is_none() {
-            ui.label("Nothing is compared yet.");
+            ui.label(tr!("Nothing is compared yet."));
         }
         return;
     }
@@ -41,13 +44,13 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
         for sentence in verdicts(comparison) {
             ui.label(sentence);
         }
-        CollapsingHeader::new("Starts and where they led").show(ui, |ui| starts_ui(comparison, ui));
+        CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
     });
 }
 
 fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
-    ui.weak("A click on a model takes its terms and values to the sliders.");
+    ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         for (heading, help) in [
             ("model", ""),
@@ -58,22 +61,22 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
             ("evaluations", "Of the residuals, all starts together"),
             ("time / ms", "All starts together"),
         ] {
-            ui.strong(heading).on_hover_text(help);
+            ui.strong(translated(heading)).on_hover_text(translated(help));
         }
         for parameter in Parameter::ALL {
-            ui.strong(parameter.symbol()).on_hover_text(parameter.name());
+            ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
         }
         ui.end_row();
         for (index, rung) in comparison.iter().enumerate() {
             let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
-            let help = format!("{}\n{}", rung.preset.name, rung.preset.citation);
+            let help = format!("{}\n{}", translated(rung.preset.name), translated(rung.preset.citation));
             if ui.selectable_label(is_current, rung.preset.key).on_hover_text(help).clicked() {
                 commands.push(Command::UseRung(index));
             }
             match &rung.result {
                 Ok(report) => model_ui(report, best, ui),
                 Err(reason) => {
-                    ui.colored_label(theme::warning(ui.visuals().dark_mode), format!("skipped: {reason}"));
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
             }
             ui.end_row();
@@ -85,12 +88,12 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
-    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.text());
+    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(translated(report.stop_reason.text()));
     ui.monospace(number(reduced, |value| format!("{value:.3}")));
     ui.monospace(number(report.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
     let reached = report.minima.first().map_or(0, |minimum| minimum.reached);
-    ui.monospace(format!("{reached} of {starts}"));
+    ui.monospace(tr!("{} of {}", reached, starts));
     ui.monospace(report.evaluations.to_string());
     ui.monospace(format!("{:.1}", report.elapsed_ms));
     for parameter in Parameter::ALL {
@@ -101,11 +104,11 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
         };
         let value = significant(estimate.value);
         let text = match estimate.standing() {
-            Standing::Fixed => format!("{value} fixed"),
-            Standing::AtBound(_) => format!("{value} at bound"),
+            Standing::Fixed => tr!("{} fixed", value),
+            Standing::AtBound(_) => tr!("{} at bound", value),
             Standing::Determined(error) => format!("{value} ± {}", words::short(error)),
-            Standing::NoFreedom => format!("{value} no d.o.f."),
-            Standing::Open => format!("{value} open"),
+            Standing::NoFreedom => tr!("{} no d.o.f.", value),
+            Standing::Open => tr!("{} open", value),
         };
         ui.monospace(text);
     }
@@ -114,7 +117,7 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
 fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
     Grid::new("starts").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         for heading in ["model", "ΔE", "reached", "stop"] {
-            ui.strong(heading);
+            ui.strong(translated(heading));
         }
         ui.end_row();
         for rung in comparison {
@@ -123,7 +126,7 @@ fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
                 ui.label(if i == 0 { rung.preset.key } else { "" });
                 ui.monospace(format!("{:.6e}", minimum.objective));
                 ui.label(format!("{} ×", minimum.reached));
-                ui.label(minimum.stop_reason.text());
+                ui.label(translated(minimum.stop_reason.text()));
                 ui.end_row();
             }
         }
@@ -138,7 +141,7 @@ fn verdicts(comparison: &[Rung]) -> Vec<String> {
     let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
         let contest = Contest::new(report(gauss)?, report(cauchy)?)?;
-        Some(format!("Cauchy against Gauss ({terms}): {}", contest.text()))
+        Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), contest.text()))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

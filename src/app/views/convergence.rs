@@ -1,6 +1,7 @@
 //! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or time.
 
 use crate::app::curves::{Pieces, pieces};
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::past_fits::PastFit;
 use crate::app::plots::axis::{self, axis, decimal, logarithmic};
@@ -11,6 +12,7 @@ use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
 use pbrdf::fit::TracePoint;
 use std::rc::Rc;
+use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -82,30 +84,31 @@ pub fn convergence_refresh(explorer: &mut Explorer) {
 /// What is drawn in the pane.
 pub fn convergence_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let by_time = &mut explorer.settings.shown.convergence_by_time;
-    ui.radio_value(by_time, false, "Against evaluations").on_hover_text("Evaluations of the residuals, the same on every machine");
-    ui.radio_value(by_time, true, "Against time").on_hover_text("Milliseconds since the fit began, all its starts included");
+    ui.radio_value(by_time, false, tr!("Against evaluations"))
+        .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
+    ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
 }
 
 pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { last_fit, settings, views, .. } = explorer;
     let view = &mut views.convergence;
     let (Some(fit), Some(way)) = (last_fit, view.way.get()) else {
-        ui.label("There is no fit yet: press Fit, and its way down is drawn here.");
+        ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));
         return;
     };
     if way.points.is_empty() {
-        ui.label("The fit made no step: ΔE of its start was the best.");
+        ui.label(tr!("The fit made no step: ΔE of its start was the best."));
         return;
     }
     let report = &fit.report;
-    ui.weak(format!(
-        "Winning start of {}; {}",
+    ui.weak(tr!(
+        "Winning start of {0}; {1}",
         report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(),
-        report.stop_reason.text()
+        translated(report.stop_reason.text())
     ));
     let dark = ui.visuals().dark_mode;
-    let title = if settings.shown.convergence_by_time { "time / ms" } else { "residual evaluations" };
-    let x = axis(AxisHints::new_x(), ui, title, decimal).min_thickness(40.0);
+    let title = if settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
+    let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "ΔE", logarithmic);
     let response = plot("convergence", ui, ui.available_height(), x, y)
         .y_grid_spacer(|input| axis::decades(&input, 5.0))

@@ -1,6 +1,7 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
 use super::report::{Heading, pages_ui, run_ui, table_ui};
+use crate::app::language::translated;
 use crate::app::reports::Subject;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -44,7 +45,7 @@ pub fn cost_ui(explorer: &mut Explorer, ui: &mut Ui) {
             None if column == 3 => bar_ui(row, ends, ui),
             None => {
                 let kernel = row.kernel;
-                _ = ui.label(tr!(kernel));
+                _ = ui.label(translated(kernel));
             }
         }
     };

@@ -6,6 +6,7 @@ use super::residuals::{self, Residuals};
 use crate::app::band::{BandKey, Ribbons, band_key, dolp_bands};
 use crate::app::curves::{BrdfScale, Curves, Pieces, axis_values, drawn};
 use crate::app::document::Document;
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
 use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, legend, marks_in, plot, ribbons_in, round_up};
@@ -17,6 +18,7 @@ use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
+use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -108,22 +110,24 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
 /// What is drawn in the pane.
 pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let shown = &mut explorer.settings.shown;
-    ui.checkbox(&mut shown.share, "Specular share")
-        .on_hover_text("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share");
+    ui.checkbox(&mut shown.share, tr!("Specular share"))
+        .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
     ui.separator();
-    ui.label("The other distribution");
+    ui.label(tr!("The other distribution"));
     for (overlay, name, help) in [
-        (Overlay::Absent, "not shown", "Only the distribution of the model"),
-        (Overlay::EqualSigma, "with equal σ", "The same σ, which is not the same width: compare shapes with equal median slope"),
-        (Overlay::EqualMedian, "with equal median slope", "σ such that half of the facets stay below the same slope"),
+        (Overlay::Absent, tr!("not shown"), tr!("Only the distribution of the model")),
+        (Overlay::EqualSigma, tr!("with equal σ"), tr!("The same σ, which is not the same width: compare shapes with equal median slope")),
+        (Overlay::EqualMedian, tr!("with equal median slope"), tr!("σ such that half of the facets stay below the same slope")),
     ] {
         ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
     }
     ui.separator();
-    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
-    ui.checkbox(&mut explorer.settings.show_limit, "Fresnel limit")
-        .on_hover_text("DoLP without any depolarising term: no point can lie above it");
-    ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
+    ui.checkbox(&mut explorer.settings.show_band, tr!("Confidence band"))
+        .on_hover_text(tr!("One standard error of the fitted curve to either side"));
+    ui.checkbox(&mut explorer.settings.show_limit, tr!("Fresnel limit"))
+        .on_hover_text(tr!("DoLP without any depolarising term: no point can lie above it"));
+    ui.checkbox(&mut explorer.settings.show_backscatter, tr!("Backscatter side"))
+        .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
 fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
@@ -131,12 +135,12 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;
-    let own_name = format!("θi = {}° (slider)", settings.theta_i);
+    let own_name = tr!("θi = {}° (slider)", settings.theta_i);
     let other_name = match (another(settings.model.distribution), settings.shown.overlay) {
-        (SlopeDistribution::Gauss, Overlay::EqualMedian) => "Gauss, equal median slope",
-        (SlopeDistribution::Gauss, _) => "Gauss, equal σ",
-        (SlopeDistribution::Cauchy, Overlay::EqualMedian) => "Cauchy, equal median slope",
-        (SlopeDistribution::Cauchy, _) => "Cauchy, equal σ",
+        (SlopeDistribution::Gauss, Overlay::EqualMedian) => tr!("Gauss, equal median slope"),
+        (SlopeDistribution::Gauss, _) => tr!("Gauss, equal σ"),
+        (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),
+        (SlopeDistribution::Cauchy, _) => tr!("Cauchy, equal σ"),
     };
     let dashed = Some(LineStyle::dashed_dense());
     let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
@@ -146,7 +150,7 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         .legend(legend())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}\n{MASK_HINT}", position.x, position.y))
+                Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}\n{}", position.x, position.y, translated(MASK_HINT)))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
@@ -157,25 +161,25 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
             if settings.show_limit {
                 for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.limit, "Fresnel limit", theme::series(i, dark), dashed, 1.0);
+                    curve(plot, &curves.limit, &tr!("Fresnel limit"), theme::series(i, dark), dashed, 1.0);
                 }
                 if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.limit, "Fresnel limit", theme::foreground(dark), dashed, 1.0);
+                    curve(plot, &curves.own.limit, &tr!("Fresnel limit"), theme::foreground(dark), dashed, 1.0);
                 }
             }
             if settings.shown.share {
                 for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.share, "specular share", theme::series(i, dark).gamma_multiply(0.65), None, 1.0);
+                    curve(plot, &curves.share, &tr!("specular share"), theme::series(i, dark).gamma_multiply(0.65), None, 1.0);
                 }
                 if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.share, "specular share", theme::foreground(dark).gamma_multiply(0.65), None, 1.0);
+                    curve(plot, &curves.own.share, &tr!("specular share"), theme::foreground(dark).gamma_multiply(0.65), None, 1.0);
                 }
             }
             for (i, pieces) in view.overlay.get().into_iter().flatten().enumerate() {
-                curve(plot, pieces, other_name, theme::series(i, dark), Some(LineStyle::dotted_loose()), 2.0);
+                curve(plot, pieces, &other_name, theme::series(i, dark), Some(LineStyle::dotted_loose()), 2.0);
             }
             for (i, pieces) in view.ghost.get().into_iter().flatten().enumerate() {
-                curve(plot, pieces, "last fit", theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
+                curve(plot, pieces, &tr!("last fit"), theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
             }
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
                 let color = theme::series(i, dark);

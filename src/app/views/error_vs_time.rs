@@ -1,6 +1,7 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
 
 use super::report::{Heading, pages_ui, run_ui, table_ui};
+use crate::app::language::translated;
 use crate::app::reports::Subject;
 use crate::app::window::Explorer;
 use crate::app::words::short;
@@ -34,7 +35,7 @@ pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
             let (row, cells) = (&rows[row], &shown.cells[row]);
             let task = row.task.key();
             match column {
-                0 => ui.label(tr!(task)),
+                0 => ui.label(translated(task)),
                 1 => ui.label(row.short_method()).on_hover_text(&row.method),
                 2 => ui.label(match row.task {
                     TaskKind::Evaluate => format!("{} ns", short(row.time)),
@@ -50,7 +51,7 @@ pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
     let Some(drawing) = shown.drawings.get_mut(shown.page - 1) else { return };
     let title = drawing.title.as_str();
-    ui.label(tr!(title));
+    ui.label(translated(title));
     drawing.panels.iter().for_each(|panel| panel.legend_ui(ui));
     let height = ui.available_height();
     let count = drawing.panels.len().max(1);

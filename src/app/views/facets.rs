@@ -143,15 +143,16 @@ fn masking(theta_i: f64, dphi: f64) -> Pieces {
 /// What is drawn in the pane.
 pub fn facets_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let shown = &mut explorer.settings.shown;
-    ui.checkbox(&mut shown.facets_log, "Logarithmic densities").on_hover_text("Shows the tails, which q sets");
-    ui.checkbox(&mut shown.facets_equal_median, "Equal median slope")
-        .on_hover_text("The distribution that the model does not have is drawn with the median slope of the other, not with the same σ");
+    ui.checkbox(&mut shown.facets_log, tr!("Logarithmic densities")).on_hover_text(tr!("Shows the tails, which q sets"));
+    ui.checkbox(&mut shown.facets_equal_median, tr!("Equal median slope")).on_hover_text(tr!(
+        "The distribution that the model does not have is drawn with the median slope of the other, not with the same σ"
+    ));
 }
 
-fn name(distribution: SlopeDistribution) -> &'static str {
+fn name(distribution: SlopeDistribution) -> String {
     match distribution {
-        SlopeDistribution::Gauss => "Gauss",
-        SlopeDistribution::Cauchy => "Cauchy",
+        SlopeDistribution::Gauss => tr!("Gauss"),
+        SlopeDistribution::Cauchy => tr!("Cauchy"),
     }
 }
 
@@ -194,7 +195,7 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     widths_ui(densities, ui);
     let height = (height - (ui.cursor().top() - top)).max(60.0);
     let x = axis(AxisHints::new_x(), ui, "α / °", decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "density / (1/sr)", if log { power_of_ten } else { decimal });
+    let y = axis(AxisHints::new_y(), ui, &tr!("density / (1/sr)"), if log { power_of_ten } else { decimal });
     let response = plot("facet densities", ui, height, x, y)
         .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
         .legend(legend().position(egui_plot::Corner::RightTop))
@@ -228,7 +229,7 @@ fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let view = &mut views.facets;
     let Some(masking) = view.masking.get() else { return };
     let dark = ui.visuals().dark_mode;
-    let title = format!("θr / °  at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi);
+    let title = tr!("θr / °  at θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
     let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "G", decimal);
     let response = plot("masking", ui, height, x, y)
@@ -241,7 +242,7 @@ fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             view.masking_axes.apply(plot, Some(Range { low: -90.0, high: 90.0 }), Some(Range { low: 0.0, high: 1.05 }));
             // Without masking, the model has G = 1 everywhere.
             let color = if settings.model.masking { theme::foreground(dark) } else { theme::muted(dark) };
-            curve(plot, masking, "masking–shadowing G", color, None, 2.0);
+            curve(plot, masking, &tr!("masking–shadowing G"), color, None, 2.0);
         });
     view.masking_axes.listen(&response, ui);
 }

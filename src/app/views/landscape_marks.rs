@@ -2,6 +2,7 @@
 
 use super::landscape::coordinate;
 use crate::app::document::Document;
+use crate::app::language::translated;
 use crate::app::past_fits::{PastFit, PastFits};
 use crate::app::state::{OverTwo, Settings};
 use egui::{Align2, Color32, Rect, RichText};
@@ -120,7 +121,7 @@ fn metals(key: &MarksKey) -> (Noted, Vec<(PlotPoint, &'static str)>) {
             }
             noted.push(Some(point), || {
                 let name = metal.name.as_str();
-                format!("{}, {}\nn = {:.4}, k = {:.4}", tr!(name), source.name, index.n(), index.k_m())
+                format!("{}, {}\nn = {:.4}, k = {:.4}", translated(name), source.name, index.n(), index.k_m())
             });
             if !is_named {
                 names.push((point, metal.key.as_str()));

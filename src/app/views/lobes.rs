@@ -2,6 +2,7 @@
 
 use crate::app::band::{BandKey, Ribbons, band_key, brdf_bands};
 use crate::app::curves::{BrdfScale, DECADES, axis_values};
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
 use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, filled, legend, marks_in, plot, ribbons_in, round_up};
@@ -9,6 +10,7 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition};
+use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -56,12 +58,14 @@ pub fn lobes_refresh(explorer: &mut Explorer) {
 
 /// What is drawn in the pane.
 pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    ui.checkbox(&mut explorer.settings.log_brdf, "Logarithmic BRDF");
-    ui.checkbox(&mut explorer.settings.shown.filled, "Filled lobes").on_hover_text("Each term filled down to the axis");
-    ui.checkbox(&mut explorer.settings.shown.times_cosine, "Times cos θr")
-        .on_hover_text("BRDF × cos θr: its integral over all directions is the reflectance");
-    ui.checkbox(&mut explorer.settings.show_band, "Confidence band").on_hover_text("One standard error of the fitted curve to either side");
-    ui.checkbox(&mut explorer.settings.show_backscatter, "Backscatter side").on_hover_text("Negative θr, also where nothing was measured");
+    ui.checkbox(&mut explorer.settings.log_brdf, tr!("Logarithmic BRDF"));
+    ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
+    ui.checkbox(&mut explorer.settings.shown.times_cosine, tr!("Times cos θr"))
+        .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
+    ui.checkbox(&mut explorer.settings.show_band, tr!("Confidence band"))
+        .on_hover_text(tr!("One standard error of the fitted curve to either side"));
+    ui.checkbox(&mut explorer.settings.show_backscatter, tr!("Backscatter side"))
+        .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -71,7 +75,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let log = settings.log_brdf;
     let scale = BrdfScale::new(settings);
-    let title = format!("θr / °  at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi);
+    let title = tr!("θr / °  at θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
     let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
     let times_cosine = settings.shown.times_cosine;
     let quantity = if times_cosine { "BRDF × cos θr" } else { "BRDF" };
@@ -82,7 +86,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
-                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr\n{MASK_HINT}", position.x))
+                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr\n{}", position.x, translated(MASK_HINT)))
             }
             HoverPosition::Elsewhere { .. } => None,
         })
@@ -100,17 +104,17 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
             let floor = if log { view.range.get().map_or(0.0, |range| range.low) } else { 0.0 };
             for (pieces, name, color) in [
-                (&curves.own.specular, "specular", theme::specular(dark)),
-                (&curves.own.diffuse, "diffuse", theme::diffuse(dark)),
-                (&curves.own.volume, "volume", theme::volume(dark)),
+                (&curves.own.specular, tr!("specular"), theme::specular(dark)),
+                (&curves.own.diffuse, tr!("diffuse"), theme::diffuse(dark)),
+                (&curves.own.volume, tr!("volume"), theme::volume(dark)),
             ] {
                 if settings.shown.filled {
-                    filled(plot, pieces, name, color, floor);
+                    filled(plot, pieces, &name, color, floor);
                 } else {
-                    curve(plot, pieces, name, color, None, 1.5);
+                    curve(plot, pieces, &name, color, None, 1.5);
                 }
             }
-            curve(plot, &curves.own.total, "total", theme::foreground(dark), None, 2.5);
+            curve(plot, &curves.own.total, &tr!("total"), theme::foreground(dark), None, 2.5);
         });
     view.axes.listen(&response, ui);
     commands.extend(clicked_mask(

@@ -2,6 +2,7 @@
 
 use crate::app::command::Command;
 use crate::app::curves::{Pieces, pieces};
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, plot, round_up};
@@ -91,7 +92,7 @@ fn set(index: RefractiveIndex) -> Command {
 fn choice_ui(tabulated: &mut Tabulated, metal: &Metal, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Metal"));
-        let text = |Metal { key, name, .. }: &Metal| format!("{} ({key})", tr!(name));
+        let text = |Metal { key, name, .. }: &Metal| format!("{} ({key})", translated(name));
         let combo = ComboBox::from_id_salt("metal").width(170.0).height(400.0).selected_text(text(metal)).show_ui(ui, |ui| {
             for other in optics::metals().into_iter().flatten() {
                 if ui.selectable_label(other.key == metal.key, text(other)).clicked() && other.key != metal.key {
@@ -279,7 +280,7 @@ fn finishes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.label(tr!("Surface finish")).on_hover_text(tr!("Sizes that go together, for a lesson or a first guess; nobody measured them"));
         for (i, finish) in FINISHES.iter().enumerate() {
             let name = finish.name;
-            if ui.button(tr!(name)).on_hover_text(values(finish)).clicked() {
+            if ui.button(translated(name)).on_hover_text(values(finish)).clicked() {
                 explorer.commands.push(Command::UseFinish(i));
             }
         }

@@ -1,6 +1,7 @@
 //! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
 
 use crate::app::document::Document;
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
@@ -12,6 +13,7 @@ use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Eq17, is_loose};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+use tr::tr;
 
 /// What predictions depend on.
 type Key = (Parameters, Model, Eq17, ParameterSet, Plan, u64);
@@ -55,31 +57,31 @@ pub fn planner_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.strong("Planned angles");
-        if ui.button("Dense").on_hover_text("θi from 10° to 80°, θr from 0° to 85°").clicked() {
+        ui.strong(tr!("Planned angles"));
+        if ui.button(tr!("Dense")).on_hover_text(tr!("θi from 10° to 80°, θr from 0° to 85°")).clicked() {
             let Plan { theta_i, theta_r, .. } = Plan::default();
             *plan = Plan { theta_i, theta_r, ..plan.clone() };
         }
-        if ui.button("As measured").on_hover_text("The angles of the open measurement, each for itself").clicked() {
+        if ui.button(tr!("As measured")).on_hover_text(tr!("The angles of the open measurement, each for itself")).clicked() {
             as_measured(plan, document);
         }
     });
     Grid::new("planned angles").num_columns(5).show(ui, |ui| {
         for heading in ["", "from", "to", "step", ""] {
-            ui.weak(heading);
+            ui.weak(translated(heading));
         }
         ui.end_row();
         spans_ui(&mut plan.theta_i, "θi", 0.0, ui);
         spans_ui(&mut plan.theta_r, "θr", -STEEPEST, ui);
     });
     Grid::new("planned noise").num_columns(2).show(ui, |ui| {
-        let help = "Relative azimuth φr − φi: 180° is the plane of incidence, with the backscatter side at negative θr";
-        number_ui(&mut plan.dphi, "Δφ", help, "°", 0.0..=360.0, 0.5, ui);
-        let label = ui.label("Measured");
+        let help = tr!("Relative azimuth φr − φi: 180° is the plane of incidence, with the backscatter side at negative θr");
+        number_ui(&mut plan.dphi, "Δφ", &help, "°", 0.0..=360.0, 0.5, ui);
+        let label = ui.label(tr!("Measured"));
         let text = |columns| match columns {
-            Columns::Dolp => "DoLP",
-            Columns::Brdf => "BRDF",
-            Columns::Both => "DoLP and BRDF",
+            Columns::Dolp => tr!("DoLP"),
+            Columns::Brdf => tr!("BRDF"),
+            Columns::Both => tr!("DoLP and BRDF"),
         };
         let combo = ComboBox::from_id_salt("planned columns").selected_text(text(plan.columns)).show_ui(ui, |ui| {
             for columns in [Columns::Dolp, Columns::Brdf, Columns::Both] {
@@ -89,10 +91,18 @@ fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
         combo.response.labelled_by(label.id);
         ui.end_row();
         if plan.columns != Columns::Brdf {
-            number_ui(&mut plan.noise, "Noise of DoLP", "Standard deviation of one value, absolute", "", 1e-6..=1.0, 1e-4, ui);
+            number_ui(&mut plan.noise, &tr!("Noise of DoLP"), &tr!("Standard deviation of one value, absolute"), "", 1e-6..=1.0, 1e-4, ui);
         }
         if plan.has_brdf() {
-            number_ui(&mut plan.brdf_noise, "Noise of BRDF", "Standard deviation of one value, relative to it", "", 1e-6..=10.0, 1e-3, ui);
+            number_ui(
+                &mut plan.brdf_noise,
+                &tr!("Noise of BRDF"),
+                &tr!("Standard deviation of one value, relative to it"),
+                "",
+                1e-6..=10.0,
+                1e-3,
+                ui,
+            );
         }
     });
 }
@@ -111,15 +121,15 @@ fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
         ui.label(name);
         let field = |ui: &mut Ui, value: &mut f64, range: std::ops::RangeInclusive<f64>, what: &str| {
             let response = ui.add(DragValue::new(value).range(range).speed(0.5).max_decimals(3).suffix("°"));
-            response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} {} {what}", i + 1)));
+            response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} {} {}", i + 1, translated(what))));
         };
         field(ui, &mut span.from, least..=STEEPEST, "from");
         // The other end follows.
         span.to = span.to.max(span.from);
         field(ui, &mut span.to, span.from..=STEEPEST, "to");
         field(ui, &mut span.step, 0.1..=90.0, "step");
-        let remove = ui.button("remove");
-        remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove {name} {}", i + 1)));
+        let remove = ui.button(tr!("remove"));
+        remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Remove {0} {1}", name, i + 1)));
         if remove.clicked() {
             removed = Some(i);
         }
@@ -129,7 +139,7 @@ fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
         spans.remove(i);
     }
     ui.label("");
-    if ui.button(format!("add {name}")).clicked() {
+    if ui.button(tr!("add {}", name)).clicked() {
         let next = spans.last().map_or(45.0, |last| (last.to + last.step).min(STEEPEST));
         spans.push(Span::new(next, next, spans.last().map_or(5.0, |last| last.step)));
     }
@@ -174,8 +184,8 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
         return;
     };
     let (incidences, views) = settings.plan.counts();
-    ui.strong(format!("Predicted standard errors: {incidences} × {views} planned points"));
-    ui.weak("At the sliders as they stand; both columns with the planned noise.");
+    ui.strong(tr!("Predicted standard errors: {0} × {1} planned points", incidences, views));
+    ui.weak(tr!("At the sliders as they stand; both columns with the planned noise."));
     for sentence in [now, planned].into_iter().filter_map(|prediction| prediction.as_ref().err()) {
         ui.colored_label(warning, sentence);
     }
@@ -189,7 +199,11 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
             ("± planned", "With the planned angles"),
             ("now / planned", "How many times smaller the error becomes"),
         ] {
-            ui.strong(heading).on_hover_text(help);
+            if heading.is_empty() {
+                ui.label("");
+            } else {
+                ui.strong(translated(heading)).on_hover_text(translated(help));
+            }
         }
         ui.end_row();
         for (parameter, _) in &any.errors {
@@ -214,10 +228,10 @@ fn error_row_ui(
     let error = |prediction: &Result<Prediction, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
     let text = |prediction: &Result<Prediction, String>| match (prediction, error(prediction)) {
         (Err(_), _) => "-".to_owned(),
-        (Ok(_), None) => "open".to_owned(),
+        (Ok(_), None) => tr!("open"),
         (Ok(_), Some(error)) => format!("{} ({})", short(error), percent(parameter, value, error)),
     };
-    ui.label(parameter.symbol()).on_hover_text(parameter.name());
+    ui.label(parameter.symbol()).on_hover_text(translated(parameter.name()));
     ui.monospace(significant(value));
     ui.monospace(text(now));
     ui.monospace(text(planned));
@@ -233,15 +247,15 @@ fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &
         .map(|(parameter, _)| parameter.symbol())
         .collect();
     if prediction.open.is_empty() && loose.is_empty() {
-        ui.add(egui::Label::new(format!("{angles} nothing stays open.")).wrap());
+        ui.add(egui::Label::new(tr!("{} nothing stays open.", translated(angles))).wrap());
         return;
     }
     ui.add_space(4.0);
-    ui.strong(format!("{angles} there stays open:"));
+    ui.strong(tr!("{} there stays open:", translated(angles)));
     for text in &prediction.open {
         ui.add(egui::Label::new(format!("• {text}")).wrap());
     }
     if !loose.is_empty() {
-        ui.add(egui::Label::new(format!("• {}: known to no better than half its size", loose.join(", "))).wrap());
+        ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());
     }
 }

@@ -14,6 +14,7 @@ use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoi
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Degrees;
+use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -122,8 +123,9 @@ fn short(value: f64) -> String {
 
 /// What is drawn in the pane.
 pub fn polar_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    ui.checkbox(&mut explorer.settings.shown.polar_log, "Logarithmic radius").on_hover_text("Shows weak lobes beside strong ones");
-    ui.checkbox(&mut explorer.settings.shown.filled, "Filled lobes").on_hover_text("The area under each lobe");
+    ui.checkbox(&mut explorer.settings.shown.polar_log, tr!("Logarithmic radius"))
+        .on_hover_text(tr!("Shows weak lobes beside strong ones"));
+    ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
 }
 
 pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -156,27 +158,28 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let response = plot.show(ui, |plot| {
         view.axes.apply(plot, Some(Range { low: -1.3, high: 1.3 }), Some(Range { low: -0.2, high: 1.3 }));
         protractor(plot, &lobes.rings, ink, dark);
-        for (pieces, name, color, width) in [
-            (&lobes.specular, "specular", theme::specular(dark), 1.5),
-            (&lobes.diffuse, "diffuse", theme::diffuse(dark), 1.5),
-            (&lobes.volume, "volume", theme::volume(dark), 1.5),
-            (&lobes.total, "total", theme::foreground(dark), 2.5),
+        for (pieces, name, color, width, is_part) in [
+            (&lobes.specular, tr!("specular"), theme::specular(dark), 1.5, true),
+            (&lobes.diffuse, tr!("diffuse"), theme::diffuse(dark), 1.5, true),
+            (&lobes.volume, tr!("volume"), theme::volume(dark), 1.5, true),
+            (&lobes.total, tr!("total"), theme::foreground(dark), 2.5, false),
         ] {
-            if settings.shown.filled && name != "total" {
+            if settings.shown.filled && is_part {
                 for piece in pieces {
-                    let shape = egui_plot::Polygon::new(name, PlotPoints::Owned(closed(piece))).fill_color(color.gamma_multiply(0.2));
+                    let shape =
+                        egui_plot::Polygon::new(name.as_str(), PlotPoints::Owned(closed(piece))).fill_color(color.gamma_multiply(0.2));
                     plot.polygon(shape.stroke(egui::Stroke::new(width, color)).allow_hover(false));
                 }
             }
-            curve(plot, pieces, name, color, None, width);
+            curve(plot, pieces, &name, color, None, width);
         }
         if in_plane {
             rays(plot, settings.theta_i, ink);
         }
         let note = if in_plane {
-            format!("θi = {}°, plane of incidence", settings.theta_i)
+            tr!("θi = {}°, plane of incidence", settings.theta_i)
         } else {
-            format!("θi = {}°, Δφ = {}°: the incident ray is outside this plane", settings.theta_i, settings.dphi)
+            tr!("θi = {0}°, Δφ = {1}°: the incident ray is outside this plane", settings.theta_i, settings.dphi)
         };
         plot.text(Text::new("", PlotPoint::new(0.0, -0.1), RichText::new(note).color(ink).size(LETTERS)).allow_hover(false));
     });
@@ -220,10 +223,10 @@ fn rays(plot: &mut PlotUi<'_>, theta_i: f64, ink: Color32) {
     let origin = PlotPoint::new(0.0, 0.0);
     // The tip half way: at the origin all lobes meet.
     let (from, tip) = (direction(-theta_i, 1.04), direction(-theta_i, 0.6));
-    let ray = Arrows::new("incident ray", PlotPoints::Owned(vec![from]), PlotPoints::Owned(vec![tip]));
+    let ray = Arrows::new(tr!("incident ray"), PlotPoints::Owned(vec![from]), PlotPoints::Owned(vec![tip]));
     plot.arrows(ray.color(ink).tip_length(12.0).allow_hover(false));
-    plot.line(Line::new("incident ray", PlotPoints::Owned(vec![tip, origin])).color(ink).width(1.0).allow_hover(false));
-    let mirror = Line::new("mirror direction", PlotPoints::Owned(vec![origin, direction(theta_i, 1.04)]));
+    plot.line(Line::new(tr!("incident ray"), PlotPoints::Owned(vec![tip, origin])).color(ink).width(1.0).allow_hover(false));
+    let mirror = Line::new(tr!("mirror direction"), PlotPoints::Owned(vec![origin, direction(theta_i, 1.04)]));
     plot.line(mirror.color(ink).width(1.0).style(LineStyle::dashed_dense()).allow_hover(false));
 }
 

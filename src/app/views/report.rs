@@ -1,6 +1,7 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::reports::{Shown, Subject};
 use crate::app::window::Explorer;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
@@ -45,7 +46,7 @@ pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bo
     }
     ui.horizontal_wrapped(|ui| {
         for (page, &name) in (0..=shown.drawings.len()).zip(names) {
-            ui.selectable_value(&mut shown.page, page, tr!(name));
+            ui.selectable_value(&mut shown.page, page, translated(name));
         }
     });
     shown.page == 0
@@ -78,7 +79,7 @@ pub fn table_ui(name: &str, headings: &[Heading], rows: usize, mut cell: impl Fn
                     ui.with_layout(layout(heading), |ui| {
                         // No text, no translation: an empty one is the head of the catalogue.
                         if !text.is_empty() {
-                            ui.strong(tr!(text)).on_hover_text(tr!(help));
+                            ui.strong(translated(text)).on_hover_text(translated(help));
                         }
                     });
                 });

@@ -14,6 +14,7 @@ use egui_plot::{AxisHints, HLine, HoverPosition, PlotPoint, PlotPoints, Points};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
+use tr::tr;
 
 /// What the strip keeps.
 #[derive(Default)]
@@ -65,12 +66,12 @@ pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let Some(range) = view.range.get() else { return };
     let dark = ui.visuals().dark_mode;
     let x = axis(AxisHints::new_x(), ui, "", decimal);
-    let y = axis(AxisHints::new_y(), ui, "model − meas.", decimal);
+    let y = axis(AxisHints::new_y(), ui, &tr!("model − meas."), decimal);
     let response = plot("residuals", ui, height, x, y)
         .y_grid_spacer(|input| axis::marks(&input, 3.0, 0.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nθr = {:.2}°\nresidual = {:.2e}", position.x, position.y))
+                Some(tr!("{0}\nθr = {1}°\nresidual = {2}", plot_name, format!("{:.2}", position.x), format!("{:.2e}", position.y)))
             }
             HoverPosition::Elsewhere { .. } => None,
         })

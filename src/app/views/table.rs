@@ -2,6 +2,7 @@
 
 use crate::app::command::Command;
 use crate::app::document::{Document, Series};
+use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::problem::dolp_gain;
@@ -14,6 +15,7 @@ use pbrdf::measurement::{Quantity, Row};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use std::ops::Range;
+use tr::tr;
 
 /// What the model gives in one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,10 +71,10 @@ const LIST_HEIGHT: f32 = 120.0;
 
 fn metadata_ui(document: &Document, ui: &mut Ui) {
     let metadata = &document.measurement.metadata;
-    let title = format!("Metadata ({})", metadata.len());
+    let title = tr!("Metadata ({})", metadata.len());
     CollapsingHeader::new(title).id_salt("metadata").show(ui, |ui| {
         if metadata.is_empty() {
-            ui.label("The file says nothing about itself: there are no lines of the form # key: value.");
+            ui.label(tr!("The file says nothing about itself: there are no lines of the form # key: value."));
         }
         ScrollArea::vertical().id_salt("metadata").max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
             egui::Grid::new("metadata").num_columns(2).striped(true).show(ui, |ui| {
@@ -87,7 +89,7 @@ fn metadata_ui(document: &Document, ui: &mut Ui) {
 }
 
 fn series_ui(document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
-    let title = format!("Series ({})", document.series.len());
+    let title = tr!("Series ({})", document.series.len());
     CollapsingHeader::new(title).id_salt("series").show(ui, |ui| {
         let height = ui.spacing().interact_size.y;
         let area = ScrollArea::vertical().id_salt("series").max_height(LIST_HEIGHT).auto_shrink([false, true]);
@@ -104,9 +106,9 @@ fn one_series_ui(document: &Document, series: &Series, commands: &mut Vec<Comman
     let masked = series.rows.iter().filter(|&&row| rows[row].masked).count();
     let all = masked == series.rows.len();
     let mut wanted = all;
-    let text = format!("mask {}: {masked} of {} rows masked", series.name(), series.rows.len());
+    let text = tr!("mask {0}: {1} of {2} rows masked", series.name(), masked, series.rows.len());
     let response = ui.add(Checkbox::new(&mut wanted, text).indeterminate(masked > 0 && !all));
-    if response.on_hover_text("Leave this whole series out of every statistic, without deleting it").changed() {
+    if response.on_hover_text(tr!("Leave this whole series out of every statistic, without deleting it")).changed() {
         commands.push(Command::Mask { rows: series.rows.clone(), masked: !all });
     }
 }
@@ -149,11 +151,11 @@ fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, u
         }
         let table = builder.header(height, |mut header| {
             header.col(|ui| {
-                ui.strong("mask").on_hover_text("Masked rows stay and are shown, but count in no statistic");
+                ui.strong(tr!("mask")).on_hover_text(tr!("Masked rows stay and are shown, but count in no statistic"));
             });
             for (heading, help, _) in [("row", "Place in the file, from 1", 0.0)].iter().chain(headings) {
                 header.col(|ui| {
-                    ui.strong(*heading).on_hover_text(*help);
+                    ui.strong(translated(heading)).on_hover_text(translated(help));
                 });
             }
         });
@@ -184,7 +186,7 @@ fn line_ui(
     line.col(|ui| {
         let mut masked = row.masked;
         let response = ui.add(Checkbox::without_text(&mut masked));
-        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, masked, format!("Mask row {}", index + 1)));
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, masked, tr!("Mask row {}", index + 1)));
         if response.changed() {
             commands.push(Command::Mask { rows: vec![index], masked });
         }

@@ -1,32 +1,34 @@
 //! The ladder of models on the open measurement.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::worker::Rung;
 use egui::{Grid, Ui};
+use tr::tr;
 
 /// The ladder of models on the open measurement: what each added term buys.
 pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>, commands: &mut Vec<Command>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         if ui
-            .add_enabled(running.is_none(), egui::Button::new("Compare models"))
-            .on_hover_text("Fit the whole ladder of models to this measurement")
+            .add_enabled(running.is_none(), egui::Button::new(tr!("Compare models")))
+            .on_hover_text(tr!("Fit the whole ladder of models to this measurement"))
             .clicked()
         {
             commands.push(Command::CompareModels);
         }
-        if running.is_some() && ui.button("Cancel comparison").clicked() {
+        if running.is_some() && ui.button(tr!("Cancel comparison")).clicked() {
             commands.push(Command::CancelComparison);
         }
     });
     if let Some(at) = running {
-        ui.label(format!("Fitting: {}", at.unwrap_or("…")));
+        ui.label(tr!("Fitting: {}", at.unwrap_or("…")));
     }
     if comparison.is_empty() {
         return;
     }
     Grid::new("comparison").num_columns(4).striped(true).show(ui, |ui| {
         for heading in ["model", "ΔE", "AICc", "n, k"] {
-            ui.strong(heading);
+            ui.strong(translated(heading));
         }
         ui.end_row();
         for Rung { preset, result } in comparison {

@@ -14,6 +14,7 @@ use crate::app::window::Explorer;
 use crate::app::worker::Job;
 use egui::Ui;
 use pbrdf::model::{Parameter, ParameterSet};
+use tr::tr;
 
 pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let free = explorer.free();
@@ -22,13 +23,14 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
             let running = worker.fit.is_some();
-            let fit = ui.add_enabled(!running, egui::Button::new(egui::RichText::new("Fit").strong()).min_size(egui::vec2(84.0, 26.0)));
-            if fit.on_hover_text("Levenberg–Marquardt from the sliders, all parameters that are not fixed").clicked() {
+            let fit =
+                ui.add_enabled(!running, egui::Button::new(egui::RichText::new(tr!("Fit")).strong()).min_size(egui::vec2(84.0, 26.0)));
+            if fit.on_hover_text(tr!("Levenberg–Marquardt from the sliders, all parameters that are not fixed")).clicked() {
                 commands.push(Command::StartFit);
             }
             if ui
-                .add_enabled(running, egui::Button::new("Cancel").min_size(egui::vec2(64.0, 26.0)))
-                .on_hover_text("Stop and keep the best so far")
+                .add_enabled(running, egui::Button::new(tr!("Cancel")).min_size(egui::vec2(64.0, 26.0)))
+                .on_hover_text(tr!("Stop and keep the best so far"))
                 .clicked()
             {
                 commands.push(Command::CancelFit);
@@ -38,15 +40,15 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         });
         ui.weak(free_text(free));
-        ui.checkbox(&mut settings.refit_live, "keep refitting while I drag")
-            .on_hover_text("Fixed parameters follow their sliders, the others are fitted again at once");
+        ui.checkbox(&mut settings.refit_live, tr!("keep refitting while I drag"))
+            .on_hover_text(tr!("Fixed parameters follow their sliders, the others are fitted again at once"));
         match worker.fit.as_ref().map(Job::progress) {
-            Some(Some(point)) => ui.label(format!("{} evaluations, ΔE = {:.4e}", point.evaluations, point.objective)),
-            Some(None) => ui.label("Fitting…"),
-            None => ui.label(format!("Sliders: {}", delta_e_text(derived.delta_e()))),
+            Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
+            Some(None) => ui.label(tr!("Fitting…")),
+            None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))),
         };
         options::options_ui(settings, &document.measurement, ui);
-        let outlook = ui.collapsing("What these data determine", |ui| outlook::outlook_ui(derived.outlook(), ui));
+        let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(derived.outlook(), ui));
         let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
         if *outlook_is_shown != was_shown {
             // It is made before the next frame.
@@ -56,16 +58,16 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         match last_fit.as_ref().filter(|fit| fit.number == document.number) {
             Some(fit) => {
                 if fit.report.model != settings.model {
-                    ui.colored_label(theme::warning(ui.visuals().dark_mode), "This fit is of another model than the sliders show.");
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("This fit is of another model than the sliders show."));
                 }
                 if fit.generation != document.generation {
-                    ui.colored_label(theme::warning(ui.visuals().dark_mode), "The mask has changed since this fit.");
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."));
                 }
                 result::result_ui(fit, scans.scatter.as_ref(), commands, ui);
                 scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
             }
             None => {
-                ui.label("Move the sliders until the curves are near the points, then press Fit.");
+                ui.label(tr!("Move the sliders until the curves are near the points, then press Fit."));
             }
         }
         past::past_fits_ui(past_fits, last_fit.as_ref(), document.number, commands, ui);
@@ -76,5 +78,5 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 fn free_text(free: ParameterSet) -> String {
     let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();
-    if names.is_empty() { "Nothing is free: all parameters are fixed.".to_owned() } else { format!("Free: {}", names.join(", ")) }
+    if names.is_empty() { tr!("Nothing is free: all parameters are fixed.") } else { tr!("Free: {}", names.join(", ")) }
 }

@@ -1,11 +1,13 @@
 //! The choices of a fit: what is minimised, and from where.
 
+use crate::app::language::translated;
 use crate::app::state::Settings;
 use crate::app::theme;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
 use pbrdf::fit::{BrdfResiduals, Choices, Eq17, Loss, Starts, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameter;
+use tr::tr;
 
 /// Starts that can be asked for at most.
 const MOST_STARTS: usize = 100_000;
@@ -14,7 +16,7 @@ const SOME_STARTS: usize = 100;
 
 pub fn options_ui(settings: &mut Settings, measurement: &Measurement, ui: &mut Ui) {
     let are_defaults = settings.choices == Choices::default() && settings.starts == Starts::Automatic;
-    let title = if are_defaults { "Options" } else { "Options (not the defaults)" };
+    let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
         Grid::new("fit options").num_columns(2).show(ui, |ui| {
             residuals_ui(&mut settings.choices, ui);
@@ -23,10 +25,10 @@ pub fn options_ui(settings: &mut Settings, measurement: &Measurement, ui: &mut U
             starts_ui(settings, ui);
         });
         if settings.choices.weights == Weights::Sigma && !has_sigmas(measurement) {
-            let text = "This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.";
+            let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
-        if ui.add_enabled(!are_defaults, egui::Button::new("Default options")).clicked() {
+        if ui.add_enabled(!are_defaults, egui::Button::new(tr!("Default options"))).clicked() {
             settings.choices = Choices::default();
             settings.starts = Starts::Automatic;
             settings.seed = 1;
@@ -38,14 +40,14 @@ pub fn options_ui(settings: &mut Settings, measurement: &Measurement, ui: &mut U
 /// One choice out of a few, with its name in front; true when it changed.
 fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut T, options: &[(T, &str)]) -> bool {
     let before = *value;
-    let label = ui.label(name).on_hover_text(help);
-    let chosen = options.iter().find(|(option, _)| option == value).map_or("", |(_, text)| text);
+    let label = ui.label(translated(name)).on_hover_text(translated(help));
+    let chosen = options.iter().find(|(option, _)| option == value).map_or_else(String::new, |(_, text)| translated(text));
     let combo = ComboBox::from_id_salt(name).width(150.0).selected_text(chosen).show_ui(ui, |ui| {
         for (option, text) in options {
-            ui.selectable_value(value, *option, *text);
+            ui.selectable_value(value, *option, translated(text));
         }
     });
-    combo.response.labelled_by(label.id).on_hover_text(help);
+    combo.response.labelled_by(label.id).on_hover_text(translated(help));
     ui.end_row();
     *value != before
 }
@@ -78,12 +80,12 @@ fn loss_ui(choices: &mut Choices, ui: &mut Ui) {
     if choices.loss == Loss::Linear {
         return;
     }
-    let help = "Where the loss changes from squares to sizes, in units of the residual; automatic: 1.345 × the normalised median \
-                absolute deviation of the residuals of a linear fit.";
-    let label = ui.label("Loss scale").on_hover_text(help);
+    let help = tr!("Where the loss changes from squares to sizes, in units of the residual; automatic: 1.345 × the normalised median \
+         absolute deviation of the residuals of a linear fit.");
+    let label = ui.label(tr!("Loss scale")).on_hover_text(&help);
     ui.horizontal(|ui| {
         let mut automatic = choices.loss_scale.is_none();
-        if ui.checkbox(&mut automatic, "automatic").on_hover_text(help).changed() {
+        if ui.checkbox(&mut automatic, tr!("automatic")).on_hover_text(&help).changed() {
             choices.loss_scale = if automatic { None } else { Some(0.01) };
         }
         if let Some(scale) = &mut choices.loss_scale {
@@ -127,12 +129,12 @@ fn starts_ui(settings: &mut Settings, ui: &mut Ui) {
         &[(Starts::Automatic, "automatic"), (Starts::One, "one, from the sliders"), (Starts::Exactly(several), "a number of them")],
     );
     if let Starts::Exactly(count) = &mut settings.starts {
-        let label = ui.label("Number of starts");
+        let label = ui.label(tr!("Number of starts"));
         ui.add(DragValue::new(count).range(2..=MOST_STARTS)).labelled_by(label.id);
         ui.end_row();
     }
     if settings.starts != Starts::One {
-        let label = ui.label("Seed").on_hover_text("The same seed gives the same starts, and the same result, on every machine");
+        let label = ui.label(tr!("Seed")).on_hover_text(tr!("The same seed gives the same starts, and the same result, on every machine"));
         ui.add(DragValue::new(&mut settings.seed).speed(0.1)).labelled_by(label.id);
         ui.end_row();
     }

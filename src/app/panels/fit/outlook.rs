@@ -3,6 +3,7 @@
 use crate::app::derived::Outlook;
 use crate::app::panels::parameters::significant;
 use egui::{Grid, Ui};
+use tr::tr;
 
 /// Standard errors that a fit from the sliders would have, before it is made.
 pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
@@ -10,12 +11,16 @@ pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
         ui.label("…");
         return;
     };
-    let basis = if outlook.from_stated { "from the stated standard deviations" } else { "if the noise is as large as the present misfit" };
-    ui.weak(format!("Standard errors at the sliders, {basis}:"));
+    let basis = if outlook.from_stated {
+        tr!("from the stated standard deviations")
+    } else {
+        tr!("if the noise is as large as the present misfit")
+    };
+    ui.weak(tr!("Standard errors at the sliders, {}:", basis));
     Grid::new("outlook").num_columns(2).show(ui, |ui| {
         for (parameter, error) in &outlook.errors {
             ui.label(parameter.symbol());
-            ui.label(error.map_or_else(|| "open".to_owned(), |error| format!("± {} {}", significant(error), parameter.unit())));
+            ui.label(error.map_or_else(|| tr!("open"), |error| format!("± {} {}", significant(error), parameter.unit())));
             ui.end_row();
         }
     });

@@ -1,29 +1,32 @@
 //! The last fits, to look at again and to return to.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::past_fits::{PastFit, PastFits};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::rc::Rc;
+use tr::tr;
 
 pub fn past_fits_ui(fits: &PastFits, shown: Option<&Rc<PastFit>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
     if fits.is_empty() {
         return;
     }
-    let title = format!("History of fits ({})", fits.len());
+    let title = tr!("History of fits ({})", fits.len());
     CollapsingHeader::new(title).id_salt("past fits").show(ui, |ui| {
-        ui.weak("A click returns to a fit; undo takes it back.");
+        ui.weak(tr!("A click returns to a fit; undo takes it back."));
         Grid::new("past fits").num_columns(3).striped(true).show(ui, |ui| {
             for heading in ["model", "ΔE", "time"] {
-                ui.strong(heading);
+                ui.strong(translated(heading));
             }
             ui.end_row();
             for (index, fit) in fits.iter().enumerate() {
                 let report = &fit.report;
-                let model = Preset::of(report.model).map_or("own terms", |preset| preset.key);
-                let elsewhere = if fit.number == number { String::new() } else { "\nof another measurement than the open one".to_owned() };
+                let model = Preset::of(report.model).map_or_else(|| tr!("own terms"), |preset| preset.key.to_owned());
+                let elsewhere =
+                    if fit.number == number { String::new() } else { format!("\n{}", tr!("of another measurement than the open one")) };
                 let is_shown = shown.is_some_and(|shown| Rc::ptr_eq(shown, fit));
-                let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.text());
+                let help = format!("{}\n{}{elsewhere}", fit.document, translated(report.stop_reason.text()));
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Command::ReturnTo(index));
                 }

@@ -1,6 +1,7 @@
 //! What a fit came to: values, standard errors, minima, correlations, and what stays open.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
 use crate::app::past_fits::PastFit;
@@ -9,6 +10,7 @@ use crate::app::theme;
 use crate::app::words;
 use egui::{Grid, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
+use tr::tr;
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
@@ -16,15 +18,15 @@ const MOST_MINIMA: usize = 8;
 pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
     let report = &fit.report;
     ui.horizontal(|ui| {
-        if ui.button("Use as sliders").on_hover_text("The fitted values to the sliders").clicked() {
+        if ui.button(tr!("Use as sliders")).on_hover_text(tr!("The fitted values to the sliders")).clicked() {
             commands.push(Command::UseFit);
         }
-        if ui.button("Back").on_hover_text("The sliders as they were before the fit").clicked() {
+        if ui.button(tr!("Back")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
             commands.push(Command::Back);
         }
     });
     ui.add_space(4.0);
-    let text = report.stop_reason.text();
+    let text = translated(report.stop_reason.text());
     let capital: String = text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect();
     if matches!(report.stop_reason, StopReason::Converged | StopReason::ResidualsZero) {
         ui.strong(capital);
@@ -33,12 +35,12 @@ pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Ve
     }
     Grid::new("fit summary").num_columns(2).show(ui, |ui| {
         for (name, value) in [
-            ("Before", delta_e_text(report.start_objective)),
-            ("After", delta_e_text(report.objective)),
-            ("Minimised", minimised_text(fit)),
-            ("χ²/dof", reduced_chi2_text(report)),
-            ("AICc", report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}"))),
-            ("Time", format!("{:.2} ms, {} evaluations", report.elapsed_ms, report.evaluations)),
+            (tr!("Before"), delta_e_text(report.start_objective)),
+            (tr!("After"), delta_e_text(report.objective)),
+            (tr!("Minimised"), minimised_text(fit)),
+            (tr!("χ²/dof"), reduced_chi2_text(report)),
+            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}"))),
+            (tr!("Time"), tr!("{0} ms, {1} evaluations", format!("{:.2}", report.elapsed_ms), report.evaluations)),
         ] {
             if !value.is_empty() {
                 ui.label(name);
@@ -63,12 +65,12 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
         return;
     }
     ui.add_space(6.0);
-    ui.strong("The data leave open:");
+    ui.strong(tr!("The data leave open:"));
     for direction in &report.undetermined {
         ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
     }
     if !loose.is_empty() {
-        ui.add(egui::Label::new(format!("• {}: known to no better than half its size", loose.join(", "))).wrap());
+        ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());
     }
 }
 
@@ -76,21 +78,21 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
 fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
     Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
         for heading in ["", "start", "value", "± std. error"] {
-            ui.strong(heading);
+            ui.strong(translated(heading));
         }
         if let Some(bootstrap) = bootstrap {
-            ui.strong("± boot").on_hover_text(format!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates));
+            ui.strong(tr!("± boot")).on_hover_text(tr!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates));
         }
         ui.end_row();
         for estimate in &report.estimates {
-            ui.label(estimate.parameter.symbol()).on_hover_text(estimate.parameter.name());
+            ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
             ui.label(error_text(estimate));
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
-                ui.label(words::short(scatter.std_error)).on_hover_text(format!("16th to 84th percentile: {low} … {high}"));
+                ui.label(words::short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
             }
             ui.end_row();
         }
@@ -104,17 +106,17 @@ fn minimised_text(fit: &PastFit) -> String {
     let Some(start) = report.start_sum_of_squares.filter(|_| !report.minimises_delta_e) else { return String::new() };
     let has_brdf = !fit.problem.knows_only_ratios() && !choices.dolp_only;
     let form = match choices.brdf_residuals {
-        BrdfResiduals::Relative if has_brdf => "relative residuals",
-        BrdfResiduals::Log if has_brdf => "logarithmic residuals",
-        _ => "residuals",
+        BrdfResiduals::Relative if has_brdf => tr!("relative residuals"),
+        BrdfResiduals::Log if has_brdf => tr!("logarithmic residuals"),
+        _ => tr!("residuals"),
     };
-    let weights = if choices.weights == Weights::Sigma { " over σ" } else { "" };
+    let weights = if choices.weights == Weights::Sigma { tr!(" over σ") } else { String::new() };
     let loss = match choices.loss {
-        Loss::Linear => "",
-        Loss::Huber => ", Huber loss",
-        Loss::SoftL1 => ", soft-L1 loss",
+        Loss::Linear => String::new(),
+        Loss::Huber => tr!(", Huber loss"),
+        Loss::SoftL1 => tr!(", soft-L1 loss"),
     };
-    format!("{form}{weights}{loss}, Σ² {start:.3e} to {:.3e}", report.sum_of_squares)
+    tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", report.sum_of_squares))
 }
 
 /// χ² per degree of freedom where standard deviations were stated and used.
@@ -122,8 +124,8 @@ fn reduced_chi2_text(report: &FitReport) -> String {
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let dof = report.dof as f64;
     match report.chi2 {
-        Some(chi2) if report.dof > 0 => format!("{:.3} ({chi2:.2} of {})", chi2 / dof, report.dof),
-        Some(chi2) => format!("χ² = {chi2:.2}, no degree of freedom"),
+        Some(chi2) if report.dof > 0 => tr!("{0} ({1} of {2})", format!("{:.3}", chi2 / dof), format!("{chi2:.2}"), report.dof),
+        Some(chi2) => tr!("χ² = {}, no degree of freedom", format!("{chi2:.2}")),
         None => String::new(),
     }
 }
@@ -131,16 +133,16 @@ fn reduced_chi2_text(report: &FitReport) -> String {
 /// Where the starts led: distinct minima, best first.
 fn minima_ui(report: &FitReport, ui: &mut Ui) {
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
-    ui.collapsing(format!("{} minima from {starts} starts", report.minima.len()), |ui| {
+    ui.collapsing(tr!("{0} minima from {1} starts", report.minima.len(), starts), |ui| {
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
             for heading in ["ΔE", "reached", "stop"] {
-                ui.strong(heading);
+                ui.strong(translated(heading));
             }
             ui.end_row();
             for minimum in report.minima.iter().take(MOST_MINIMA) {
                 ui.monospace(format!("{:.5e}", minimum.objective));
                 ui.label(format!("{} ×", minimum.reached));
-                ui.add(egui::Label::new(minimum.stop_reason.text()).truncate());
+                ui.add(egui::Label::new(translated(minimum.stop_reason.text())).truncate());
                 ui.end_row();
             }
         });
@@ -152,7 +154,7 @@ fn correlations_ui(report: &FitReport, ui: &mut Ui) {
     if report.determined.len() < 2 {
         return;
     }
-    ui.collapsing("Correlations", |ui| {
+    ui.collapsing(tr!("Correlations"), |ui| {
         let dark = ui.visuals().dark_mode;
         Grid::new("correlations").spacing([2.0, 2.0]).show(ui, |ui| {
             ui.label("");
@@ -173,7 +175,7 @@ fn correlations_ui(report: &FitReport, ui: &mut Ui) {
                         egui::FontId::proportional(11.0),
                         ui.visuals().text_color(),
                     );
-                    response.on_hover_text(format!("{} and {}: r = {r:.4}", parameter.symbol(), other.symbol()));
+                    response.on_hover_text(tr!("{0} and {1}: r = {2}", parameter.symbol(), other.symbol(), format!("{r:.4}")));
                 }
                 ui.end_row();
             }
@@ -188,11 +190,11 @@ fn short_correlation(r: f64) -> String {
 
 fn error_text(estimate: &Estimate) -> String {
     match estimate.standing() {
-        Standing::Fixed => "fixed".to_owned(),
-        Standing::AtBound(Edge::Lower) => "at lower bound".to_owned(),
-        Standing::AtBound(Edge::Upper) => "at upper bound".to_owned(),
+        Standing::Fixed => tr!("fixed"),
+        Standing::AtBound(Edge::Lower) => tr!("at lower bound"),
+        Standing::AtBound(Edge::Upper) => tr!("at upper bound"),
         Standing::Determined(error) => format!("{} {}", words::short(error), estimate.parameter.unit()).trim_end().to_owned(),
-        Standing::NoFreedom => "no d.o.f.".to_owned(),
-        Standing::Open => "open".to_owned(),
+        Standing::NoFreedom => tr!("no d.o.f."),
+        Standing::Open => tr!("open"),
     }
 }

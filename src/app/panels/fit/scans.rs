@@ -9,6 +9,7 @@ use crate::app::theme;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;
+use tr::tr;
 
 /// Data sets that a bootstrap deals out at most.
 const MOST_REPLICATES: usize = 100_000;
@@ -18,23 +19,23 @@ pub fn scans_ui(fit: &PastFit, scans: &mut Scans, running: bool, commands: &mut 
     if free.is_empty() || fit.problem.is_empty() {
         return;
     }
-    CollapsingHeader::new("Profile and bootstrap").id_salt("scans").show(ui, |ui| {
+    CollapsingHeader::new(tr!("Profile and bootstrap")).id_salt("scans").show(ui, |ui| {
         profile_choice_ui(free, scans, running, commands, ui);
         if let Some(profile) = &scans.profile {
             profile_ui(profile, ui);
         }
         ui.horizontal(|ui| {
-            let help = "Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results";
-            if ui.add_enabled(!running, Button::new("Bootstrap")).on_hover_text(help).clicked() {
+            let help = tr!("Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results");
+            if ui.add_enabled(!running, Button::new(tr!("Bootstrap"))).on_hover_text(help).clicked() {
                 commands.push(Command::Bootstrap);
             }
-            let label = ui.label("data sets");
+            let label = ui.label(tr!("data sets"));
             ui.add(DragValue::new(&mut scans.replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id);
         });
         if running {
             ui.horizontal(|ui| {
                 ui.spinner();
-                if ui.button("Stop the scan").on_hover_text("Stop and keep what is there").clicked() {
+                if ui.button(tr!("Stop the scan")).on_hover_text(tr!("Stop and keep what is there")).clicked() {
                     commands.push(Command::CancelScan);
                 }
             });
@@ -45,7 +46,7 @@ pub fn scans_ui(fit: &PastFit, scans: &mut Scans, running: bool, commands: &mut 
 fn profile_choice_ui(free: &[Parameter], scans: &mut Scans, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
     let chosen = scans.parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
     ui.horizontal(|ui| {
-        let label = ui.label("Profile of");
+        let label = ui.label(tr!("Profile of"));
         let combo = ComboBox::from_id_salt("profile").width(60.0).selected_text(chosen.symbol()).show_ui(ui, |ui| {
             for parameter in free {
                 if ui.selectable_label(*parameter == chosen, parameter.symbol()).clicked() {
@@ -54,9 +55,9 @@ fn profile_choice_ui(free: &[Parameter], scans: &mut Scans, running: bool, comma
             }
         });
         combo.response.labelled_by(label.id);
-        let help = "Hold it at values around the fitted one and fit the rest again: the interval that holds where errors are not \
-                    symmetric, or where the data leave directions open";
-        if ui.add_enabled(!running, Button::new("Scan")).on_hover_text(help).clicked() {
+        let help = tr!("Hold it at values around the fitted one and fit the rest again: the interval that holds where errors are not \
+             symmetric, or where the data leave directions open");
+        if ui.add_enabled(!running, Button::new(tr!("Scan"))).on_hover_text(help).clicked() {
             commands.push(Command::Profile(chosen));
         }
     });
@@ -69,7 +70,7 @@ const SHOWN: f64 = 10.0;
 fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let name = if profile.is_chi2 { "Δχ²" } else { "ΔΣ²" };
-    ui.label(interval_text(profile)).on_hover_text("Where the sum of squares rises by as much as one standard error makes");
+    ui.label(interval_text(profile)).on_hover_text(tr!("Where the sum of squares rises by as much as one standard error makes"));
     let highest = profile.points.iter().map(|point| point.y).fold(0.0, f64::max);
     let top = if profile.limit > 0.0 { highest.clamp(2.0 * profile.limit, SHOWN * profile.limit) } else { highest };
     let (Some(first), Some(last)) = (profile.points.first(), profile.points.last()) else { return };
@@ -102,13 +103,13 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
             plot.set_plot_bounds_y(-0.05 * top..=1.05 * top);
             let color = theme::series(0, dark);
             let muted = theme::muted(dark);
-            plot.hline(HLine::new("one standard error", profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
+            plot.hline(HLine::new(tr!("one standard error"), profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
             for end in profile.low.into_iter().chain(profile.high) {
-                plot.vline(VLine::new("interval", end).color(muted).style(LineStyle::dotted_dense()));
+                plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
             }
-            plot.vline(VLine::new("fit", profile.best).color(muted));
-            plot.line(Line::new("profile", PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
-            plot.points(Points::new("profile", PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
+            plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
+            plot.line(Line::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
+            plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
         });
 }
 
@@ -116,9 +117,9 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
 pub fn interval_text(profile: &ProfileCurve) -> String {
     let symbol = profile.parameter.symbol();
     match (profile.low, profile.high) {
-        (Some(low), Some(high)) => format!("{symbol}: {} … {} (one standard error)", significant(low), significant(high)),
-        (Some(low), None) => format!("{symbol}: from {}, open above", significant(low)),
-        (None, Some(high)) => format!("{symbol}: up to {}, open below", significant(high)),
-        (None, None) => format!("{symbol}: open on both sides within the scan"),
+        (Some(low), Some(high)) => tr!("{0}: {1} … {2} (one standard error)", symbol, significant(low), significant(high)),
+        (Some(low), None) => tr!("{0}: from {1}, open above", symbol, significant(low)),
+        (None, Some(high)) => tr!("{0}: up to {1}, open below", symbol, significant(high)),
+        (None, None) => tr!("{}: open on both sides within the scan", symbol),
     }
 }

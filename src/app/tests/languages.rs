@@ -1,0 +1,100 @@
+//! Both languages: no text of the window is left in English, and every control has a name.
+
+use super::{explorer, harness, wait};
+use crate::app::command::{Command, items};
+use crate::app::language::{Language, MISSED};
+use crate::app::panes::PANES;
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use egui_kittest::kittest::NodeT as _;
+use std::collections::BTreeSet;
+
+/// The window in Chinese after a fit and a comparison of models, so that every view has something to show.
+fn chinese() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    wait(&mut harness);
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    harness
+}
+
+/// Puts that pane alone on screen.
+fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: crate::app::panes::Pane) {
+    for other in &PANES {
+        explorer(harness).commands.push(Command::ClosePane(other.pane));
+    }
+    explorer(harness).commands.push(Command::TogglePane(pane));
+    harness.run_steps(4);
+}
+
+/// What is written on the screen, and what a screen reader says besides.
+fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
+    let mut texts = BTreeSet::new();
+    let mut nodes = vec![harness.root()];
+    while let Some(node) = nodes.pop() {
+        texts.extend(node.accesskit_node().label());
+        texts.extend(node.accesskit_node().value());
+        nodes.extend(node.children());
+    }
+    texts
+}
+
+/// Words that are the same in both languages: names of quantities, people and units, keys of parameters and models, and two texts of the
+/// toolkit that only a screen reader sees.
+const SAME: &[&str] = &[
+    "AICc",
+    "BRDF",
+    "Beckmann",
+    "Close",
+    "Ctrl",
+    "DoLP",
+    "English",
+    "GGX",
+    "Germer",
+    "Hyde",
+    "Lambert",
+    "Minnaert",
+    "Priest",
+    "Resize panel",
+    "Thilak",
+    "cos",
+    "dpolE",
+    "rad",
+    "sigma_v",
+    "sigma",
+];
+
+/// Whether something in it is English: an entry of the literature, which has its year, is not translated.
+fn is_english(text: &str) -> bool {
+    let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit)) || text.ends_with('…');
+    let rest = SAME.iter().fold(text.to_owned(), |rest, same| rest.replace(same, ""));
+    let mut words = rest.split(|letter: char| !letter.is_ascii_alphabetic());
+    !has_year && words.any(|word| word.len() > 2)
+}
+
+#[test]
+fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
+    let mut harness = chinese();
+    let mut english = BTreeSet::new();
+    for entry in &PANES {
+        alone(&mut harness, entry.pane);
+        english.extend(written(&harness).into_iter().filter(|text| is_english(text)));
+    }
+    let all = items(explorer(&mut harness));
+    english.extend(all.iter().map(|item| item.text.to_string()).filter(|text| is_english(text)));
+    assert!(english.is_empty(), "in English: {english:#?}");
+    let missed = MISSED.with_borrow(Clone::clone);
+    assert!(missed.is_empty(), "not in assets/locales/zh_CN.po: {missed:#?}");
+}
+
+#[test]
+fn the_fonts_have_every_letter() {
+    let harness = chinese();
+    let texts = [include_str!("../../../assets/locales/zh_CN.po"), include_str!("../command.rs"), include_str!("../panes.rs")];
+    let font = egui::FontId::proportional(14.0);
+    let lacking: BTreeSet<char> = harness.ctx.fonts_mut(|fonts| {
+        texts.iter().flat_map(|text| text.chars()).filter(|letter| !letter.is_ascii_control() && !fonts.has_glyph(&font, *letter)).collect()
+    });
+    assert!(lacking.is_empty(), "run assets/fonts/make_subset.py: {lacking:?}");
+}
