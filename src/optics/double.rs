@@ -18,9 +18,11 @@ pub(crate) struct Double {
 const RADIANS_PER_DEGREE: Double = Double { hi: 0.017_453_292_519_943_295, lo: 2.948_652_270_870_168_7e-19 };
 pub(crate) const LN_2: Double = Double { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
-/// Terms of the sine and cosine series that 45° needs, and of the exponential series for ln 2 / 2.
+/// Terms of the sine and cosine series that 45° needs.
 const ANGLE_TERMS: u32 = 14;
-const EXPONENTIAL_TERMS: u32 = 25;
+/// How often ln 2 / 2 is halved, and the terms of the exponential series that it then needs.
+const HALVINGS: u32 = 6;
+const EXPONENTIAL_TERMS: u32 = 12;
 /// Below this the first three terms of ln(1 + w) are all there is.
 const SMALL: f64 = 1e-9;
 
@@ -146,10 +148,10 @@ impl Double {
         let power = (guess / LN_2.hi).round();
         // e^(−guess) = 2^(−power) e^r
         let r = LN_2 * power - Self::from(guess);
-        let mut exponential = Self::ONE;
-        for i in (1..=EXPONENTIAL_TERMS).rev().map(f64::from) {
-            exponential = Self::ONE + r * exponential / i;
-        }
+        // e^r − 1 of a 64th of r, and from there by (1 + x)² − 1 = x (2 + x).
+        let part = r * (1.0 / f64::from(1 << HALVINGS));
+        let series = (2..=EXPONENTIAL_TERMS).rev().map(f64::from).fold(Self::ONE, |sum, i| Self::ONE + part * sum / i);
+        let exponential = (0..HALVINGS).fold(part * series, |x, _| x * (x + Self::from(2.0))) + Self::ONE;
         #[expect(clippy::cast_possible_truncation, reason = "a binary exponent of f64")]
         let shift = -(power as i32);
         let scaled = Self { hi: libm::ldexp(self.hi, shift), lo: libm::ldexp(self.lo, shift) };
