@@ -1,10 +1,12 @@
 //! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
 
-use super::curves::{Curves, Marks, Pieces};
+use super::curves::{Curves, Marks};
 use super::panes::Pane;
 use super::plots::Ribbon;
+use super::plots::print::{FOREGROUND, MUTED, points};
 use super::reports::Subject;
 use super::session::{Recipe, Session};
+use super::views;
 use super::window::Explorer;
 use crate::app::language::translated;
 use crate::export;
@@ -32,10 +34,22 @@ pub enum Outgoing {
 pub type Write = Box<dyn FnOnce(&Path) -> Result<(), String> + Send>;
 
 /// The panes with a plot that can be exported.
-pub const PLOTS: [Pane; 5] = [Pane::Dolp, Pane::Lobes, Pane::ErrorVsTime, Pane::Stability, Pane::Cost];
+pub const PLOTS: [Pane; 13] = [
+    Pane::Dolp,
+    Pane::Lobes,
+    Pane::PolarLobes,
+    Pane::Facets,
+    Pane::Convergence,
+    Pane::Metals,
+    Pane::Hemisphere,
+    Pane::Mueller,
+    Pane::Landscape,
+    Pane::Audit,
+    Pane::ErrorVsTime,
+    Pane::Stability,
+    Pane::Cost,
+];
 
-const FOREGROUND: Rgb = Rgb(20, 20, 20);
-const MUTED: Rgb = Rgb(150, 150, 150);
 /// Resolution of a plot on the clipboard.
 const SCREEN_DPI: f64 = 150.0;
 
@@ -168,14 +182,16 @@ pub fn figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
     match pane {
         Pane::Dolp => dolp(explorer),
         Pane::Lobes => lobes(explorer),
+        Pane::PolarLobes => views::polar_figure(explorer),
+        Pane::Facets => views::facets_figure(explorer),
+        Pane::Convergence => views::convergence_figure(explorer),
+        Pane::Metals => views::metals_figure(explorer),
+        Pane::Hemisphere => views::hemisphere_figure(explorer),
+        Pane::Mueller => views::mueller_figure(explorer),
+        Pane::Landscape => views::landscape_figure(explorer),
+        Pane::Audit => views::audit_figure(explorer),
         _ => explorer.reports.figure(Subject::of(pane)?).cloned(),
     }
-}
-
-/// Coordinates of a curve; a gap between pieces stays one.
-fn points(pieces: &Pieces, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-    let gap = [[f64::NAN; 2]];
-    pieces.iter().flat_map(|piece| piece.iter().map(|point| [point.x, y(point.y)]).chain(gap)).collect()
 }
 
 fn measured(marks: &Marks, name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Vec<Series> {

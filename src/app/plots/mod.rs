@@ -6,6 +6,7 @@ mod drawing;
 mod error_bars;
 mod marks;
 mod picking;
+pub mod print;
 mod range;
 mod ribbon;
 

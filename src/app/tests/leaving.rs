@@ -3,14 +3,17 @@
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::leaving::{Outgoing, PLOTS, figure};
-use crate::app::panes::Pane;
+use crate::app::panes::{PANES, Pane};
 use crate::app::reports::Subject;
+use crate::app::state::Quantity;
 use crate::app::window::Explorer;
 use crate::app::worker::Event;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::Pbrdf;
+use pbrdf::optics::{Facet, Geometry};
 use pbrdf::report::Surroundings;
-use pbrdf::report::figure::{Drawn, Scale};
+use pbrdf::report::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
 use std::ops::ControlFlow;
 
 fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
@@ -44,6 +47,113 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
     assert_eq!(dolp.panels[0].y.title(), "DoLP");
 }
 
+/// Brings a pane to the front.
+fn show(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
+    if !explorer(harness).panes.is_on_screen(pane) {
+        order(harness, Command::TogglePane(pane));
+    }
+    wait(harness);
+}
+
+/// Panes and a title of an axis or a colour bar in their figures; of the reports those in the tests of the core.
+const TITLES: [(Pane, &[&str]); 13] = [
+    (Pane::Dolp, &["θr / °", "DoLP"]),
+    (Pane::Lobes, &["θr / °", "BRDF / sr⁻¹"]),
+    (Pane::PolarLobes, &["BRDF / sr⁻¹"]),
+    (Pane::Facets, &["α / °", "density / sr⁻¹", "θr / °", "masking–shadowing G"]),
+    (Pane::Convergence, &["residual evaluations", "ΔE"]),
+    (Pane::Metals, &["wavelength / nm", "n", "k"]),
+    (Pane::Hemisphere, &["−θr cos Δφ / °", "−θr sin Δφ / °", "DoLP"]),
+    (Pane::Mueller, &["θr / °", "m00 / m00", "m01 / m00", "m33 / m00"]),
+    (Pane::Landscape, &["n", "k", "ΔE"]),
+    (Pane::Audit, &["θi / °", "directional-hemispherical reflectance"]),
+    (Pane::ErrorVsTime, &[]),
+    (Pane::Stability, &[]),
+    (Pane::Cost, &[]),
+];
+
+#[test]
+fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
+    // Tables and text.
+    let without = [Pane::Data, Pane::Planner, Pane::Models];
+    assert!(PANES.iter().all(|entry| PLOTS.contains(&entry.pane) != without.contains(&entry.pane)));
+    let mut harness = harness();
+    order(&mut harness, Command::StartFit);
+    for (pane, titles) in TITLES.into_iter().filter(|(_, titles)| !titles.is_empty()) {
+        show(&mut harness, pane);
+        let figure = figure(explorer(&mut harness), pane).expect("a plot");
+        let svg = figure.svg();
+        let svg = roxmltree::Document::parse(&svg).expect("XML");
+        let words: Vec<&str> = svg.descendants().filter_map(|node| node.attribute("aria-label").or(node.text())).collect();
+        for title in titles {
+            assert!(words.contains(title), "{pane:?}: {title} is not in {words:?}");
+        }
+        assert!(figure.panels.iter().all(|panel| !panel.x.title().is_empty() && !panel.y.title().is_empty()), "{pane:?}");
+        // A frame, marks and words are there without any curve.
+        let drawn = figure.panels.iter().all(|panel| {
+            let bare = Figure { panels: vec![Panel { series: Vec::new(), ..panel.clone() }], ..figure.clone() };
+            let full = Figure { panels: vec![Panel { legend: false, ..panel.clone() }], ..figure.clone() };
+            full.svg().matches("<path").count() > bare.svg().matches("<path").count()
+        });
+        assert!(drawn, "{pane:?}: a panel without curves");
+    }
+}
+
+fn map_of(figure: &Figure) -> &HeatMap {
+    let is_map = |series: &&Series| matches!(series.drawn, Drawn::HeatMap(_));
+    match figure.panels[0].series.iter().find(is_map).map(|series| &series.drawn) {
+        Some(Drawn::HeatMap(map)) => map,
+        _ => panic!("no map"),
+    }
+}
+
+#[test]
+fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
+    let mut harness = harness();
+    show(&mut harness, Pane::Hemisphere);
+    for quantity in [Quantity::Dolp, Quantity::Brdf] {
+        explorer(&mut harness).settings.shown.hemisphere = quantity;
+        wait(&mut harness);
+        let explorer = explorer(&mut harness);
+        let exported = figure(explorer, Pane::Hemisphere).expect("a map");
+        let map = map_of(&exported);
+        let (row, column) = (60, 170);
+        let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
+        let (x, y) = (middle(&map.x_edges, column), middle(&map.y_edges, row));
+        let (theta_r, dphi) = (x.hypot(y), (-y).atan2(-x).to_degrees().rem_euclid(360.0));
+        let settings = &explorer.settings;
+        let surface = Pbrdf::new(settings.model, settings.parameters).expect("a surface");
+        let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("a direction");
+        let reflection = surface.reflection(&Facet::new(geometry));
+        let expected = if quantity == Quantity::Dolp { reflection.dolp } else { reflection.brdf };
+        let value = map.values[row * (map.x_edges.len() - 1) + column];
+        // Angles went through degrees and back, and the BRDF through its logarithm.
+        assert!((value / expected - 1.0).abs() < 1e-9, "{quantity:?}: {value} {expected}");
+        assert_eq!(map.color_axis.scale == Scale::Log, quantity == Quantity::Brdf);
+    }
+}
+
+#[test]
+fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
+    let mut harness = harness();
+    order(&mut harness, Command::StartFit);
+    show(&mut harness, Pane::Landscape);
+    let explorer = explorer(&mut harness);
+    let exported = figure(explorer, Pane::Landscape).expect("a map");
+    let map = map_of(&exported);
+    let fit = explorer.last_fit.as_ref().expect("a fit");
+    let [n, k] = [fit.report.parameters.n, fit.report.parameters.k];
+    let cell = |edges: &[f64], value: f64| edges.windows(2).position(|pair| (pair[0]..pair[1]).contains(&value)).expect("inside");
+    let at = |n: f64, k: f64| map.values[cell(&map.y_edges, k) * (map.x_edges.len() - 1) + cell(&map.x_edges, n)];
+    // The sliders stand where the fit ended: there it is lower than a few cells away on each side.
+    let around = [at(1.3 * n, k), at(n / 1.3, k), at(n, k + 0.5), at(n, k - 0.5)];
+    assert!(around.iter().all(|height| *height > at(n, k)), "{around:?} {}", at(n, k));
+    let names: Vec<&str> = exported.panels[0].series.iter().map(|series| series.name.as_str()).collect();
+    for name in ["way of the last fit", "minima", "metals", "sliders"] {
+        assert!(names.contains(&name), "{name}");
+    }
+}
+
 #[test]
 fn a_logarithmic_plot_is_exported_with_its_values() {
     let mut harness = harness();
@@ -71,6 +181,7 @@ fn each_export_writes_its_file_and_says_so() {
     let mut exports =
         vec![(Outgoing::Curves, "c.csv"), (Outgoing::Fitted, "f.csv"), (Outgoing::Report, "r.html"), (Outgoing::Report, "r.md")];
     for pane in PLOTS {
+        show(&mut harness, pane);
         exports.extend([(Outgoing::Plot(pane), "p.svg"), (Outgoing::Plot(pane), "p.png")]);
     }
     for (what, name) in exports {

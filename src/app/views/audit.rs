@@ -1,5 +1,9 @@
 //! What the physics says of the sliders' surface: each check with its number and verdict, and the reflectance against θi.
 
+mod figure;
+
+pub use figure::audit_figure;
+
 use crate::app::curves::{Pieces, pieces};
 use crate::app::language::translated;
 use crate::app::latest_job::LatestJob;

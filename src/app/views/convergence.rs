@@ -1,5 +1,9 @@
 //! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or time.
 
+mod figure;
+
+pub use figure::convergence_figure;
+
 use crate::app::curves::{Pieces, pieces};
 use crate::app::language::translated;
 use crate::app::memo::Memo;

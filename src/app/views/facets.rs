@@ -1,5 +1,9 @@
 //! The facets behind the specular lobe: densities of their tilt α for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6).
 
+mod figure;
+
+pub use figure::facets_figure;
+
 use crate::app::curves::{Pieces, directions, pieces};
 use crate::app::document::Series;
 use crate::app::memo::Memo;

@@ -2,6 +2,10 @@
 //!
 //! The disc is that of [`pbrdf::model::Hemisphere`]: light from the left, forward side to the right, θr = 90° at the rim.
 
+mod figure;
+
+pub use figure::hemisphere_figure;
+
 use crate::app::curves::{DECADES, MOST_POINTS, SETS_AXES};
 use crate::app::document::Document;
 use crate::app::latest_job::LatestJob;

@@ -1,6 +1,10 @@
 //! The objective over two parameters, the others at their sliders: its valleys, the way of the last fits, where they ended, and
 //! tabulated metals where the axes are n and k. It follows the sliders; a click puts them there.
 
+mod figure;
+
+pub use figure::landscape_figure;
+
 use super::landscape_marks::{Marks, MarksKey, marks_in};
 use crate::app::command::Command;
 use crate::app::contours::Heights;

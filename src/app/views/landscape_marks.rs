@@ -37,7 +37,7 @@ impl MarksKey {
 /// Marks with what a pointer reads at each.
 #[derive(Default)]
 pub struct Noted {
-    points: Vec<PlotPoint>,
+    pub points: Vec<PlotPoint>,
     texts: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub struct Marks {
     pub minima: Noted,
     pub metals: Noted,
     /// Where each metal is named.
-    names: Vec<(PlotPoint, &'static str)>,
+    pub names: Vec<(PlotPoint, &'static str)>,
 }
 
 impl Noted {

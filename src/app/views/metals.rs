@@ -1,5 +1,9 @@
 //! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
 
+mod figure;
+
+pub use figure::metals_figure;
+
 use crate::app::command::Command;
 use crate::app::curves::{Pieces, pieces};
 use crate::app::language::translated;

@@ -20,20 +20,20 @@ mod residuals;
 mod stability;
 mod table;
 
-pub use audit::{audit_refresh, audit_ui};
+pub use audit::{audit_figure, audit_refresh, audit_ui};
 pub use comparison::comparison_ui;
-pub use convergence::{convergence_options_ui, convergence_refresh, convergence_ui};
+pub use convergence::{convergence_figure, convergence_options_ui, convergence_refresh, convergence_ui};
 pub use cost::cost_ui;
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
 pub use error_vs_time::error_vs_time_ui;
-pub use facets::{facets_options_ui, facets_refresh, facets_ui};
-pub use hemisphere::{hemisphere_refresh, hemisphere_ui};
-pub use landscape::{landscape_options_ui, landscape_refresh, landscape_ui};
+pub use facets::{facets_figure, facets_options_ui, facets_refresh, facets_ui};
+pub use hemisphere::{hemisphere_figure, hemisphere_refresh, hemisphere_ui};
+pub use landscape::{landscape_figure, landscape_options_ui, landscape_refresh, landscape_ui};
 pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
-pub use metals::{metals_refresh, metals_ui, values};
-pub use mueller::{mueller_refresh, mueller_ui};
+pub use metals::{metals_figure, metals_refresh, metals_ui, values};
+pub use mueller::{mueller_figure, mueller_refresh, mueller_ui};
 pub use planner::{planner_refresh, planner_ui};
-pub use polar::{polar_options_ui, polar_refresh, polar_ui};
+pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
 pub use stability::stability_ui;
 pub use table::{table_refresh, table_ui};
 

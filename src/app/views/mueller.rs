@@ -2,6 +2,10 @@
 //!
 //! Between the meridian bases [E_s, E_p] of the incident and the reflected ray.
 
+mod figure;
+
+pub use figure::mueller_figure;
+
 use crate::app::curves::directions;
 use crate::app::document::Series;
 use crate::app::memo::Memo;

@@ -2,6 +2,10 @@
 //!
 //! The plane is the sliders' own: θr to the right is the forward side, to the left the backscatter side.
 
+mod figure;
+
+pub use figure::polar_figure;
+
 use crate::app::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
 use crate::app::document::Series;
 use crate::app::memo::Memo;

@@ -1,0 +1,79 @@
+//! The landscape for print, with what lies on it.
+
+use super::{Drawn, Key, LandscapeView, coordinate, value};
+use crate::app::plots::print::{FOREGROUND, WHITE, edges, placed};
+use crate::app::state::Settings;
+use crate::app::window::Explorer;
+use pbrdf::fit::Axis as Nodes;
+use pbrdf::report::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
+
+const WAY: Rgb = Rgb(255, 96, 64);
+const MINIMA: Rgb = Rgb(255, 214, 90);
+const METALS: Rgb = Rgb(150, 220, 255);
+
+pub fn landscape_figure(explorer: &Explorer) -> Option<Figure> {
+    let Explorer { views, settings, document, .. } = explorer;
+    let view = &views.landscape;
+    let (key, drawn) = (view.job.key()?, view.job.get()?.as_ref()?);
+    let mut series = vec![Series::heat_map(heat_map(drawn, key))];
+    let back = |[x, y]: [f64; 2]| [value(key.across.parameter, x), value(key.up.parameter, y)];
+    for (color, pieces) in drawn.contours.iter().filter(|_| settings.landscape.contours) {
+        let ink = if color.r() > 128 { WHITE } else { FOREGROUND };
+        series.push(Series::dashed("", placed(pieces, back), Dash::Solid).colored(ink));
+    }
+    series.extend(marks(view, settings, back));
+    let sliders = [key.across, key.up].map(|nodes| settings.parameters[nodes.parameter]);
+    series.push(pointed("sliders", vec![sliders], Symbol::Cross, WHITE));
+    let panel = Panel { x: axis(key.across), y: axis(key.up), series, ..Panel::default() };
+    Some(Figure { title: document.name.clone(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
+}
+
+fn axis(nodes: Nodes) -> Axis {
+    let Nodes { parameter, low, high, .. } = nodes;
+    let unit = parameter.unit().trim();
+    let axis = if nodes.logarithmic { Axis::log(parameter.symbol(), unit) } else { Axis::linear(parameter.symbol(), unit) };
+    axis.between(low, high)
+}
+
+/// The nodes are in the middle of cells; those at the ends stand half outside the axes.
+fn heat_map(drawn: &Drawn, key: &Key) -> HeatMap {
+    let edges = |nodes: Nodes| -> Vec<f64> {
+        let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
+        #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
+        let half = 0.5 * (high - low) / (nodes.count - 1) as f64;
+        edges(low - half, high + half, nodes.count).into_iter().map(|edge| value(nodes.parameter, edge)).collect()
+    };
+    let [low, high] = [drawn.scale.range.low, drawn.scale.range.high].map(libm::exp10);
+    HeatMap {
+        x_edges: edges(key.across),
+        y_edges: edges(key.up),
+        values: drawn.landscape.objective.clone(),
+        color_axis: Axis::log(drawn.title, "").between(low, high),
+        colors: drawn.scale.map,
+    }
+}
+
+fn pointed(name: &str, places: Vec<[f64; 2]>, symbol: Symbol, color: Rgb) -> Series {
+    Series::measured(name, places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect(), symbol).colored(color)
+}
+
+/// Metals, ways and minima, as far as they are shown.
+fn marks(view: &LandscapeView, settings: &Settings, back: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
+    let shown = settings.landscape;
+    let Some(marks) = view.marks.get() else { return Vec::new() };
+    let places = |points: &[egui_plot::PlotPoint]| -> Vec<[f64; 2]> { points.iter().map(|point| back([point.x, point.y])).collect() };
+    let mut series = Vec::new();
+    if shown.metals && !marks.metals.points.is_empty() {
+        series.push(pointed("metals", places(&marks.metals.points), Symbol::Disc, METALS));
+        let names = marks.names.iter().map(|(point, name)| (back([point.x, point.y]), (*name).to_owned()));
+        series.push(Series::labels(names.collect()));
+    }
+    for (age, way) in marks.ways.iter().enumerate().rev().filter(|_| shown.paths) {
+        let name = if age == 0 { "way of the last fit" } else { "ways of fits before" };
+        series.push(Series::line(name, places(&way.points)).colored(WAY));
+    }
+    if shown.minima && !marks.minima.points.is_empty() {
+        series.push(pointed("minima", places(&marks.minima.points), Symbol::Square, MINIMA));
+    }
+    series
+}
