@@ -1,7 +1,7 @@
 //! Derived values that take longer than a frame: made on a thread of their own, always from the newest inputs.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 /// Where such jobs run: it wakes the window when one is done, and knows how many are on their way.
@@ -39,11 +39,27 @@ struct Reply<V> {
     _ending: Ending,
 }
 
+/// A job on its way. Letting go of it tells it to stop.
+struct Running<K, V> {
+    key: K,
+    receiver: Receiver<V>,
+    stop: Arc<AtomicBool>,
+}
+
+impl<K, V> Drop for Running<K, V> {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Whether a job is to stop, which it looks at now and then.
+pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
+
 /// A [`super::memo::Memo`] that is made in the background. At most one job runs; inputs that come meanwhile wait, and only the
-/// newest are taken up. Until their value is there, the one before is shown.
+/// newest are taken up. Until their value is there, the one before is shown. Letting go of it stops its job.
 pub struct LatestJob<K, V> {
     shown: Option<(K, V)>,
-    running: Option<(K, Receiver<V>)>,
+    running: Option<Running<K, V>>,
     /// Inputs whose job panicked or could not be started: not tried again.
     failed: Option<K>,
 }
@@ -56,8 +72,8 @@ impl<K, V> Default for LatestJob<K, V> {
 
 impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
     /// Takes up what is done, and begins a job if the value belongs to other inputs than these. Call it before every frame that
-    /// shows the value. `make` owns its inputs; it runs on another thread.
-    pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce() -> V + Send + 'static) {
+    /// shows the value. `make` owns its inputs; it runs on another thread, and what it answers after a stop is not seen.
+    pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
         self.take_up();
         let is_there = self.shown.as_ref().is_some_and(|(made_from, _)| made_from == key);
         if is_there || self.running.is_some() || self.failed.as_ref() == Some(key) {
@@ -66,23 +82,33 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
         let (sender, receiver) = channel();
         let reply = Reply { sender, _ending: Ending(background.clone()) };
         background.running.fetch_add(1, Ordering::Release);
+        let stop = Arc::new(AtomicBool::new(false));
+        let looked_at = stop.clone();
         let run = move || {
             let reply = reply;
             // The window may be gone.
-            let _ = reply.sender.send(make());
+            let _ = reply.sender.send(make(&|| looked_at.load(Ordering::Relaxed)));
         };
         match std::thread::Builder::new().name("derive".to_owned()).spawn(run) {
-            Ok(_) => self.running = Some((key.clone(), receiver)),
+            Ok(_) => self.running = Some(Running { key: key.clone(), receiver, stop }),
             Err(_) => self.failed = Some(key.clone()),
         }
     }
 
     fn take_up(&mut self) {
-        let Some((key, receiver)) = self.running.take() else { return };
-        match receiver.try_recv() {
-            Ok(value) => self.shown = Some((key, value)),
-            Err(TryRecvError::Empty) => self.running = Some((key, receiver)),
-            Err(TryRecvError::Disconnected) => self.failed = Some(key),
+        let Some(running) = self.running.take() else { return };
+        match running.receiver.try_recv() {
+            Ok(value) => self.shown = Some((running.key.clone(), value)),
+            Err(TryRecvError::Empty) => self.running = Some(running),
+            Err(TryRecvError::Disconnected) => self.failed = Some(running.key.clone()),
+        }
+    }
+
+    /// Stops the job on its way if nobody waits for what it makes of its inputs; the next one need not wait for it.
+    pub fn stop_if(&mut self, is_useless: impl FnOnce(&K) -> bool) {
+        self.take_up();
+        if self.running.as_ref().is_some_and(|running| is_useless(&running.key)) {
+            self.running = None;
         }
     }
 
@@ -125,23 +151,23 @@ mod tests {
     fn the_newest_inputs_win_and_the_old_value_is_shown_meanwhile() {
         let background = Background::new(&egui::Context::default());
         let mut job: LatestJob<u32, u32> = LatestJob::default();
-        job.refresh(&background, &1, || 10);
+        job.refresh(&background, &1, |_| 10);
         wait(&background);
         let (let_go, hold) = channel::<()>();
-        job.refresh(&background, &2, move || {
+        job.refresh(&background, &2, move |_| {
             let _ = hold.recv();
             20
         });
         assert_eq!((job.get(), job.is_running()), (Some(&10), true));
         // 3 comes and goes while 2 is being made.
-        job.refresh(&background, &3, || 30);
-        job.refresh(&background, &4, || 40);
+        job.refresh(&background, &3, |_| 30);
+        job.refresh(&background, &4, |_| 40);
         drop(let_go);
         wait(&background);
-        job.refresh(&background, &4, || 40);
+        job.refresh(&background, &4, |_| 40);
         assert_eq!(job.get(), Some(&20));
         wait(&background);
-        job.refresh(&background, &4, || 40);
+        job.refresh(&background, &4, |_| 40);
         assert_eq!((job.get(), job.key(), job.is_running()), (Some(&40), Some(&4), false));
     }
 
@@ -149,13 +175,60 @@ mod tests {
     fn a_job_that_panics_is_not_tried_again_with_the_same_inputs() {
         let background = Background::new(&egui::Context::default());
         let mut job: LatestJob<u32, u32> = LatestJob::default();
-        job.refresh(&background, &1, || std::panic::panic_any("on purpose"));
+        job.refresh(&background, &1, |_| std::panic::panic_any("on purpose"));
         wait(&background);
-        job.refresh(&background, &1, || 10);
+        job.refresh(&background, &1, |_| 10);
         assert!(job.has_failed(&1) && !job.is_running() && job.get().is_none());
-        job.refresh(&background, &2, || 20);
+        job.refresh(&background, &2, |_| 20);
         wait(&background);
-        job.refresh(&background, &2, || 20);
+        job.refresh(&background, &2, |_| 20);
         assert_eq!(job.get(), Some(&20));
+    }
+
+    /// A job that answers whether it was told to stop, once it is let go.
+    fn held(job: &mut LatestJob<u32, bool>, background: &Background, key: u32) -> std::sync::mpsc::Sender<()> {
+        let (let_go, hold) = channel::<()>();
+        job.refresh(background, &key, move |stopped| {
+            let _ = hold.recv();
+            stopped()
+        });
+        let_go
+    }
+
+    #[test]
+    fn a_useless_job_is_stopped_and_the_next_does_not_wait_for_it() {
+        let background = Background::new(&egui::Context::default());
+        let mut job = LatestJob::default();
+        let first = held(&mut job, &background, 1);
+        job.stop_if(|key| *key != 1);
+        assert!(job.is_running(), "it is of use");
+        job.stop_if(|key| *key == 1);
+        assert!(!job.is_running());
+        drop(held(&mut job, &background, 2));
+        while job.get().is_none() {
+            drop(held(&mut job, &background, 2));
+        }
+        assert_eq!((job.key(), job.get()), (Some(&2), Some(&false)));
+        drop(first);
+        wait(&background);
+        job.stop_if(|_| false);
+        assert_eq!((job.key(), job.get()), (Some(&2), Some(&false)), "what a stopped job answers is not seen");
+    }
+
+    #[test]
+    fn letting_go_stops_the_job() {
+        let background = Background::new(&egui::Context::default());
+        let (sender, told) = channel();
+        let (let_go, hold) = channel::<()>();
+        let mut job: LatestJob<u32, ()> = LatestJob::default();
+        job.refresh(&background, &1, move |stopped| {
+            let before = stopped();
+            let _ = hold.recv();
+            let _ = sender.send((before, stopped()));
+        });
+        drop(job);
+        drop(let_go);
+        let (_, after) = told.recv().expect("an answer");
+        assert!(after);
     }
 }

@@ -25,6 +25,7 @@ use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::report::Setting;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -236,7 +237,9 @@ impl Explorer {
         self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
         self.refresh_import();
         self.panes.settle();
-        for pane in self.panes.on_screen() {
+        let on_screen = self.panes.on_screen();
+        self.views.rest(&on_screen);
+        for pane in on_screen {
             (pane.entry().refresh)(self);
         }
     }
@@ -671,6 +674,10 @@ impl eframe::App for Explorer {
     }
 
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.window.show_frame_times {
+            // Where drawing is too slow, or switched off, to read the status line.
+            let _ = writeln!(std::io::stderr(), "{}", self.frame_times.text());
+        }
         if self.is_changed() {
             self.save();
         }

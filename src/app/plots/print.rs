@@ -10,6 +10,8 @@ pub const FOREGROUND: Rgb = Rgb(20, 20, 20);
 pub const MUTED: Rgb = Rgb(150, 150, 150);
 /// Ink on dark maps.
 pub const WHITE: Rgb = Rgb(255, 255, 255);
+/// Ink of marks, which are told apart on a map of whichever colour and on the page.
+pub const MARK: Rgb = Rgb(235, 50, 60);
 
 /// Coordinates of a curve; a gap between pieces stays one.
 pub fn points(pieces: &Pieces, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {

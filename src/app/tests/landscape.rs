@@ -66,6 +66,30 @@ fn nothing_is_computed_off_screen() {
 }
 
 #[test]
+fn a_map_that_nobody_looks_at_is_not_finished() {
+    for pane in [Pane::Landscape, Pane::Hemisphere] {
+        let mut harness = harness();
+        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        wait(&mut harness);
+        let before = explorer(&mut harness).views.landscape.key().cloned();
+        explorer(&mut harness).settings.parameters.sigma = 0.2;
+        harness.step();
+        let running = |harness: &mut Harness<'static, Option<Explorer>>| {
+            let views = &explorer(harness).views;
+            if pane == Pane::Landscape { views.landscape.is_running() } else { views.hemisphere.is_running() }
+        };
+        assert!(running(&mut harness), "{pane:?}");
+        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        harness.step();
+        assert!(!running(&mut harness), "{pane:?}");
+        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        wait(&mut harness);
+        let key = explorer(&mut harness).views.landscape.key().cloned();
+        assert!(pane == Pane::Hemisphere || key != before);
+    }
+}
+
+#[test]
 fn a_click_sets_both_sliders_in_one_step_of_undo() {
     let mut harness = shown();
     let before = explorer(&mut harness).settings.parameters;

@@ -120,7 +120,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
         let (row, column) = (60, 170);
         let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
         let (x, y) = (middle(&map.x_edges, column), middle(&map.y_edges, row));
-        let (theta_r, dphi) = (x.hypot(y), (-y).atan2(-x).to_degrees().rem_euclid(360.0));
+        let (theta_r, dphi) = (libm::hypot(x, y), libm::atan2(-y, -x).to_degrees().rem_euclid(360.0));
         let settings = &explorer.settings;
         let surface = Pbrdf::new(settings.model, settings.parameters).expect("a surface");
         let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("a direction");

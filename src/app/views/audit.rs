@@ -97,7 +97,7 @@ pub fn audit_refresh(explorer: &mut Explorer) {
         view.curves.clear();
         return;
     };
-    view.job.refresh(background, &key, move || Audit::new(&surface));
+    view.job.refresh(background, &key, move |_| Audit::new(&surface));
     let (Some(key), Some(audit)) = (view.job.key(), view.job.get()) else { return };
     view.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
     if let Some(curves) = view.curves.get() {

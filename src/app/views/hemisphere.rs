@@ -8,7 +8,7 @@ pub use figure::hemisphere_figure;
 
 use crate::app::curves::{DECADES, MOST_POINTS, SETS_AXES};
 use crate::app::document::Document;
-use crate::app::latest_job::LatestJob;
+use crate::app::latest_job::{LatestJob, Stopped};
 use crate::app::memo::Memo;
 use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Following, Range, color_bar, round_up};
 use crate::app::problem::dolp_gain;
@@ -52,10 +52,10 @@ pub struct Made {
 }
 
 impl Made {
-    fn new(surface: &Pbrdf, theta_i: f64, eq17: Eq17, before: Option<Arc<Hemisphere>>) -> Option<Self> {
-        let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, &|| false).ok()??));
+    fn new(surface: &Pbrdf, theta_i: f64, eq17: Eq17, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
+        let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, stopped).ok()??));
         let hemisphere = before.or_else(prepared)?;
-        let mut map = hemisphere.map(surface, &|| false)?;
+        let mut map = hemisphere.map(surface, stopped)?;
         let gain = dolp_gain(eq17, surface.parameters());
         map.dolp.iter_mut().for_each(|dolp| *dolp *= gain);
         // Coloured by its decades.
@@ -161,6 +161,17 @@ impl HemisphereView {
         Some(format!("{at}: {}", quantity.reading(value)))
     }
 
+    /// Stops the job on its way, where nobody looks.
+    pub fn rest(&mut self) {
+        self.job.stop_if(|_| true);
+    }
+
+    /// Whether a map is being made.
+    #[cfg(test)]
+    pub fn is_running(&self) -> bool {
+        self.job.is_running()
+    }
+
     /// Whether the next frame changes the texture.
     #[cfg(test)]
     pub fn is_fresh(&self) -> bool {
@@ -207,7 +218,7 @@ pub fn hemisphere_refresh(explorer: &mut Explorer) {
         return;
     };
     let before = view.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
-    view.job.refresh(background, &(parameters, model, theta_i, eq17), move || Made::new(&surface, theta_i, eq17, before));
+    view.job.refresh(background, &(parameters, model, theta_i, eq17), move |stopped| Made::new(&surface, theta_i, eq17, before, stopped));
     view.measured.refresh((document.generation, theta_i), |_| measured(document, theta_i));
     let (Some(key), Some(Some(made))) = (view.job.key(), view.job.get()) else { return };
     let quantity = settings.shown.hemisphere;
@@ -392,7 +403,7 @@ mod tests {
     #[test]
     fn the_image_has_the_values_of_the_map_with_y_upwards() {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
-        let made = Made::new(&surface, 50.0, Eq17::Consistent, None).expect("a map");
+        let made = Made::new(&surface, 50.0, Eq17::Consistent, None, &|| false).expect("a map");
         // On either side of the plane of incidence the angle of polarisation has the other sign.
         let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
         let image = made.image(Quantity::Angle, scale);

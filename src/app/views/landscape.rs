@@ -9,7 +9,7 @@ use super::landscape_marks::{Marks, MarksKey, marks_in};
 use crate::app::command::Command;
 use crate::app::contours::Heights;
 use crate::app::curves::Pieces;
-use crate::app::latest_job::LatestJob;
+use crate::app::latest_job::{LatestJob, Stopped};
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
 use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Range, color_bar, ink_on, plot};
@@ -49,6 +49,15 @@ pub struct Key {
     scale_at: Option<Parameters>,
     pub across: Axis,
     pub up: Axis,
+}
+
+impl Key {
+    /// Whether the landscape of these inputs is worth waiting for while other ones are wanted: under a moving slider each coarse one
+    /// is a picture on the way. A fine one, or one of other data, is not.
+    fn is_of_use(&self, wanted: &Self, coarse: &Self) -> bool {
+        let subject = |key: &Self| (key.generation, key.model, key.choices, key.across.parameter, key.up.parameter, key.across.count);
+        self == wanted || subject(self) == subject(coarse)
+    }
 }
 
 /// A landscape as it is drawn.
@@ -116,7 +125,7 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
 
 impl Drawn {
     /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
-    fn new(mut settings: Settings, measurement: &Measurement, key: &Key) -> Option<Self> {
+    fn new(mut settings: Settings, measurement: &Measurement, key: &Key, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
         // Where its own two sliders stand is no matter, not even if that is nowhere.
         for axis in [key.across, key.up] {
@@ -124,7 +133,7 @@ impl Drawn {
         }
         let problem = problem(&settings, measurement, settings.model, free, settings.choices).ok()?;
         let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
-        let landscape = Landscape::minimised(&problem, key.across, key.up, &|| false)?;
+        let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
         let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();
         let finite = || heights.iter().copied().filter(|height| height.is_finite());
         let highest = finite().fold(f64::NEG_INFINITY, f64::max);
@@ -226,9 +235,10 @@ pub fn landscape_refresh(explorer: &mut Explorer) {
         Some(Key { generation: document.generation, others, model, choices, scale_at, across, up })
     };
     let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
-    let key = if *dragging && view.job.key() != Some(&fine) { coarse } else { fine };
+    let key = if *dragging && view.job.key() != Some(&fine) { coarse.clone() } else { fine };
+    view.job.stop_if(|running| !running.is_of_use(&key, &coarse));
     let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
-    view.job.refresh(background, &key, move || Drawn::new(settings, &measurement, &made_from));
+    view.job.refresh(background, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
 }
 
 /// What is drawn in the pane.
@@ -425,8 +435,20 @@ fn logarithmic(exponent: f64, step_size: f64) -> String {
     if (-4.0..=4.0).contains(&exponent) { tidy(libm::exp10(exponent)).to_string() } else { power_of_ten(exponent, step_size) }
 }
 
+impl LandscapeView {
+    /// Stops the job on its way, where nobody looks.
+    pub fn rest(&mut self) {
+        self.job.stop_if(|_| true);
+    }
+}
+
 #[cfg(test)]
 impl LandscapeView {
+    /// Whether a landscape is being made.
+    pub fn is_running(&self) -> bool {
+        self.job.is_running()
+    }
+
     /// The inputs of the newest landscape.
     pub fn key(&self) -> Option<&Key> {
         self.job.key()

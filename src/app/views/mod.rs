@@ -37,6 +37,8 @@ pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
 pub use stability::stability_ui;
 pub use table::{table_refresh, table_ui};
 
+use super::panes::Pane;
+
 /// What the panes keep from frame to frame.
 #[derive(Default)]
 pub struct Views {
@@ -52,4 +54,16 @@ pub struct Views {
     pub planner: planner::PlannerView,
     pub polar: polar::PolarView,
     pub table: table::TableView,
+}
+
+impl Views {
+    /// Stops what is being made for panes that nobody looks at.
+    pub fn rest(&mut self, on_screen: &[Pane]) {
+        if !on_screen.contains(&Pane::Hemisphere) {
+            self.hemisphere.rest();
+        }
+        if !on_screen.contains(&Pane::Landscape) {
+            self.landscape.rest();
+        }
+    }
 }

@@ -13,6 +13,8 @@ const CAP: f64 = 2.0;
 const SAME: f64 = 0.02;
 /// Opacity of a band.
 const BAND: f64 = 0.2;
+/// Opacity of what is behind a label.
+const PLATE: f64 = 0.7;
 /// Levels of colour in a map.
 const LEVELS: u16 = 255;
 
@@ -237,6 +239,10 @@ fn draw_labels(canvas: &mut Canvas<'_>, map: &Map<'_>, labels: &[([f64; 2], Stri
         // To the right of the place, unless the frame ends there.
         let is_free = x + GAP + canvas.font.width(text, SMALL) <= map.frame.right();
         let (x, anchor) = if is_free { (x + GAP + RADIUS, Anchor::Start) } else { (x - GAP - RADIUS, Anchor::End) };
+        // Readable on a map too.
+        let width = canvas.font.width(text, SMALL) + 2.0;
+        let left = if is_free { x - 1.0 } else { x - width + 1.0 };
+        canvas.path(&rectangle(left, y - 0.55 * SMALL, width, 1.1 * SMALL), Paint::Fill(Rgb(255, 255, 255), PLATE));
         canvas.text(text, SMALL, (x, y + 0.5 * LETTER_HEIGHT * SMALL), anchor, false, INK);
     }
 }

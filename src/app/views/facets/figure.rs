@@ -1,6 +1,7 @@
 //! Facet densities and masking–shadowing for print.
 
 use super::name;
+use crate::app::panels::significant;
 use crate::app::plots::Range;
 use crate::app::plots::print::{FOREGROUND, over, points};
 use crate::app::window::Explorer;
@@ -26,7 +27,7 @@ pub fn facets_figure(explorer: &Explorer) -> Option<Figure> {
     let y = if log { Axis::log("density", "sr⁻¹") } else { Axis::linear("density", "sr⁻¹") };
     let range = view.range.get().map(|range| Range { low: value(range.low), high: value(range.high) });
     let tilts = Panel {
-        title: format!("σ = {sigma}, q = {q}"),
+        title: format!("σ = {}, q = {}", significant(sigma), significant(q)),
         x: over(Axis::linear("α", "°"), view.tilts.get()),
         y: over(y, range),
         series,

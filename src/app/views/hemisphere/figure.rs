@@ -1,7 +1,7 @@
 //! The hemisphere map for print: θr from the middle outwards in degrees, so that axes can tell it.
 
 use super::{Made, SIZE, place, values};
-use crate::app::plots::print::{FOREGROUND, WHITE, edges, over};
+use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, over};
 use crate::app::state::Quantity;
 use crate::app::window::Explorer;
 use pbrdf::report::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
@@ -21,7 +21,7 @@ pub fn hemisphere_figure(explorer: &Explorer) -> Option<Figure> {
     series.push(Series::labels(labels.to_vec()));
     let mark = |name: &str, places: Vec<[f64; 2]>, symbol| {
         let points = places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect();
-        Series::measured(name, points, symbol).colored(WHITE)
+        Series::measured(name, points, symbol).colored(MARK)
     };
     let measured = view.measured.get().into_iter().flatten();
     let measured: Vec<[f64; 2]> = measured.map(|at| [90.0 * f64::from(at.x), 90.0 * f64::from(at.y)]).collect();

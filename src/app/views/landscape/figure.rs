@@ -1,9 +1,10 @@
 //! The landscape for print, with what lies on it.
 
 use super::{Drawn, Key, LandscapeView, coordinate, value};
-use crate::app::plots::print::{FOREGROUND, WHITE, edges, placed};
+use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, placed};
 use crate::app::state::Settings;
 use crate::app::window::Explorer;
+use egui_plot::PlotPoint;
 use pbrdf::fit::Axis as Nodes;
 use pbrdf::report::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 
@@ -21,9 +22,14 @@ pub fn landscape_figure(explorer: &Explorer) -> Option<Figure> {
         let ink = if color.r() > 128 { WHITE } else { FOREGROUND };
         series.push(Series::dashed("", placed(pieces, back), Dash::Solid).colored(ink));
     }
-    series.extend(marks(view, settings, back));
+    // Of a name, as shares of the axes.
+    let room = [(key.across, 0.1), (key.up, 0.04)].map(|(nodes, share)| {
+        let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
+        share * (high - low)
+    });
+    series.extend(marks(view, settings, room, back));
     let sliders = [key.across, key.up].map(|nodes| settings.parameters[nodes.parameter]);
-    series.push(pointed("sliders", vec![sliders], Symbol::Cross, WHITE));
+    series.push(pointed("sliders", vec![sliders], Symbol::Cross, MARK));
     let panel = Panel { x: axis(key.across), y: axis(key.up), series, ..Panel::default() };
     Some(Figure { title: document.name.clone(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
 }
@@ -57,15 +63,26 @@ fn pointed(name: &str, places: Vec<[f64; 2]>, symbol: Symbol, color: Rgb) -> Ser
     Series::measured(name, places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect(), symbol).colored(color)
 }
 
+/// Names that do not stand on an earlier one, each with so much room in the coordinates of the plot.
+fn free(names: &[(PlotPoint, &'static str)], room: [f64; 2]) -> Vec<(PlotPoint, &'static str)> {
+    let mut free: Vec<(PlotPoint, &str)> = Vec::new();
+    for (point, name) in names {
+        if free.iter().all(|(other, _)| (other.x - point.x).abs() > room[0] || (other.y - point.y).abs() > room[1]) {
+            free.push((*point, name));
+        }
+    }
+    free
+}
+
 /// Metals, ways and minima, as far as they are shown.
-fn marks(view: &LandscapeView, settings: &Settings, back: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
+fn marks(view: &LandscapeView, settings: &Settings, room: [f64; 2], back: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
     let shown = settings.landscape;
     let Some(marks) = view.marks.get() else { return Vec::new() };
-    let places = |points: &[egui_plot::PlotPoint]| -> Vec<[f64; 2]> { points.iter().map(|point| back([point.x, point.y])).collect() };
+    let places = |points: &[PlotPoint]| -> Vec<[f64; 2]> { points.iter().map(|point| back([point.x, point.y])).collect() };
     let mut series = Vec::new();
     if shown.metals && !marks.metals.points.is_empty() {
         series.push(pointed("metals", places(&marks.metals.points), Symbol::Disc, METALS));
-        let names = marks.names.iter().map(|(point, name)| (back([point.x, point.y]), (*name).to_owned()));
+        let names = free(&marks.names, room).into_iter().map(|(point, name)| (back([point.x, point.y]), name.to_owned()));
         series.push(Series::labels(names.collect()));
     }
     for (age, way) in marks.ways.iter().enumerate().rev().filter(|_| shown.paths) {

@@ -18,7 +18,8 @@ pub fn polar_figure(explorer: &Explorer) -> Option<Figure> {
     for (radius, _) in &lobes.rings {
         series.push(still((-90..=90).step_by(3).map(|degrees| at(f64::from(degrees), *radius)).collect()));
     }
-    let directions = || (-90_i32..=90).step_by(30);
+    // Along the surface stands the axis.
+    let directions = || (-60_i32..=60).step_by(30);
     series.extend(directions().map(|degrees| still(vec![[0.0, 0.0], at(f64::from(degrees), 1.0)])));
     series.push(Series::labels(directions().map(|degrees| (at(f64::from(degrees), 1.0), format!("{}°", degrees.abs()))).collect()));
     if *plane == 180.0 {
