@@ -27,6 +27,13 @@ fn every_command_can_be_carried_out() {
     // All in one window, so that the later ones meet what the earlier ones left.
     let mut harness = harness();
     for command in commands {
+        if let Command::CopyPlot(pane) = command
+            && !explorer(&mut harness).panes.is_on_screen(pane)
+        {
+            // Until then the command is grey.
+            explorer(&mut harness).commands.push(Command::TogglePane(pane));
+            wait(&mut harness);
+        }
         explorer(&mut harness).commands.push(command.clone());
         if matches!(command, Command::MakeReport(_)) {
             // Begun is enough: to its end it takes a minute in a debug build.
