@@ -3,9 +3,10 @@
 use super::Range;
 use super::axis::{decimal, marks};
 use crate::app::theme;
-use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
+use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use egui_plot::GridInput;
 use pbrdf::report::figure::{ColorMap, Rgb};
+use tr::tr;
 
 /// A map of colours over a range of values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,14 +138,20 @@ const SPREAD: f64 = 30.0;
 const CLOSEST: f64 = 16.0;
 
 /// Draws a colour bar with its upper left corner there.
-pub fn color_bar(painter: &Painter, at: Pos2, height: f32, scale: ColorScale, labels: &BarLabels<'_>, ink: Color32, dark: bool) {
+pub fn color_bar(ui: &Ui, at: Pos2, height: f32, scale: ColorScale, labels: &BarLabels<'_>, ink: Color32, dark: bool) {
     let rect = Rect::from_min_size(at, vec2(BAR_WIDTH, height));
+    let painter = ui.painter();
     painter.add(gradient(rect, scale.map));
     painter.rect_stroke(rect, 0.0, Stroke::new(1.0, theme::muted(dark)), StrokeKind::Outside);
     let font = FontId::proportional(12.0);
     painter.text(rect.left_top() - vec2(0.0, 5.0), Align2::LEFT_BOTTOM, labels.title, font.clone(), ink);
     let Range { low, high } = scale.range;
-    for (value, text) in labels.marks.along(scale.range, height) {
+    let marks = labels.marks.along(scale.range, height);
+    if let (Some((_, first)), Some((_, last))) = (marks.first(), marks.last()) {
+        let name = || WidgetInfo::labeled(Role::Image, true, tr!("Colour bar: {0}, marks from {1} to {2}", labels.title, first, last));
+        ui.interact(rect, ui.id().with("colour bar"), Sense::hover()).widget_info(name);
+    }
+    for (value, text) in marks {
         #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
         let y = rect.bottom() - height * ((value - low) / (high - low)) as f32;
         painter.hline(rect.right()..=rect.right() + 4.0, y, Stroke::new(1.0, ink));

@@ -9,6 +9,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{TextStyle, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine};
 use pbrdf::report::figure::{self, Dash, Drawn, Figure, Panel, Scale};
+use tr::tr;
 
 /// A figure, its panels side by side.
 pub struct Drawing {
@@ -188,7 +189,7 @@ impl DrawnPanel {
             axes.apply(plot, Some(x.range), Some(y.range));
             items.iter().for_each(|item| item.draw(plot, dark));
         });
-        axes.listen(&response, ui);
+        axes.listen(&response, &tr!("Plot: {0} against {1}", y.title(), x.title()), ui);
         response
     }
 }

@@ -20,7 +20,7 @@ pub use ribbon::{Ribbon, ribbons_in};
 
 use super::curves::Pieces;
 use super::theme;
-use egui::Ui;
+use egui::{Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotResponse, PlotUi};
 
 /// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
@@ -47,8 +47,9 @@ impl Axes {
         }
     }
 
-    /// Notices panning and zooming; call it with what the plot answered.
-    pub fn listen<R>(&mut self, response: &PlotResponse<R>, ui: &Ui) {
+    /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the plot answered.
+    pub fn listen<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
+        response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         self.seen = Some(*response.transform.bounds());
         let scrolled =
             response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
@@ -114,7 +115,7 @@ mod tests {
         let frame = |ui: &mut egui::Ui, State { axes, plot, seen }: &mut State| {
             let range = Some(Range { low: 3.0, high: 7.0 });
             let response = Plot::new(*plot).auto_bounds([false, false]).show(ui, |plot| axes.apply(plot, range, range));
-            axes.listen(&response, ui);
+            axes.listen(&response, "plot", ui);
             *seen = response.transform.bounds().min();
         };
         let mut harness = Harness::builder().build_ui_state(frame, State::default());

@@ -3,8 +3,9 @@
 use super::{explorer, harness, wait};
 use crate::app::command::{Command, items};
 use crate::app::language::{Language, MISSED};
-use crate::app::panes::PANES;
+use crate::app::panes::{PANES, Pane};
 use crate::app::window::Explorer;
+use egui::accesskit::{Action, Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT as _;
 use std::collections::BTreeSet;
@@ -20,12 +21,17 @@ fn chinese() -> Harness<'static, Option<Explorer>> {
 }
 
 /// Puts that pane alone on screen.
-fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: crate::app::panes::Pane) {
+fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
     for other in &PANES {
         explorer(harness).commands.push(Command::ClosePane(other.pane));
     }
     explorer(harness).commands.push(Command::TogglePane(pane));
-    harness.run_steps(4);
+    if pane == Pane::Landscape {
+        // In an unoptimised build its maps take half a minute: nobody waits for them.
+        harness.run_steps(4);
+    } else {
+        wait(harness);
+    }
 }
 
 /// What is written on the screen, and what a screen reader says besides.
@@ -97,4 +103,36 @@ fn the_fonts_have_every_letter() {
         texts.iter().flat_map(|text| text.chars()).filter(|letter| !letter.is_ascii_control() && !fonts.has_glyph(&font, *letter)).collect()
     });
     assert!(lacking.is_empty(), "run assets/fonts/make_subset.py: {lacking:?}");
+}
+
+/// Nodes that somebody can act on and that have no name.
+fn nameless(harness: &Harness<'static, Option<Explorer>>) -> Vec<String> {
+    let mut nameless = Vec::new();
+    let mut nodes = vec![harness.root()];
+    while let Some(node) = nodes.pop() {
+        let accessible = node.accesskit_node();
+        let acts = [Action::Click, Action::Focus].into_iter().any(|action| accessible.data().supports_action(action));
+        let is_text = accessible.role() == Role::Label && accessible.value().is_some();
+        let is_named = is_text || accessible.role() == Role::ScrollBar;
+        if acts && !is_named && accessible.label().is_none_or(|label| label.trim().is_empty()) {
+            nameless.push(format!("{:?} {:?} {:?}", accessible.role(), accessible.value(), accessible.bounding_box()));
+        }
+        nodes.extend(node.children());
+    }
+    nameless
+}
+
+#[test]
+fn every_control_has_a_name() {
+    let mut all = Vec::new();
+    for language in Language::ALL {
+        let mut harness = chinese();
+        explorer(&mut harness).commands.push(Command::SetLanguage(language));
+        wait(&mut harness);
+        for entry in &PANES {
+            alone(&mut harness, entry.pane);
+            all.extend(nameless(&harness).into_iter().map(|node| format!("{}: {node}", entry.key)));
+        }
+    }
+    assert!(all.is_empty(), "{all:#?}");
 }

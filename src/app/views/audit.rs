@@ -282,7 +282,7 @@ fn reflectance_ui(axes: &mut Axes, curves: Option<&Curves>, range: Option<Range>
             curve(plot, &curves.total, &tr!("total"), theme::foreground(dark), None, 2.5);
             curve(plot, &curves.above, &tr!("above 1"), theme::warning(dark), None, 3.5);
         });
-    axes.listen(&response, ui);
+    axes.listen(&response, &tr!("Plot: reflectance against θi"), ui);
 }
 
 #[cfg(test)]

@@ -129,7 +129,7 @@ pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 plot.points(Points::new("ΔE", PlotPoints::Borrowed(piece)).color(theme::series(0, dark)).radius(3.0));
             }
         });
-    view.axes.listen(&response, ui);
+    view.axes.listen(&response, &tr!("Plot: ΔE of the last fit against {}", title), ui);
 }
 
 #[cfg(test)]

@@ -190,6 +190,6 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                 curve(plot, &curves.own.dolp, &own_name, theme::foreground(dark), None, 2.0);
             }
         });
-    view.axes.listen(&response, ui);
+    view.axes.listen(&response, &tr!("Plot: DoLP against θr"), ui);
     commands.extend(clicked_mask(&response, ui, document, |series| &series.dolp, |mark| Some(mark.quantity.value)));
 }

@@ -225,7 +225,7 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                 plot.vline(VLine::new("", density.median).color(color).style(LineStyle::dashed_loose()).allow_hover(false));
             }
         });
-    view.density_axes.listen(&response, ui);
+    view.density_axes.listen(&response, &tr!("Plot: densities of facet tilts"), ui);
 }
 
 fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
@@ -248,7 +248,7 @@ fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             let color = if settings.model.masking { theme::foreground(dark) } else { theme::muted(dark) };
             curve(plot, masking, &tr!("masking–shadowing G"), color, None, 2.0);
         });
-    view.masking_axes.listen(&response, ui);
+    view.masking_axes.listen(&response, &tr!("Plot: masking–shadowing against θr"), ui);
 }
 
 #[cfg(test)]

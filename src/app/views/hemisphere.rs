@@ -271,7 +271,7 @@ pub fn hemisphere_ui(explorer: &mut Explorer, ui: &mut Ui) {
     mirror_mark(&painter, disc.at(place(settings.theta_i, 180.0)));
     if let Some(range) = view.ranges[quantity as usize].get() {
         let at = Pos2::new(disc.center.x + radius + MARGIN.x + 6.0, disc.center.y - radius);
-        color_bar(&painter, at, 2.0 * radius, ColorScale { map: quantity.colors(), range }, &labels(quantity), ink, dark);
+        color_bar(ui, at, 2.0 * radius, ColorScale { map: quantity.colors(), range }, &labels(quantity), ink, dark);
     }
     let reading = response.hover_pos().and_then(|at| {
         let at = (at - disc.center) / radius;

@@ -16,7 +16,7 @@ use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Range, color_
 use crate::app::problem::problem;
 use crate::app::state::{OverTwo, Settings};
 use crate::app::window::Explorer;
-use egui::{Color32, ColorImage, ComboBox, TextureHandle, TextureOptions, Ui, vec2};
+use egui::{Color32, ColorImage, ComboBox, Role, TextureHandle, TextureOptions, Ui, WidgetInfo, vec2};
 use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Line, PlotBounds, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 use pbrdf::fit::{Axis, Choices, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
@@ -258,6 +258,8 @@ pub fn landscape_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
     let height = (ui.available_height() - line).max(80.0);
     let response = map_ui(explorer, height, ui);
+    let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
+    response.response.widget_info(name);
     let Explorer { commands, views, .. } = explorer;
     let view = &mut views.landscape;
     let bounds = response.transform.bounds();
@@ -271,15 +273,7 @@ pub fn landscape_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if let Some(drawn) = drawn {
         let at = rect.right_top() + vec2(14.0, 20.0);
         let labels = BarLabels { title: drawn.title, marks: BarMarks::Log };
-        color_bar(
-            ui.painter(),
-            at,
-            (rect.height() - 24.0).max(20.0),
-            drawn.scale,
-            &labels,
-            ui.visuals().text_color(),
-            ui.visuals().dark_mode,
-        );
+        color_bar(ui, at, (rect.height() - 24.0).max(20.0), drawn.scale, &labels, ui.visuals().text_color(), ui.visuals().dark_mode);
     }
     let pointed = response.response.hover_pos().map(|at| response.transform.value_from_position(at));
     let values = |point: PlotPoint| [(across, point.x), (up, point.y)].map(|(parameter, place)| (parameter, tidy(value(parameter, place))));

@@ -116,7 +116,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
             curve(plot, &curves.own.total, &tr!("total"), theme::foreground(dark), None, 2.5);
         });
-    view.axes.listen(&response, ui);
+    view.axes.listen(&response, &tr!("Plot: BRDF against θr"), ui);
     commands.extend(clicked_mask(
         &response,
         ui,

@@ -275,7 +275,7 @@ fn part_ui(
                 }
             }
         });
-    axes.listen(&response, ui);
+    axes.listen(&response, &tr!("Plot: {} against wavelength", parameter.symbol()), ui);
 }
 
 /// Surface finishes, which are not measured.

@@ -187,7 +187,7 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
         };
         plot.text(Text::new("", PlotPoint::new(0.0, -0.1), RichText::new(note).color(ink).size(LETTERS)).allow_hover(false));
     });
-    view.axes.listen(&response, ui);
+    view.axes.listen(&response, &tr!("Plot: lobes around the point of incidence"), ui);
 }
 
 /// Size of the letters in the drawing.

@@ -84,5 +84,5 @@ pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                 }
             }
         });
-    view.axes.listen(&response, ui);
+    view.axes.listen(&response, &tr!("Plot: residuals of DoLP against θr"), ui);
 }

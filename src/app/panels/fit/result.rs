@@ -175,7 +175,9 @@ fn correlations_ui(report: &FitReport, ui: &mut Ui) {
                         egui::FontId::proportional(11.0),
                         ui.visuals().text_color(),
                     );
-                    response.on_hover_text(tr!("{0} and {1}: r = {2}", parameter.symbol(), other.symbol(), format!("{r:.4}")));
+                    let said = tr!("{0} and {1}: r = {2}", parameter.symbol(), other.symbol(), format!("{r:.4}"));
+                    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &said));
+                    response.on_hover_text(said);
                 }
                 ui.end_row();
             }

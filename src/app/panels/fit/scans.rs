@@ -6,7 +6,7 @@ use crate::app::past_fits::PastFit;
 use crate::app::plots::axis::{self, axis, decimal};
 use crate::app::scans::{ProfileCurve, Scans};
 use crate::app::theme;
-use egui::{Button, CollapsingHeader, ComboBox, DragValue, Ui};
+use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;
 use tr::tr;
@@ -79,7 +79,7 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     }
     let x = axis(AxisHints::new_x(), ui, profile.parameter.symbol(), decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, name, decimal).min_thickness(58.0);
-    Plot::new("profile")
+    let plot = Plot::new("profile")
         .height(HEIGHT)
         .custom_x_axes(vec![x])
         .custom_y_axes(vec![y])
@@ -97,20 +97,22 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
                 Some(format!("{} = {}\n{name} = {:.3e}", profile.parameter.symbol(), significant(position.x), position.y))
             }
             HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            plot.set_plot_bounds_x(first.x..=last.x);
-            plot.set_plot_bounds_y(-0.05 * top..=1.05 * top);
-            let color = theme::series(0, dark);
-            let muted = theme::muted(dark);
-            plot.hline(HLine::new(tr!("one standard error"), profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
-            for end in profile.low.into_iter().chain(profile.high) {
-                plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
-            }
-            plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
-            plot.line(Line::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
-            plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
         });
+    let response = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(first.x..=last.x);
+        plot.set_plot_bounds_y(-0.05 * top..=1.05 * top);
+        let color = theme::series(0, dark);
+        let muted = theme::muted(dark);
+        plot.hline(HLine::new(tr!("one standard error"), profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
+        for end in profile.low.into_iter().chain(profile.high) {
+            plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
+        }
+        plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
+        plot.line(Line::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
+        plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
+    });
+    let said = || WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", name, profile.parameter.symbol()));
+    response.response.widget_info(said);
 }
 
 /// The interval in words, with its open ends named.
