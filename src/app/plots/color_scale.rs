@@ -149,7 +149,7 @@ pub fn color_bar(ui: &Ui, at: Pos2, height: f32, scale: ColorScale, labels: &Bar
     let marks = labels.marks.along(scale.range, height);
     if let (Some((_, first)), Some((_, last))) = (marks.first(), marks.last()) {
         let name = || WidgetInfo::labeled(Role::Image, true, tr!("Colour bar: {0}, marks from {1} to {2}", labels.title, first, last));
-        ui.interact(rect, ui.id().with("colour bar"), Sense::hover()).widget_info(name);
+        ui.interact(rect, ui.scope_id().with("colour bar"), Sense::hover()).widget_info(name);
     }
     for (value, text) in marks {
         #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
