@@ -310,3 +310,14 @@ fn a_parameter_without_effect_is_open_and_not_at_a_bound() {
     let c = estimate(Parameter::C);
     assert_eq!((c.value, c.at_bound, c.standing()), (Parameters::default().c, None, Standing::Open));
 }
+
+#[test]
+fn any_number_of_starts_can_be_asked_for_and_given_up() {
+    let data = simulate(Cauchy, TRUTH, Columns::Dolp, vec![30.0, 60.0], grid(0, 80, 20), 0.0);
+    let evaluations = AtomicUsize::new(0);
+    let cancelled = || evaluations.fetch_add(1, Ordering::Relaxed) > 20;
+    let watch = Watch { cancelled: &cancelled, ..Watch::NOBODY };
+    let report = fit(&problem(&data, Cauchy, Parameters::default()), Starts::Exactly(usize::MAX), 1, watch);
+    assert_eq!(report.stop_reason, StopReason::Cancelled);
+    assert!(report.objective.is_some_and(f64::is_finite));
+}

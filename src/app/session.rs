@@ -10,7 +10,7 @@ use super::state::Settings;
 use crate::export::program;
 use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watch, fit};
 use pbrdf::measurement::{self, Measurement, ReadError};
-use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -85,10 +85,8 @@ pub enum SessionError {
     Version { found: u32 },
     #[error("line {line}, column {column}{at}: {reason}")]
     Json { line: usize, column: usize, at: String, reason: String },
-    #[error("settings.parameters: {0}")]
-    Parameters(#[from] ParameterError),
-    #[error("settings: a value is outside its range")]
-    Settings,
+    #[error("settings.{0}")]
+    Settings(String),
     #[error("measurement.table: {0}")]
     Measurement(#[from] ReadError),
     #[error("fits, number {number}: {reason}")]
@@ -184,9 +182,8 @@ impl Session {
         let mut json = serde_json::Deserializer::from_str(text);
         let contents: Contents =
             serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
-        contents.settings.parameters.validate(ParameterSet::ALL)?;
-        if !contents.settings.are_sound() {
-            return Err(SessionError::Settings);
+        if let Some(fault) = contents.settings.fault() {
+            return Err(SessionError::Settings(fault));
         }
         let (name, sha256, measurement) = match contents.measurement {
             Some(Data { name, sha256, table }) => {

@@ -8,6 +8,7 @@ use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use tr::tr;
 
 /// Light or dark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -194,14 +195,30 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Whether the values mean something: a file can be well-formed and still hold nonsense.
-    pub fn are_sound(&self) -> bool {
-        self.parameters.validate(ParameterSet::ALL).is_ok()
-            && self.bounds.iter().all(|&(parameter, low, high)| Bounds::default().set(parameter, low, high).is_ok())
-            && self.plan.is_sound()
-            && (self.tabulated.wavelength_nm.is_finite() && self.tabulated.wavelength_nm > 0.0)
-            && self.choices.loss_scale.is_none_or(|scale| scale.is_finite() && scale > 0.0)
-            && Geometry::new(self.theta_i, 0.0, self.dphi).is_ok()
+    /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
+    pub fn fault(&self) -> Option<String> {
+        if let Err(error) = self.parameters.validate(ParameterSet::ALL) {
+            return Some(format!("parameters: {error}"));
+        }
+        for &(parameter, low, high) in &self.bounds {
+            if let Err(error) = Bounds::default().set(parameter, low, high) {
+                return Some(format!("bounds: {error}"));
+            }
+        }
+        if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
+            return Some(format!("theta_i, dphi: {error}"));
+        }
+        let is_positive = |value: f64| value.is_finite() && value > 0.0;
+        let outside = |key| Some(format!("{key}: {}", tr!("a value is outside its range")));
+        if !self.plan.is_sound() {
+            outside("plan")
+        } else if !is_positive(self.tabulated.wavelength_nm) {
+            outside("tabulated.wavelength_nm")
+        } else if !self.choices.loss_scale.is_none_or(is_positive) {
+            outside("choices.loss_scale")
+        } else {
+            None
+        }
     }
 
     /// Lower and upper bound of a parameter in fits.
@@ -269,7 +286,7 @@ impl Default for WindowSettings {
 
 impl WindowSettings {
     /// Whether a window can have this size.
-    pub fn are_sound(&self) -> bool {
+    fn is_sound(&self) -> bool {
         self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
     }
 
@@ -295,8 +312,9 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Whether the values mean something.
-    pub fn are_sound(&self) -> bool {
-        self.settings.are_sound() && self.window.are_sound()
+    /// The key of a value that means nothing, and why.
+    pub fn fault(&self) -> Option<String> {
+        let size = || (!self.window.is_sound()).then(|| format!("window.size: {}", tr!("a value is outside its range")));
+        self.settings.fault().map(|fault| format!("settings.{fault}")).or_else(size)
     }
 }

@@ -34,8 +34,10 @@ pub fn load_from(path: &Path) -> (Stored, Option<String>) {
             return (Stored::default(), Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", error)));
         }
         Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
-            Ok(settings) if settings.are_sound() => return (settings, None),
-            Ok(_) => tr!("a value is outside its range"),
+            Ok(settings) => match settings.fault() {
+                None => return (settings, None),
+                Some(fault) => fault,
+            },
             Err(error) => error.to_string(),
         },
     };

@@ -149,15 +149,20 @@ impl Explorer {
     pub fn begin(&mut self, file: Option<PathBuf>) {
         // Tests read no folders of the user.
         let own = self.settings_file.as_ref().and_then(|_| lessons::own_folder());
-        let (lessons, faults) = Lessons::load(own.as_deref());
-        self.lessons = lessons;
-        faults.into_iter().for_each(|sentence| self.say(sentence));
+        self.read_lessons(own.as_deref());
         let example = &EXAMPLES[0];
         match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
             Err(error) => self.say(tr!("The bundled example cannot be read: {}.", error)),
         }
         self.commands.extend(file.map(Command::OpenMeasurement));
+    }
+
+    /// The bundled lessons and those of a folder, and a sentence for each that is none.
+    pub(super) fn read_lessons(&mut self, own: Option<&std::path::Path>) {
+        let (lessons, faults) = Lessons::load(own);
+        self.lessons = lessons;
+        faults.into_iter().for_each(|sentence| self.say(sentence));
     }
 
     /// Shows a sentence above the plots.

@@ -61,6 +61,8 @@ const QUIET_ROUNDS: usize = 2;
 const ALL_THE_WAY: usize = 128;
 /// How many of those.
 const POLISHED: usize = 16;
+/// Followed for a few steps at once: any number of starts can be asked for, and memory holds so many.
+const BLOCK: usize = 4096;
 /// Automatic search makes at least so many starts.
 const LEAST_STARTS: usize = 36;
 /// Floors of the grid of first guesses that become starts.
@@ -94,7 +96,7 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
     }
     let mut candidates = Candidates::new(problem, seed);
     if most > ALL_THE_WAY {
-        search.follow_the_best(problem, &candidates.take(most), watch);
+        search.follow_the_best(problem, &mut candidates, most, watch);
         search.finish(problem, FINISHES, watch);
         return search;
     }
@@ -107,7 +109,8 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         let round = match starts {
             Starts::Automatic if done > 0 => {
                 if queue.is_empty() {
-                    queue = search.glance(problem, &candidates.take(GLANCES), watch);
+                    let seen = distinct(search.glance(problem, &candidates.take(GLANCES), watch));
+                    queue = seen.into_iter().map(|descent| descent.parameters).collect();
                 }
                 // In equal parts the promising and the fresh: a few steps do not tell everything.
                 let promising = queue.drain(..(count / 2).min(queue.len())).collect::<Vec<_>>();
@@ -212,23 +215,37 @@ impl Search {
         }
     }
 
-    /// A few steps from every start; where they led, the best first, each place once.
-    fn glance(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) -> Vec<Parameters> {
-        let mut short = run_all(problem, starts, Effort::Few, watch);
+    /// A few steps from every start.
+    fn glance(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) -> Vec<Descent> {
+        let short = run_all(problem, starts, Effort::Few, watch);
         self.evaluations += short.iter().map(|descent| descent.evaluations).sum::<usize>();
-        short.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
-        short.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);
-        short.into_iter().map(|descent| descent.parameters).collect()
+        short
     }
 
-    /// A few steps from every start, then the best distinct ones to the end.
-    fn follow_the_best(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) {
-        let mut polished = self.glance(problem, starts, watch);
-        polished.truncate(if (watch.cancelled)() { 1 } else { POLISHED });
+    /// A few steps from so many starts, then the best distinct ones to the end.
+    fn follow_the_best(&mut self, problem: &Problem, candidates: &mut Candidates<'_>, most: usize, watch: Watch<'_>) {
+        let mut best = Vec::new();
+        let mut left = most;
+        while left > 0 && (best.is_empty() || !(watch.cancelled)()) {
+            let count = left.min(BLOCK);
+            left -= count;
+            best.extend(self.glance(problem, &candidates.take(count), watch));
+            best = distinct(best);
+            best.truncate(POLISHED);
+        }
+        best.truncate(if (watch.cancelled)() { 1 } else { POLISHED });
+        let polished: Vec<Parameters> = best.into_iter().map(|descent| descent.parameters).collect();
         for descent in run_all(problem, &polished, Effort::Reach, watch) {
             self.add(descent);
         }
     }
+}
+
+/// The best first, each place once.
+fn distinct(mut descents: Vec<Descent>) -> Vec<Descent> {
+    descents.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    descents.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);
+    descents
 }
 
 /// Descents from all those starts, in their order.

@@ -47,6 +47,36 @@ fn every_command_can_be_carried_out() {
 }
 
 #[test]
+fn commands_about_what_is_not_there_change_nothing() {
+    let mut harness = harness();
+    let (settings, rows) = (explorer(&mut harness).settings.clone(), explorer(&mut harness).document.measurement.rows.clone());
+    let profiles = pbrdf::model::Parameter::ALL.map(Command::Profile);
+    let others = [
+        Command::Import,
+        Command::CancelImport,
+        Command::Mask { rows: vec![usize::MAX], masked: true },
+        Command::ReturnTo(99),
+        Command::UseRung(99),
+        Command::UseCase(99),
+        Command::UseFinish(99),
+        Command::UseModel("none"),
+        Command::ShowStep(99, 0),
+        Command::ShowStep(0, 99),
+        Command::SetParameters(Vec::new()),
+    ];
+    for command in profiles.into_iter().chain(others) {
+        explorer(&mut harness).commands.push(command.clone());
+        wait(&mut harness);
+        let explorer = explorer(&mut harness);
+        assert_eq!(
+            (explorer.notice.take(), &explorer.settings, &explorer.document.measurement.rows),
+            (None, &settings, &rows),
+            "{command:?}"
+        );
+    }
+}
+
+#[test]
 fn keys_do_what_menus_say() {
     let mut harness = harness();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);

@@ -136,19 +136,20 @@ fn settings_survive_a_restart() {
 #[test]
 fn damaged_settings_are_set_aside() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
-    for damage in [
-        "",
-        "{",
-        "{\"settings\": {\"theta_i\": \"x\"}}",
-        "{\"settings\": {\"theta_i\": 95}}",
-        "{\"settings\": {\"parameters\": {\"q\": 0.5}}}",
-        "{\"window\": {\"size\": [0, 0]}}",
-        "\u{0}\u{1}",
+    for (damage, place) in [
+        ("", "line 1"),
+        ("{", "line 1"),
+        ("{\"settings\": {\"theta_i\": \"x\"}}", "line 1 column 28"),
+        ("{\"settings\": {\"theta_i\": 95}}", "settings.theta_i"),
+        ("{\"settings\": {\"parameters\": {\"q\": 0.5}}}", "parameters"),
+        ("{\"window\": {\"size\": [0, 0]}}", "window.size"),
+        ("\u{0}\u{1}", "line 1"),
     ] {
         let path = file(&folder, "settings.json", damage);
         let (settings, notice) = store::load_from(&path);
         assert_eq!(settings, Stored::default());
-        assert!(notice.expect("a notice").contains("damaged"), "{damage:?}");
+        let notice = notice.expect("a notice");
+        assert!(notice.contains("damaged") && notice.contains(place), "{damage:?}: {notice}");
         assert!(!path.exists());
         assert_eq!(std::fs::read_to_string(folder.path().join("settings.damaged.json")).expect("what was damaged is kept"), damage);
     }

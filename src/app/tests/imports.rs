@@ -65,7 +65,7 @@ fn ellipsometry_at_one_wavelength_asks_nothing() {
     assert_eq!(state(&mut harness), ("au.txt".to_owned(), 2, false));
 }
 
-fn tensor() -> Vec<u8> {
+pub(super) fn tensor() -> Vec<u8> {
     let surface = Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters::default()).expect("parameters in the domain");
     let grid = TensorGrid::new(&surface, TensorResolution { phi_d: 3, theta_d: 4, theta_h: 4 });
     let mut bytes = Vec::new();

@@ -50,3 +50,25 @@ fn lessons_speak_chinese() {
     assert!(harness.query_by_label_contains("透明表面").is_some());
     assert!(harness.query_by_label("下一步").is_some());
 }
+
+#[test]
+fn a_damaged_lesson_is_named_and_the_window_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    std::fs::write(folder.path().join("bad.txt"), "title: Mine\nstep: One\nset: n=x\n").expect("a file");
+    std::fs::write(folder.path().join("good.txt"), "title: Mine\nstep: My own step\nset: n=1.75\n").expect("a file");
+    std::fs::write(folder.path().join("latin.txt"), b"title: \xff\n").expect("a file");
+    let mut harness = harness();
+    let before = explorer(&mut harness).settings.clone();
+    explorer(&mut harness).read_lessons(Some(folder.path()));
+    harness.run();
+    let notice = explorer(&mut harness).notice.clone().expect("a sentence");
+    for part in ["bad.txt is no lesson: line 3", "latin.txt is no lesson: "] {
+        assert!(notice.contains(part), "{notice}");
+    }
+    assert_eq!(explorer(&mut harness).settings, before);
+    let last = explorer(&mut harness).lessons.all.len() - 1;
+    explorer(&mut harness).commands.push(Command::ShowStep(last, 0));
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).settings.parameters.n, 1.75);
+    assert!(harness.query_all_by_label_contains("My own step").next().is_some());
+}

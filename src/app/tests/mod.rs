@@ -4,6 +4,7 @@ mod audit;
 mod commands;
 mod files;
 mod fitting;
+mod fuzz;
 mod hemisphere;
 mod imports;
 mod landscape;

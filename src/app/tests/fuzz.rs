@@ -1,0 +1,203 @@
+//! The window's own readers against damaged files: no input panics, what is accepted keeps its promises, and every view can show it.
+//!
+//! A second per reader in a normal run, beside showing the samples. Ten minutes each:
+//!
+//! ```sh
+//! PBRDF_FUZZ_SECONDS=600 cargo test --release --bin pbrdf-explorer fuzz -- --nocapture
+//! ```
+//!
+//! A job that panics ends no test; its message is in the output.
+
+#[path = "../../../tests/common/damage.rs"]
+mod damage;
+
+use super::{explorer, wait};
+use crate::app::command::Command;
+use crate::app::layout::Layout;
+use crate::app::leaving;
+use crate::app::lessons::Lessons;
+use crate::app::panes::{PANES, Panes};
+use crate::app::parameter_text;
+use crate::app::reading::{self, Arrived};
+use crate::app::session::Session;
+use crate::app::state::{Settings, Stored, Theme, WindowSettings};
+use crate::app::store;
+use crate::app::window::Explorer;
+use crate::app::worker::Opened;
+use damage::{fuzz, texts};
+use egui_kittest::Harness;
+use pbrdf::measurement::{self, Measurement};
+use pbrdf::model::{Lesson, Parameter, ParameterSet, Parameters};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+const TABLE: &str = "# material: steel\n# wavelength_nm: 650\ntheta_i,theta_r,dolp,dolp_sigma,brdf,masked\n30,20,0.1,0.01,2,0\n30,25,0.2,,1e-3,1\n30,-20,0,0.02,0.5,0\n40,20,0.3,0.01,,0\n40,30,0.4,0.01,1,0\n40,50,0.5,0.01,3,0\n";
+
+fn read_table(bytes: &[u8]) -> Option<Measurement> {
+    measurement::read(bytes, &mut |_| ControlFlow::Continue(())).ok()
+}
+
+/// A window that draws a box for what its fonts lack, as the program does; other tests fail there.
+fn harness() -> Harness<'static, Option<Explorer>> {
+    let harness = super::harness();
+    harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
+    harness
+}
+
+/// A window with that small table open, and a fit of it.
+fn small() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    let table = read_table(TABLE.as_bytes()).expect("a table");
+    explorer(&mut harness).take("small.csv".to_owned(), table);
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).last_fit.is_some());
+    harness
+}
+
+fn text(session: &Session) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    session.write(&mut bytes).expect("memory takes everything");
+    bytes
+}
+
+/// The session of [`small`], with bounds of its own.
+fn session() -> Session {
+    let mut harness = small();
+    let explorer = explorer(&mut harness);
+    explorer.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    leaving::session(explorer)
+}
+
+fn opened(bytes: &[u8]) -> Option<Opened> {
+    let session = Session::read(std::str::from_utf8(bytes).ok()?).ok()?;
+    let measurement = session.measurement.clone();
+    let again = session.fits.iter().filter_map(|recipe| {
+        let (report, problem) = recipe.again(measurement.as_ref()?)?;
+        Some((report, problem.into(), recipe.before))
+    });
+    let fits = again.collect();
+    Some(Opened { session, fits })
+}
+
+#[test]
+fn sessions() {
+    let whole = session();
+    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::Pane(PANES[0].pane), ..whole.clone() };
+    fuzz("session", &[text(&whole), text(&bare)], |bytes| {
+        let Some(opened) = opened(bytes) else { return false };
+        let Session { settings, layout, name, measurement, fits, .. } = &opened.session;
+        let again = Session::read(&String::from_utf8(text(&opened.session)).expect("JSON")).expect("what was written");
+        assert_eq!((&again.settings, &again.layout, &again.name, &again.fits), (settings, layout, name, fits));
+        // Numbers of lines and ignored columns are those of the new table.
+        let rows = |measurement: &Option<Arc<Measurement>>| measurement.as_ref().map(|measurement| measurement.rows.clone());
+        assert_eq!(rows(&again.measurement), rows(measurement));
+        true
+    });
+}
+
+#[test]
+fn sessions_in_every_view() {
+    let whole = session();
+    let samples: Vec<Vec<u8>> = PANES.iter().map(|entry| text(&Session { layout: Layout::Pane(entry.pane), ..whole.clone() })).collect();
+    let mut harness = harness();
+    fuzz("session-in-views", &samples, |bytes| {
+        let Some(opened) = opened(bytes) else { return false };
+        explorer(&mut harness).session_read(Path::new("some.pbrdf.json"), Ok(Box::new(opened)));
+        wait(&mut harness);
+        true
+    });
+}
+
+#[test]
+fn settings() {
+    let other = Stored {
+        settings: Settings { log_brdf: true, show_bounds: true, bounds: vec![(Parameter::K, 0.0, 5.0)], ..Settings::default() },
+        window: WindowSettings { theme: Theme::Dark, layout: Layout::Pane(PANES[1].pane), ..WindowSettings::default() },
+    };
+    let samples = [Stored::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let [path, copy] = ["settings.json", "copy.json"].map(|name| folder.path().join(name));
+    let mut harness = harness();
+    fuzz("settings", &samples, |bytes| {
+        std::fs::write(&path, bytes).expect("a writable folder for temporary files");
+        let (stored, notice) = store::load_from(&path);
+        if notice.is_some() {
+            assert_eq!(stored, Stored::default());
+            return false;
+        }
+        store::save(&copy, &stored).expect("a writable folder for temporary files");
+        assert_eq!(store::load_from(&copy), (stored.clone(), None));
+        let explorer = explorer(&mut harness);
+        explorer.panes = Panes::new(&stored.window.layout);
+        (explorer.settings, explorer.window) = (stored.settings, stored.window);
+        wait(&mut harness);
+        true
+    });
+}
+
+#[test]
+fn tables_in_the_window() {
+    let mut harness = harness();
+    let samples =
+        [TABLE, "theta_i;theta_r;dphi;dolp_percent\n30,5;20;90;12,5\n40;20;90;0\n", "theta_i,theta_r,brdf\n30,20,1\n30,30,1e-9\n"];
+    fuzz("table-in-the-window", &texts(&samples), |bytes| {
+        let Some(measurement) = read_table(bytes) else { return false };
+        explorer(&mut harness).take("damaged.csv".to_owned(), measurement);
+        wait(&mut harness);
+        true
+    });
+}
+
+#[test]
+fn foreign_files() {
+    let samples = [
+        "AOI,View (rad),DoLP %,err\n30,0.3,12.5,0.1\n40,-0.2,1,1\n",
+        "sample\nVASEmethod[x]\nnm\n600\t55\t43\t150\t0.01\t0.02\n600\t65\t42\t140\n650\t55\t43.5\t151\n650\t65\t42.5\t141\ndpolE\t650\t55\t1.5\n",
+        "nm\taoi\tPsi\tDelta\n650\t65\t42\t140\n650\t70\t41\t130\n",
+        TABLE,
+    ];
+    let samples: Vec<Vec<u8>> = texts(&samples).into_iter().chain([super::imports::tensor()]).collect();
+    fuzz("foreign", &samples, |bytes| {
+        let go_on = &mut |_| ControlFlow::Continue(());
+        let Ok(arrived) = reading::read(bytes.to_vec(), go_on) else { return false };
+        if let Arrived::Foreign(foreign) = arrived {
+            let choice = foreign.first_choice();
+            let (preview, whole) = (foreign.preview(&choice), foreign.import(&choice, go_on));
+            assert!(!foreign.is_seen_whole() || preview == whole);
+        }
+        true
+    });
+}
+
+#[test]
+fn pasted_parameters() {
+    let samples =
+        ["n=2.07, k=2.9, sigma=0.3, ks=1, kd=0.1, kv=0.2, q=2.5, c=-0.25, sigma_v=0.5", "n: 2,07; k: 2,9", "{\"σ\": 0.5 rad, σ_v = 1e-3}"];
+    fuzz("pasted", &texts(&samples), |bytes| {
+        let Ok(parameters) = parameter_text::read(&String::from_utf8_lossy(bytes), Parameters::default()) else { return false };
+        assert!(parameters.validate(ParameterSet::ALL).is_ok(), "{parameters:?}");
+        assert_eq!(parameter_text::read(&parameter_text::text(&parameters), Parameters::default()), Ok(parameters));
+        true
+    });
+}
+
+#[test]
+fn lessons_in_the_window() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let mut paths: Vec<_> = std::fs::read_dir(folder).expect("bundled lessons").map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let samples: Vec<Vec<u8>> = paths.iter().map(|path| std::fs::read(path).expect("a bundled lesson")).collect();
+    let mut harness = harness();
+    fuzz("lesson-in-the-window", &samples, |bytes| {
+        let Ok(lesson) = Lesson::from_text(&String::from_utf8_lossy(bytes)) else { return false };
+        let steps = lesson.steps.len();
+        explorer(&mut harness).lessons = Lessons { all: vec![lesson], open: None };
+        for step in 0..steps {
+            explorer(&mut harness).commands.push(Command::ShowStep(0, step));
+            wait(&mut harness);
+        }
+        true
+    });
+}
