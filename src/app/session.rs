@@ -6,7 +6,7 @@
 
 use super::layout::Layout;
 use super::past_fits::PastFit;
-use super::state::Settings;
+use super::state::{Settings, can_be_set};
 use crate::export::program;
 use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watch, fit};
 use pbrdf::measurement::{self, Measurement, ReadError};
@@ -127,7 +127,7 @@ impl Recipe {
             bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
         }
         for parameters in [&self.start, &self.parameters, &self.before] {
-            parameters.validate(self.model.parameters()).map_err(|error| error.to_string())?;
+            can_be_set(parameters, self.model.parameters()).map_err(|error| error.to_string())?;
         }
         let free: ParameterSet = self.free.iter().copied().collect();
         let problem = Problem::new(measurement, self.model, self.start, free, bounds, self.choices);

@@ -4,7 +4,7 @@ use super::language::Language;
 use super::layout::Layout;
 use super::plan::Plan;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -194,10 +194,18 @@ impl Default for Settings {
     }
 }
 
+/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface: then the window says so.
+pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), ParameterError> {
+    match parameters.validate(used) {
+        Err(ParameterError::NoIndex) => Ok(()),
+        other => other,
+    }
+}
+
 impl Settings {
     /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
     pub fn fault(&self) -> Option<String> {
-        if let Err(error) = self.parameters.validate(ParameterSet::ALL) {
+        if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
             return Some(format!("parameters: {error}"));
         }
         for &(parameter, low, high) in &self.bounds {

@@ -134,6 +134,16 @@ fn settings_survive_a_restart() {
 }
 
 #[test]
+fn sliders_that_are_no_surface_survive_a_restart_too() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("settings.json");
+    let settings = Settings { parameters: Parameters { n: 0.0, k: 0.0, ..Parameters::default() }, ..Settings::default() };
+    let settings = Stored { settings, ..Stored::default() };
+    store::save(&path, &settings).expect("a writable folder");
+    assert_eq!(store::load_from(&path), (settings, None));
+}
+
+#[test]
 fn damaged_settings_are_set_aside() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     for (damage, place) in [

@@ -65,6 +65,26 @@ fn a_session_opens_with_everything_that_was_in_it() {
 }
 
 #[test]
+fn a_session_whose_sliders_are_no_surface_opens_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut source = harness();
+    explorer(&mut source).commands.push(Command::StartFit);
+    source.step();
+    // While the fit runs: they are what "back" leads to.
+    let parameters = &mut explorer(&mut source).settings.parameters;
+    (parameters.n, parameters.k) = (0.0, 0.0);
+    wait(&mut source);
+    order(&mut source, Command::Back);
+    let path = saved(&mut source, folder.path());
+    let mut other = harness();
+    order(&mut other, Command::OpenMeasurement(path));
+    let explorer = explorer(&mut other);
+    assert_eq!(explorer.notice, None);
+    assert_eq!((explorer.settings.parameters.n, explorer.settings.parameters.k), (0.0, 0.0));
+    assert!(explorer.last_fit.is_some());
+}
+
+#[test]
 fn saving_again_goes_into_the_same_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = worked_in();
