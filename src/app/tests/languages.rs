@@ -95,6 +95,16 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
 }
 
 #[test]
+fn what_stays_open_is_said_in_the_language_of_the_window() {
+    use pbrdf::model::{Parameter, ParameterSet};
+    let mut harness = chinese();
+    let free = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
+    explorer(&mut harness).settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    alone(&mut harness, Pane::Planner);
+    assert!(written(&harness).contains("• k_s, k_d, k_v 一起：只有它们的比值进入 DoLP"));
+}
+
+#[test]
 fn the_fonts_have_every_letter() {
     let harness = chinese();
     let texts = [include_str!("../../../assets/locales/zh_CN.po"), include_str!("../command.rs"), include_str!("../panes.rs")];

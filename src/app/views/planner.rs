@@ -8,7 +8,7 @@ use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
-use crate::app::words::{percent, short};
+use crate::app::words::{open_direction, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Eq17, is_loose};
 use pbrdf::measurement::Columns;
@@ -253,7 +253,7 @@ fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &
     ui.add_space(4.0);
     ui.strong(tr!("{} there stays open:", translated(angles)));
     for text in &prediction.open {
-        ui.add(egui::Label::new(format!("• {text}")).wrap());
+        ui.add(egui::Label::new(format!("• {}", open_direction(text))).wrap());
     }
     if !loose.is_empty() {
         ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());

@@ -2,6 +2,7 @@
 
 use crate::app::derived::Outlook;
 use crate::app::panels::parameters::significant;
+use crate::app::words::open_direction;
 use egui::{Grid, Ui};
 use tr::tr;
 
@@ -25,6 +26,6 @@ pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
         }
     });
     for direction in &outlook.open {
-        ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+        ui.add(egui::Label::new(format!("• {}", open_direction(&direction.text))).wrap());
     }
 }

@@ -67,7 +67,7 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
     ui.add_space(6.0);
     ui.strong(tr!("The data leave open:"));
     for direction in &report.undetermined {
-        ui.add(egui::Label::new(format!("• {}", direction.text)).wrap());
+        ui.add(egui::Label::new(format!("• {}", words::open_direction(&direction.text))).wrap());
     }
     if !loose.is_empty() {
         ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());
