@@ -465,8 +465,25 @@ impl LandscapeView {
 
 #[cfg(test)]
 mod tests {
-    use super::{Range, axis_over, coordinate, nodes, tidy, value, whole};
-    use pbrdf::model::Parameter;
+    use super::{Key, Range, axis_over, coordinate, nodes, tidy, value, whole};
+    use pbrdf::fit::{Axis, Choices};
+    use pbrdf::model::{Model, Parameter, Parameters};
+    use pbrdf::optics::SlopeDistribution;
+
+    #[test]
+    fn a_coarse_landscape_on_the_way_is_worth_waiting_for_and_a_fine_one_is_not() {
+        let key = |generation, sigma, count| {
+            let axis = |parameter| Axis { parameter, low: 1.0, high: 2.0, count, logarithmic: false };
+            let others = Parameters { sigma, ..Parameters::default() };
+            let model = Model::full(SlopeDistribution::Cauchy);
+            let (across, up) = (axis(Parameter::N), axis(Parameter::K));
+            Key { generation, others, model, choices: Choices::default(), scale_at: None, across, up }
+        };
+        let (fine, coarse) = (key(1, 0.3, 256), key(1, 0.3, 128));
+        assert!(fine.is_of_use(&fine, &coarse) && key(1, 0.2, 128).is_of_use(&coarse, &coarse));
+        assert!(!key(1, 0.2, 256).is_of_use(&coarse, &coarse) && !key(1, 0.2, 256).is_of_use(&fine, &coarse));
+        assert!(!key(2, 0.3, 128).is_of_use(&coarse, &coarse));
+    }
 
     #[test]
     fn every_axis_over_the_whole_range_is_sound_and_values_come_back() {
