@@ -216,6 +216,8 @@ fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark
     for (radius, label) in rings {
         let arc = (-90..=90).step_by(3).map(|degrees| direction(f64::from(degrees), *radius)).collect();
         plot.line(still(arc, grid).width(1.0));
+        // The unit once, where there is room for it.
+        let label = if *radius >= 1.0 { format!("{label} 1/sr") } else { label.clone() };
         let label = RichText::new(label).color(ink).size(LETTERS);
         plot.text(Text::new("", PlotPoint::new(*radius, -0.01), label).anchor(Align2::CENTER_TOP).allow_hover(false));
     }
