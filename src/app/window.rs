@@ -378,9 +378,7 @@ impl Explorer {
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
-            Command::UseFit => {
-                self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.report.parameters);
-            }
+            Command::UseFit => self.use_fit(),
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
             Command::DismissNotice => self.notice = None,
             Command::Undo => {
@@ -439,6 +437,14 @@ impl Explorer {
     fn use_finish(&mut self, index: usize) {
         let parameters = self.settings.parameters;
         self.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
+    }
+
+    /// The values of the last fit, and the model that they belong to.
+    fn use_fit(&mut self) {
+        if let Some(fit) = &self.last_fit {
+            self.settings.parameters = fit.report.parameters;
+            self.settings.model = fit.report.model;
+        }
     }
 
     fn use_model(&mut self, key: &str) {

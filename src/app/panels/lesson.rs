@@ -8,7 +8,7 @@ use pbrdf::model::Wording;
 use tr::tr;
 
 /// Height of the panel before the user changes it.
-const HEIGHT: f32 = 118.0;
+const HEIGHT: f32 = 150.0;
 
 /// The panel, while a lesson is open.
 pub fn lesson_panel(explorer: &mut Explorer, ui: &mut Ui) {
@@ -22,7 +22,7 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
     let code = language::current().code();
     ui.horizontal(|ui| {
-        ui.strong(format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code)));
+        // The title last: it takes what room the buttons leave.
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button(tr!("Close lesson")).clicked() {
                 commands.push(Command::CloseLesson);
@@ -38,8 +38,14 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 commands.push(Command::ShowStep(number, index - 1));
             }
             ui.weak(format!("{}/{}", index + 1, last + 1));
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let title = format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code));
+                ui.add(Label::new(RichText::new(title).strong()).truncate());
+            });
         });
     });
+    // A bar that is seen before the pointer comes near: text below the edge would be missed.
+    ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.columns(3, |columns| {
             for (ui, (heading, text)) in
@@ -52,6 +58,9 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 fn part_ui(heading: &str, text: &Wording, code: &str, ui: &mut Ui) {
-    ui.label(RichText::new(heading).weak());
-    ui.add(Label::new(text.in_language(code)).wrap());
+    // Columns are laid out justified, which would pull the letters of short lines apart.
+    ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
+        ui.label(RichText::new(heading).weak());
+        ui.add(Label::new(text.in_language(code)).wrap());
+    });
 }

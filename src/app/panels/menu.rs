@@ -1,6 +1,7 @@
 //! The menu bar: the table of commands, sorted into menus.
 
 use crate::app::command::{self, Command, Item, Menu, Status};
+use crate::app::leaving::Outgoing;
 use crate::app::window::Explorer;
 use egui::Ui;
 use std::path::PathBuf;
@@ -48,10 +49,10 @@ fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
         commands.push(Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
         ui.close();
     }
-    let label = ui.label(tr!("Type a path to save to and press Enter:"));
+    let label = ui.label(tr!("Save to a path (.csv the measurement, .json the session), Enter:"));
     let field = ui.add(egui::TextEdit::singleline(typed_save_path).desired_width(260.0)).labelled_by(label.id);
     if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_save_path.trim().is_empty() {
-        commands.push(Command::SaveMeasurement(PathBuf::from(typed_save_path.trim())));
+        commands.push(save_command(PathBuf::from(typed_save_path.trim())));
         ui.close();
     }
     ui.separator();
@@ -86,6 +87,27 @@ fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui
         if clicked.on_hover_text(item.tooltip.as_ref()).clicked() {
             commands.push(item.command.clone());
             ui.close();
+        }
+    }
+}
+
+/// What a typed path is saved as: a session where it ends in .json, else the measurement.
+fn save_command(path: PathBuf) -> Command {
+    let is_session = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    if is_session { Command::Export(Outgoing::Session, path) } else { Command::SaveMeasurement(path) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Command, Outgoing, save_command};
+
+    #[test]
+    fn a_typed_path_says_by_its_ending_what_is_saved() {
+        for name in ["a.pbrdf.json", "a.JSON"] {
+            assert_eq!(save_command(name.into()), Command::Export(Outgoing::Session, name.into()));
+        }
+        for name in ["a.csv", "a", "a.json.csv"] {
+            assert_eq!(save_command(name.into()), Command::SaveMeasurement(name.into()));
         }
     }
 }

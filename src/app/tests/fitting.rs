@@ -29,9 +29,13 @@ fn back_and_use_as_sliders_go_to_and_fro() {
     harness.get_by_label("Back").click();
     harness.run();
     assert_eq!(explorer(&mut harness).settings.parameters, Parameters::default());
+    let model = explorer(&mut harness).settings.model;
+    explorer(&mut harness).settings.model.volume = false;
+    harness.run();
     harness.get_by_label("Use as sliders").click();
     harness.run();
     assert_eq!(explorer(&mut harness).settings.parameters, fitted);
+    assert_eq!(explorer(&mut harness).settings.model, model, "the values belong to the model of the fit");
 }
 
 #[test]
