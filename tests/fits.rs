@@ -321,3 +321,17 @@ fn any_number_of_starts_can_be_asked_for_and_given_up() {
     assert_eq!(report.stop_reason, StopReason::Cancelled);
     assert!(report.objective.is_some_and(f64::is_finite));
 }
+
+#[test]
+fn a_start_whose_radiance_overflows_ends_the_fit_and_not_the_program() {
+    let data = simulate(Gauss, TRUTH, Columns::Brdf, vec![30.0, 60.0], grid(0, 80, 20), 0.0);
+    // The derivative by k_v is a number, the radiance is none.
+    let start = Parameters { kv: 1e308, sigma_v: 0.01, ..TRUTH };
+    let mut bounds = Bounds::default();
+    bounds.set(Parameter::Kv, 0.0, 1.7e308).expect("bounds in the domain");
+    let model = Model::full(Gauss);
+    let problem = Problem::new(&data, model, start, model.parameters(), bounds, Choices::default()).expect("a valid problem");
+    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    assert_eq!(report.stop_reason, StopReason::Numerical);
+    assert!(report.determined.is_empty() && report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
+}

@@ -73,6 +73,10 @@ impl Uncertainty {
         for (j, scale) in scales.iter().enumerate() {
             filled.column_mut(j).scale_mut(*scale);
         }
+        // Of a matrix that is not finite the decomposition comes to no end.
+        if filled.iter().any(|element| !element.is_finite()) {
+            return Self::nothing(free);
+        }
         // Rows of zeros make a wide matrix square, so that the thin decomposition has all of V.
         jacobian.rows_mut(0, rows).copy_from(&filled);
         let svd = SVD::new(jacobian, false, true);
