@@ -7,8 +7,7 @@
 //! A point of the grid that is lower than its neighbours along each axis is a floor: somewhere below it lies a minimum.
 
 use super::problem::Problem;
-use crate::model::{Diffuse, Parameter, ParameterSet, Parameters, Pbrdf};
-use crate::optics::Facet;
+use crate::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 
 /// The axes of the grid. Narrow volume lobes are apart from wide ones by other rows that they reach, hence the many σ_v.
 const AXES: [(Parameter, &[f64]); 6] = [
@@ -36,7 +35,8 @@ pub(super) struct Guess {
     pub parameters: Parameters,
 }
 
-/// The floors of the whole grid, the lowest first; none where the data have no DoLP but 0, or k_d and k_v are both fixed.
+/// The floors of the whole grid, the lowest first; none where the data have a BRDF or no DoLP but 0, the model has no specular lobe, or k_d
+/// and k_v are both fixed.
 pub(super) fn floors(problem: &Problem) -> Vec<Guess> {
     let Some(grid) = Grid::new(problem, problem.start(), &AXES) else { return Vec::new() };
     grid.floors()
@@ -51,7 +51,8 @@ pub(super) fn lobes_anew(problem: &Problem, at: &Parameters) -> Vec<Guess> {
 /// A grid of shapes and the rows that it is judged by.
 struct Grid<'a> {
     problem: &'a Problem,
-    rows: Vec<(Facet, f64)>,
+    /// Places in the problem's scene with the measured DoLP.
+    rows: Vec<(usize, f64)>,
     /// Values of n, k, σ, q, c, σ_v: one alone where the parameter is fixed.
     axes: [Vec<f64>; 6],
     base: Parameters,
@@ -63,7 +64,7 @@ struct Grid<'a> {
 type Columns = Vec<Vec<f64>>;
 
 impl<'a> Grid<'a> {
-    fn new(problem: &'a Problem, base: &Parameters, finer: &[(Parameter, &[f64])]) -> Option<Self> {
+    fn new(problem: &'a Problem, base: &Parameters, values: &[(Parameter, &[f64])]) -> Option<Self> {
         let free: ParameterSet = problem.free().iter().copied().collect();
         let model = problem.model();
         let fit_d = free.contains(Parameter::Kd) && model.diffuse != Diffuse::Absent;
@@ -77,7 +78,7 @@ impl<'a> Grid<'a> {
             return None;
         }
         let axes = AXES.map(|(parameter, _)| {
-            let values = finer.iter().find(|axis| axis.0 == parameter).map_or(&[][..], |axis| axis.1);
+            let values = values.iter().find(|axis| axis.0 == parameter).map_or(&[][..], |axis| axis.1);
             let inside: Vec<f64> = values.iter().copied().filter(|&value| problem.bounds().contain(parameter, value)).collect();
             if free.contains(parameter) && !inside.is_empty() { inside } else { vec![base[parameter]] }
         });
@@ -110,35 +111,31 @@ impl<'a> Grid<'a> {
         optics.iter().flat_map(all).collect()
     }
 
-    fn surface(&self, parameters: Parameters) -> Option<Pbrdf> {
-        Pbrdf::new(self.problem.model(), parameters).ok()
-    }
-
     /// The diffuse lobe on each row for each c, k_d being 1 where it is fitted.
     fn diffuse(&self, optics: &Parameters) -> Columns {
         let kd = if self.fit_d { 1.0 } else { self.base.kd };
-        let column = |&c: &f64| self.column(Parameters { c, kd, ..*optics }, |surface, facet| surface.reflection(facet).diffuse);
+        let column = |&c: &f64| self.column(Parameters { c, kd, ..*optics }, |reflection| reflection.diffuse);
         self.axes[4].iter().map(column).collect()
     }
 
     /// The volume lobe on each row for each σ_v, k_v being 1 where it is fitted.
     fn volume(&self) -> Columns {
         let kv = if self.fit_v { 1.0 } else { self.base.kv };
-        let column =
-            |&sigma_v: &f64| self.column(Parameters { sigma_v, kv, ..self.base }, |surface, facet| surface.reflection(facet).volume);
+        let column = |&sigma_v: &f64| self.column(Parameters { sigma_v, kv, ..self.base }, |reflection| reflection.volume);
         self.axes[5].iter().map(column).collect()
     }
 
-    fn column(&self, parameters: Parameters, value: impl Fn(&Pbrdf, &Facet) -> f64) -> Vec<f64> {
-        let Some(surface) = self.surface(parameters) else { return vec![0.0; self.rows.len()] };
-        self.rows.iter().map(|(facet, _)| value(&surface, facet)).collect()
+    fn column(&self, parameters: Parameters, value: impl Fn(Reflection) -> f64) -> Vec<f64> {
+        let Ok(surface) = Pbrdf::new(self.problem.model(), parameters) else { return vec![0.0; self.rows.len()] };
+        self.rows.iter().map(|&(point, _)| value(self.problem.scene().reflection(&surface, point))).collect()
     }
 
     /// The guesses for one specular lobe.
     fn guesses_of(&self, optics: &Parameters, diffuse: &Columns, volume: &Columns) -> Vec<Guess> {
-        let specular = self.surface(*optics).map(|surface| {
-            let row =
-                |(facet, measured): &(Facet, f64)| Row::new(*measured, surface.fresnel_limit(facet), surface.reflection(facet).specular);
+        // Alone, the specular lobe has the Fresnel limit for its DoLP.
+        let alone = Model { diffuse: Diffuse::Absent, volume: false, ..self.problem.model() };
+        let specular = Pbrdf::new(alone, *optics).ok().map(|surface| {
+            let row = |&(point, measured): &(usize, f64)| Row::new(measured, self.problem.scene().reflection(&surface, point));
             self.rows.iter().map(row).collect::<Vec<_>>()
         });
         let mut guesses = Vec::with_capacity(self.axes[4].len() * self.axes[5].len());
@@ -214,7 +211,8 @@ struct Row {
 }
 
 impl Row {
-    fn new(measured: f64, limit: f64, specular: f64) -> Self {
+    fn new(measured: f64, alone: Reflection) -> Self {
+        let Reflection { dolp: limit, specular, .. } = alone;
         let scale = 1.0 / (limit * specular);
         let scale = if scale < FAINT { scale } else { 0.0 };
         Self { measured, limit, specular: specular.max(f64::MIN_POSITIVE), scale }

@@ -12,7 +12,7 @@ use super::bounds::Bounds;
 use super::choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
 use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
-use crate::optics::{Facet, RefractiveIndex};
+use crate::optics::RefractiveIndex;
 use nalgebra::{DMatrix, DVector};
 
 /// Huber's constant: 95 % efficient where the noise is Gaussian.
@@ -498,11 +498,11 @@ impl Problem {
         }
     }
 
-    /// Prepared geometries with their measured DoLP, evenly picked where there are more than `most`, zeros too.
-    pub(super) fn dolp_rows(&self, most: usize) -> Vec<(Facet, f64)> {
+    /// Places in the scene with their measured DoLP, evenly picked where there are more than `most`, zeros too.
+    pub(super) fn dolp_rows(&self, most: usize) -> Vec<(usize, f64)> {
         let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp);
         let step = dolp().count().div_ceil(most).max(1);
-        dolp().step_by(step).map(|datum| (self.scene.facets()[datum.point], datum.measured)).collect()
+        dolp().step_by(step).map(|datum| (datum.point, datum.measured)).collect()
     }
 
     /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, in its consistent reading.

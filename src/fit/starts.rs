@@ -1,14 +1,10 @@
-//! Many starts: a first guess from linear algebra, points spread over the box, and what they find.
-//!
-//! For fixed (n, k, σ, q, c, σ_v), `1/DoLP = (1/DoLP_s)(1 + (k_d F^d + k_v F^v)/(k_s F^s))` is linear in k_d and k_v: on a coarse
-//! grid of the others those two come from a non-negative least squares in which each row counts by Xm⁴, so that it approximates
-//! the objective in DoLP itself.
+//! Many starts: first guesses ([`super::guess`]), points spread over the box, and what they find.
 //!
 //! Further starts are a Kronecker sequence on the roots of Roberts' generalised golden ratio, shifted by the seed (Cranley and
 //! Patterson, SIAM J. Numer. Anal. 13, 904 (1976)); in turns they are spread by factors and by steps. Starts run in rounds of a fixed
 //! size, in parallel where there are threads, and are judged in their order: the result does not depend on the number of threads.
 
-use super::guess::{Guess, floors, lobes_anew};
+use super::guess::{floors, lobes_anew};
 use super::problem::Problem;
 use super::solver::{Descent, Effort, StopReason, Watch, descend};
 use crate::model::Parameters;
@@ -274,10 +270,8 @@ impl<'a> Candidates<'a> {
         let mut shift = [0.0; 9];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
-        let guesses: Vec<Parameters> = {
-            let floors = floors(problem).into_iter().take(GUESSES).map(|guess: Guess| guess.parameters);
-            std::iter::once(*problem.start()).chain(floors).collect()
-        };
+        let guesses = floors(problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
+        let guesses: Vec<Parameters> = std::iter::once(*problem.start()).chain(guesses).collect();
         Self { problem, guesses: guesses.into_iter(), shift, next: 0 }
     }
 
