@@ -255,7 +255,7 @@ impl Multiples {
         for column in 0..4 {
             let cell = self.cell(3, column);
             // Between narrow cells the ends of two axes would run into each other.
-            let wide = cell.width() > 70.0;
+            let wide = cell.width() > 100.0;
             for (theta_r, anchor, is_drawn) in [
                 (self.x.low, Align2::LEFT_TOP, wide || column == 0),
                 (middle, Align2::CENTER_TOP, wide || (1..3).contains(&column)),
