@@ -1,4 +1,5 @@
-//! How long frames take: eframe's `cpu_usage` (drawing and logic, without the swap of buffers) over the last five seconds.
+//! How long frames take, eframe's `cpu_usage` (drawing and logic, without the swap of buffers), and how far the maps on screen are behind
+//! the sliders, over the last five seconds.
 //!
 //! The status line tells them, and the program on its way out, where *Frame times* is on in the *View* menu. To measure the window
 //! rather than a software rasteriser, whose share `cpu_usage` includes: start it under Xvfb with Mesa's `GALLIUM_NOOP=1`, which draws
@@ -11,26 +12,44 @@ use tr::tr;
 /// The frames of the last five seconds.
 #[derive(Debug, Default)]
 pub struct FrameTimes {
-    frames: VecDeque<(Instant, f32)>,
+    frames: VecDeque<Frame>,
+}
+
+#[derive(Debug)]
+struct Frame {
+    at: Instant,
+    /// Seconds.
+    cpu_usage: f32,
+    /// How many frames ago the sliders stood where the oldest map on screen was made.
+    frames_behind: u64,
 }
 
 const WINDOW: Duration = Duration::from_secs(5);
 
 impl FrameTimes {
     /// Takes down one frame, in seconds.
-    pub fn push(&mut self, cpu_usage: f32) {
-        self.frames.push_back((Instant::now(), cpu_usage));
-        while self.frames.front().is_some_and(|(at, _)| at.elapsed() > WINDOW) {
+    pub fn push(&mut self, cpu_usage: f32, frames_behind: u64) {
+        self.frames.push_back(Frame { at: Instant::now(), cpu_usage, frames_behind });
+        while self.frames.front().is_some_and(|frame| frame.at.elapsed() > WINDOW) {
             self.frames.pop_front();
         }
     }
 
-    /// Median, 99th percentile and number.
+    /// Median, 99th percentile and number; and how far behind maps were.
     pub fn text(&self) -> String {
-        let mut times: Vec<f32> = self.frames.iter().map(|(_, time)| 1e3 * time).collect();
+        let mut times: Vec<f32> = self.frames.iter().map(|frame| 1e3 * frame.cpu_usage).collect();
         times.sort_by(f32::total_cmp);
         let Some(last) = times.len().checked_sub(1) else { return tr!("no frames") };
         let (median, p99) = (times[last / 2], times[last * 99 / 100]);
-        tr!("frames: median {0} ms, p99 {1} ms of {2}", format!("{median:.2}"), format!("{p99:.2}"), times.len())
+        let mut behind: Vec<u64> = self.frames.iter().map(|frame| frame.frames_behind).collect();
+        behind.sort_unstable();
+        let times = tr!("frames: median {0} ms, p99 {1} ms of {2}", format!("{median:.2}"), format!("{p99:.2}"), times.len());
+        match behind[last] {
+            0 => times,
+            worst => {
+                let maps = tr!("maps behind: median {0}, p99 {1}, at most {2} frames", behind[last / 2], behind[last * 99 / 100], worst);
+                format!("{times}; {maps}")
+            }
+        }
     }
 }

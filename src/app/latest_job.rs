@@ -16,6 +16,11 @@ impl Background {
         Self { ctx: ctx.clone(), running: Arc::default() }
     }
 
+    /// The number of the frame that is being made ready.
+    fn frame(&self) -> u64 {
+        self.ctx.cumulative_frame_nr()
+    }
+
     /// Whether any job is on its way.
     #[cfg(test)]
     pub fn is_busy(&self) -> bool {
@@ -42,6 +47,8 @@ struct Reply<V> {
 /// A job on its way. Letting go of it tells it to stop.
 struct Running<K, V> {
     key: K,
+    /// The last frame that wanted these inputs.
+    wanted_at: u64,
     receiver: Receiver<V>,
     stop: Arc<AtomicBool>,
 }
@@ -58,15 +65,24 @@ pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 /// A [`super::memo::Memo`] that is made in the background. At most one job runs; inputs that come meanwhile wait, and only the
 /// newest are taken up. Until their value is there, the one before is shown. Letting go of it stops its job.
 pub struct LatestJob<K, V> {
-    shown: Option<(K, V)>,
+    shown: Option<Shown<K, V>>,
     running: Option<Running<K, V>>,
     /// Inputs whose job panicked or could not be started: not tried again.
     failed: Option<K>,
+    frames_behind: u64,
+}
+
+/// A value that is done.
+struct Shown<K, V> {
+    key: K,
+    value: V,
+    /// The last frame that wanted it.
+    wanted_at: u64,
 }
 
 impl<K, V> Default for LatestJob<K, V> {
     fn default() -> Self {
-        Self { shown: None, running: None, failed: None }
+        Self { shown: None, running: None, failed: None, frames_behind: 0 }
     }
 }
 
@@ -75,7 +91,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
     /// shows the value. `make` owns its inputs; it runs on another thread, and what it answers after a stop is not seen.
     pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
         self.take_up();
-        let is_there = self.shown.as_ref().is_some_and(|(made_from, _)| made_from == key);
+        let is_there = self.note_frame(background.frame(), key);
         if is_there || self.running.is_some() || self.failed.as_ref() == Some(key) {
             return;
         }
@@ -90,15 +106,26 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
             let _ = reply.sender.send(make(&|| looked_at.load(Ordering::Relaxed)));
         };
         match std::thread::Builder::new().name("derive".to_owned()).spawn(run) {
-            Ok(_) => self.running = Some(Running { key: key.clone(), receiver, stop }),
+            Ok(_) => self.running = Some(Running { key: key.clone(), wanted_at: background.frame(), receiver, stop }),
             Err(_) => self.failed = Some(key.clone()),
         }
+    }
+
+    /// Takes down which inputs this frame wants; tells whether their value is there.
+    fn note_frame(&mut self, frame: u64, key: &K) -> bool {
+        self.running.iter_mut().filter(|running| running.key == *key).for_each(|running| running.wanted_at = frame);
+        let Some(shown) = &mut self.shown else { return false };
+        if shown.key == *key {
+            shown.wanted_at = frame;
+        }
+        self.frames_behind = frame - shown.wanted_at;
+        shown.key == *key
     }
 
     fn take_up(&mut self) {
         let Some(running) = self.running.take() else { return };
         match running.receiver.try_recv() {
-            Ok(value) => self.shown = Some((running.key.clone(), value)),
+            Ok(value) => self.shown = Some(Shown { key: running.key.clone(), value, wanted_at: running.wanted_at }),
             Err(TryRecvError::Empty) => self.running = Some(running),
             Err(TryRecvError::Disconnected) => self.failed = Some(running.key.clone()),
         }
@@ -114,20 +141,27 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
 
     /// The newest value that is done.
     pub fn get(&self) -> Option<&V> {
-        self.shown.as_ref().map(|(_, value)| value)
+        self.shown.as_ref().map(|shown| &shown.value)
     }
 
     /// The inputs of that value.
     pub fn key(&self) -> Option<&K> {
-        self.shown.as_ref().map(|(key, _)| key)
+        self.shown.as_ref().map(|shown| &shown.key)
+    }
+
+    /// How many frames ago the inputs of the value that is shown were the newest; 0 where they still are.
+    pub fn frames_behind(&self) -> u64 {
+        self.frames_behind
     }
 
     /// Whether a newer value is being made.
+    #[cfg(test)]
     pub fn is_running(&self) -> bool {
         self.running.is_some()
     }
 
     /// Whether the job for these inputs came to nothing.
+    #[cfg(test)]
     pub fn has_failed(&self, key: &K) -> bool {
         self.failed.as_ref() == Some(key)
     }
@@ -139,6 +173,17 @@ mod tests {
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
+    /// A window after its first frame.
+    fn context() -> egui::Context {
+        let ctx = egui::Context::default();
+        end_frame(&ctx);
+        ctx
+    }
+
+    fn end_frame(ctx: &egui::Context) {
+        ctx.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
+    }
+
     fn wait(background: &Background) {
         let begun = Instant::now();
         while background.is_busy() {
@@ -149,7 +194,7 @@ mod tests {
 
     #[test]
     fn the_newest_inputs_win_and_the_old_value_is_shown_meanwhile() {
-        let background = Background::new(&egui::Context::default());
+        let background = Background::new(&context());
         let mut job: LatestJob<u32, u32> = LatestJob::default();
         job.refresh(&background, &1, |_| 10);
         wait(&background);
@@ -173,7 +218,7 @@ mod tests {
 
     #[test]
     fn a_job_that_panics_is_not_tried_again_with_the_same_inputs() {
-        let background = Background::new(&egui::Context::default());
+        let background = Background::new(&context());
         let mut job: LatestJob<u32, u32> = LatestJob::default();
         job.refresh(&background, &1, |_| std::panic::panic_any("on purpose"));
         wait(&background);
@@ -197,7 +242,7 @@ mod tests {
 
     #[test]
     fn a_useless_job_is_stopped_and_the_next_does_not_wait_for_it() {
-        let background = Background::new(&egui::Context::default());
+        let background = Background::new(&context());
         let mut job = LatestJob::default();
         let first = held(&mut job, &background, 1);
         job.stop_if(|key| *key != 1);
@@ -217,7 +262,7 @@ mod tests {
 
     #[test]
     fn letting_go_stops_the_job() {
-        let background = Background::new(&egui::Context::default());
+        let background = Background::new(&context());
         let (sender, told) = channel();
         let (let_go, hold) = channel::<()>();
         let mut job: LatestJob<u32, ()> = LatestJob::default();
@@ -230,5 +275,31 @@ mod tests {
         drop(let_go);
         let (_, after) = told.recv().expect("an answer");
         assert!(after);
+    }
+
+    #[test]
+    fn frames_are_counted_since_the_inputs_of_what_is_shown_were_the_newest() {
+        let ctx = context();
+        let background = Background::new(&ctx);
+        let mut job = LatestJob::default();
+        let mut in_frame = |key: u32, let_go: bool| {
+            end_frame(&ctx);
+            let (sender, hold) = channel::<()>();
+            job.refresh(&background, &key, move |_| {
+                let _ = hold.recv();
+            });
+            if let_go {
+                drop(sender);
+                wait(&background);
+            } else {
+                // Held for as long as the test runs.
+                std::mem::forget(sender);
+            }
+            job.frames_behind()
+        };
+        assert_eq!([in_frame(1, true), in_frame(1, true), in_frame(1, true)], [0, 0, 0], "the sliders rest");
+        assert_eq!([in_frame(2, true), in_frame(3, true), in_frame(4, true)], [1, 1, 1], "each value is there for the next frame");
+        assert_eq!([in_frame(4, true), in_frame(4, true)], [0, 0], "it is the newest");
+        assert_eq!([in_frame(5, false), in_frame(6, false), in_frame(7, false)], [1, 2, 3], "the job of 5 takes long");
     }
 }

@@ -10,10 +10,10 @@ mod curves;
 mod derived;
 mod document;
 mod frame_times;
+mod heap;
 mod history;
 mod import;
 mod language;
-#[allow(dead_code, reason = "for panes whose contents take longer than a frame")]
 mod latest_job;
 mod layout;
 mod leaving;
@@ -54,6 +54,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     if !display_is_named() {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
+    heap::keep_heap();
     let (stored, notice) = store::load();
     let mut viewport = egui::ViewportBuilder::default().with_title(TITLE).with_app_id(store::APP).with_min_inner_size([1024.0, 640.0]);
     viewport = viewport.with_inner_size(stored.window.size).with_maximized(stored.window.maximized);

@@ -679,7 +679,7 @@ impl eframe::App for Explorer {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         if let Some(seconds) = frame.info().cpu_usage {
-            self.frame_times.push(seconds);
+            self.frame_times.push(seconds, self.views.frames_behind(&self.panes.on_screen()));
         }
         Self::ui(self, ui);
     }

@@ -166,6 +166,11 @@ impl HemisphereView {
         self.job.stop_if(|_| true);
     }
 
+    /// How many frames the map is behind the sliders.
+    pub fn frames_behind(&self) -> u64 {
+        self.job.frames_behind()
+    }
+
     /// Whether a map is being made.
     #[cfg(test)]
     pub fn is_running(&self) -> bool {

@@ -434,6 +434,11 @@ impl LandscapeView {
     pub fn rest(&mut self) {
         self.job.stop_if(|_| true);
     }
+
+    /// How many frames the landscape is behind the sliders.
+    pub fn frames_behind(&self) -> u64 {
+        self.job.frames_behind()
+    }
 }
 
 #[cfg(test)]

@@ -66,4 +66,14 @@ impl Views {
             self.landscape.rest();
         }
     }
+
+    /// How many frames the older of the maps on screen is behind the sliders.
+    pub fn frames_behind(&self, on_screen: &[Pane]) -> u64 {
+        let map = |pane: &Pane| match pane {
+            Pane::Hemisphere => self.hemisphere.frames_behind(),
+            Pane::Landscape => self.landscape.frames_behind(),
+            _ => 0,
+        };
+        on_screen.iter().map(map).max().unwrap_or(0)
+    }
 }
