@@ -129,6 +129,7 @@ impl Document {
     }
 }
 
-fn masked_rows(rows: &[Row]) -> Mask {
+/// The rows that are masked, in ascending order.
+pub fn masked_rows(rows: &[Row]) -> Mask {
     rows.iter().enumerate().filter(|(_, row)| row.masked).map(|(index, _)| index).collect()
 }

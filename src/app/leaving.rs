@@ -2,6 +2,7 @@
 
 use super::curves::{Curves, Marks};
 use super::panes::Pane;
+use super::past_fits::PastFit;
 use super::plots::Ribbon;
 use super::plots::print::{FOREGROUND, MUTED, points};
 use super::reports::Subject;
@@ -16,6 +17,7 @@ use pbrdf::model::Pbrdf;
 use pbrdf::report::figure::{Axis, Dash, Drawn, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
 use pbrdf::report::{FitDocument, Source, write_curves, write_fitted};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use tr::tr;
 
 /// Something that can be written.
@@ -159,14 +161,16 @@ fn report(explorer: &Explorer) -> Result<Write, String> {
 /// The session as it is now.
 pub fn session(explorer: &Explorer) -> Session {
     let document = &explorer.document;
-    let fits = explorer.past_fits.iter().filter(|fit| fit.number == document.number);
+    let fits: Vec<&Rc<PastFit>> = explorer.past_fits.iter().filter(|fit| fit.number == document.number).collect();
+    let is_shown = |fit: &&Rc<PastFit>| explorer.last_fit.as_ref().is_some_and(|shown| Rc::ptr_eq(fit, shown));
     Session {
         settings: explorer.settings.clone(),
         layout: explorer.window.layout.clone(),
         name: document.name.clone(),
         sha256: document.sha256.clone(),
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
-        fits: fits.map(|fit| Recipe::new(fit)).collect(),
+        shown: fits.iter().position(is_shown),
+        fits: fits.into_iter().map(|fit| Recipe::new(fit)).collect(),
     }
 }
 

@@ -9,6 +9,7 @@ mod contours;
 mod curves;
 mod derived;
 mod document;
+mod fit_account;
 mod frame_times;
 mod heap;
 mod history;

@@ -1,5 +1,6 @@
 //! The fits of this session, to look back at and to return to.
 
+use super::document::Mask;
 use pbrdf::fit::{FitReport, Problem};
 use pbrdf::model::Parameters;
 use std::collections::VecDeque;
@@ -21,6 +22,8 @@ pub struct PastFit {
     pub number: u64,
     /// The state of that measurement: its mask may have changed since.
     pub generation: u64,
+    /// The rows that were masked.
+    pub mask: Mask,
 }
 
 /// Fits that are kept.

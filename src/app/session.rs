@@ -2,8 +2,10 @@
 //!
 //! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurement` and `fits`. The
 //! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
-//! about and where it ended; residuals, errors and what is open follow from that when the file is opened.
+//! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
 
+use super::document::{Mask, masked_rows};
+use super::fit_account::Account;
 use super::layout::Layout;
 use super::past_fits::PastFit;
 use super::state::{Settings, can_be_set};
@@ -12,6 +14,7 @@ use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watc
 use pbrdf::measurement::{self, Measurement, ReadError};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -38,6 +41,15 @@ struct Contents {
     layout: Layout,
     measurement: Option<Data>,
     fits: Vec<Recipe>,
+    /// Which of them was shown, from 0.
+    #[serde(default = "newest")]
+    shown: Option<usize>,
+}
+
+/// Files that do not say which fit was shown show the newest.
+#[expect(clippy::unnecessary_wraps, reason = "the type of the key")]
+fn newest() -> Option<usize> {
+    Some(0)
 }
 
 #[derive(Serialize, Deserialize)]
@@ -59,7 +71,20 @@ pub struct Recipe {
     /// The solution.
     parameters: Parameters,
     /// The sliders before it.
+    before: Parameters,
+    /// How it came about; older files do not tell.
+    #[serde(default)]
+    account: Option<Account>,
+}
+
+/// A fit of a session, made again.
+pub struct Again {
+    pub report: FitReport,
+    pub problem: Arc<Problem>,
+    /// The sliders before it.
     pub before: Parameters,
+    /// The rows that were masked.
+    pub mask: Mask,
 }
 
 /// A session.
@@ -74,6 +99,8 @@ pub struct Session {
     pub measurement: Option<Arc<Measurement>>,
     /// The newest first.
     pub fits: Vec<Recipe>,
+    /// Which of them is shown.
+    pub shown: Option<usize>,
 }
 
 /// Why a file is no session.
@@ -118,6 +145,7 @@ impl Recipe {
             choices: *problem.choices(),
             parameters: fit.report.parameters,
             before: fit.before,
+            account: Some(Account::new(fit)),
         }
     }
 
@@ -126,24 +154,43 @@ impl Recipe {
         for &(parameter, low, high) in &self.bounds {
             bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
         }
-        for parameters in [&self.start, &self.parameters, &self.before] {
-            can_be_set(parameters, self.model.parameters()).map_err(|error| error.to_string())?;
+        let places = self.account.iter().flat_map(|account| account.places(self.start, &self.free));
+        for parameters in [self.start, self.parameters, self.before].into_iter().chain(places) {
+            can_be_set(&parameters, self.model.parameters()).map_err(|error| error.to_string())?;
+        }
+        if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
+            return Err(fault.to_owned());
         }
         let free: ParameterSet = self.free.iter().copied().collect();
-        let problem = Problem::new(measurement, self.model, self.start, free, bounds, self.choices);
+        let measurement = self.account.as_ref().map_or(Cow::Borrowed(measurement), |account| account.masked(measurement));
+        let problem = Problem::new(&measurement, self.model, self.start, free, bounds, self.choices);
         problem.map_err(|error: ProblemError| error.to_string())
     }
 
-    /// The fit again: from its solution, where it stays. None where the data of the session are no longer such that there is one.
-    pub fn again(&self, measurement: &Measurement) -> Option<(FitReport, Problem)> {
+    /// The fit again. None where the data of the session are no longer such that there is one.
+    pub fn again(&self, measurement: &Measurement) -> Option<Again> {
         let problem = self.problem(measurement).ok()?;
+        let report = match &self.account {
+            Some(account) => account.report(&problem, &self.free)?,
+            None => self.without_account(&problem),
+        };
+        let mask = self.account.as_ref().map_or_else(|| masked_rows(&measurement.rows), |account| account.mask().into());
+        Some(Again { report, problem: Arc::new(problem), before: self.before, mask })
+    }
+
+    /// From its solution, where it stays; how it got there is not known.
+    fn without_account(&self, problem: &Problem) -> FitReport {
         let mut report = fit(&problem.with_start(self.parameters), Starts::One, 0, Watch::NOBODY);
         for estimate in &mut report.estimates {
             estimate.start = self.start[estimate.parameter];
         }
         report.start_objective = problem.delta_e(&self.start);
         report.start_sum_of_squares = problem.sum_of_squares(&self.start).map(|sum| sum * problem.sum_of_squares_scale());
-        Some((report, problem))
+        report.evaluations = 0;
+        report.minima.clear();
+        report.trace.clear();
+        report.path.clear();
+        report
     }
 }
 
@@ -166,6 +213,7 @@ impl Session {
             layout: self.layout.clone(),
             measurement: self.measurement.as_ref().map(data).transpose()?,
             fits: self.fits.clone(),
+            shown: self.shown,
         };
         serde_json::to_writer_pretty(&mut *out, &contents)?;
         writeln!(out)
@@ -197,6 +245,7 @@ impl Session {
             problem.map_err(|reason| SessionError::Fit { number: index + 1, reason })?;
         }
         let measurement = measurement.map(Arc::new);
-        Ok(Self { settings: contents.settings, layout: contents.layout, name, sha256, measurement, fits: contents.fits })
+        let Contents { settings, layout, fits, shown, .. } = contents;
+        Ok(Self { settings, layout, name, sha256, measurement, fits, shown })
     }
 }

@@ -21,7 +21,7 @@ use super::views::Views;
 use super::worker::{Event, Rung, Worker};
 use super::working::Working;
 use super::{language, leaving, panels, parameter_text, store, theme};
-use pbrdf::fit::{Choices, Eq17, FitReport, Loss, Problem};
+use pbrdf::fit::{Choices, Eq17, FitReport, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::report::Setting;
@@ -290,14 +290,14 @@ impl Explorer {
                 self.scans.profile = self.last_fit.as_ref().map(curve);
             }
             Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
-            Event::Fitted { report, problem, generation } => {
+            Event::Fitted { report, problem, generation, mask } => {
                 let before = self.settings.parameters;
                 self.settings.parameters = report.parameters;
                 self.refitted = Some(report.parameters);
                 let Document { name, number, .. } = &self.document;
                 let (document, number) = (name.clone(), *number);
                 // The list of past fits numbers them.
-                let fit = PastFit { id: 0, report: *report, problem, before, document, number, generation };
+                let fit = PastFit { id: 0, report: *report, problem, before, document, number, generation, mask };
                 let fit = self.past_fits.push(fit);
                 self.show_fit(Some(fit));
             }
@@ -565,11 +565,8 @@ impl Explorer {
     /// The fit that is shown, with the problem that it solved.
     fn shown_fit(&self) -> Option<(Problem, FitReport)> {
         let fit = self.last_fit.as_ref()?;
-        let choices = fit.problem.choices();
-        let automatic = choices.loss != Loss::Linear && choices.loss_scale.is_none();
-        // An automatic scale belongs to the fit, not to its problem.
-        let problem = if automatic { fit.problem.with_loss_scale_of(&fit.report.parameters) } else { (*fit.problem).clone() };
-        Some((problem, fit.report.clone()))
+        // An automatic scale of the loss belongs to the fit, not to its problem.
+        Some((fit.problem.with_loss_scales(fit.report.loss_scales), fit.report.clone()))
     }
 
     fn start_fit(&mut self) -> Result<(), String> {
@@ -577,7 +574,7 @@ impl Explorer {
         parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error))?;
         let measurement = &self.document.measurement;
         match problem(&self.settings, measurement, model, self.free(), choices) {
-            Ok(problem) => self.worker.start_fit(problem, self.document.generation, starts, seed),
+            Ok(problem) => self.worker.start_fit(problem, &self.document, starts, seed),
             Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }

@@ -3,11 +3,12 @@
 //! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
 //! that was replaced meanwhile are dropped by its number.
 
+use super::document::{Document, Mask};
 use super::import::Origin;
 use super::leaving::{Outgoing, Write};
 use super::reading::{self, Arrived, Choice, Foreign, Imported};
 use super::reports::{Made, Subject};
-use super::session::{Recipe, Session};
+use super::session::{Again, Recipe, Session};
 use crate::export;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
@@ -57,6 +58,7 @@ pub enum Event {
         report: Box<FitReport>,
         problem: Arc<Problem>,
         generation: u64,
+        mask: Mask,
     },
     /// A fit from the sliders while they move.
     Refitted(Box<FitReport>),
@@ -78,7 +80,7 @@ pub enum Event {
 /// A session with its fits made again, the newest first.
 pub struct Opened {
     pub session: Session,
-    pub fits: Vec<(FitReport, Arc<Problem>, Parameters)>,
+    pub fits: Vec<Again>,
 }
 
 impl Opened {
@@ -89,12 +91,14 @@ impl Opened {
         let mut file = open_file(path).map_err(|reason| said(&reason))?;
         file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", error)))?;
         let session = Session::read(&text).map_err(|error| said(&error))?;
-        let again = |recipe: &Recipe| {
-            let (report, problem) = recipe.again(session.measurement.as_ref()?)?;
-            Some((report, Arc::new(problem), recipe.before))
-        };
+        Ok(Self::new(session))
+    }
+
+    /// With the fits made again that its data still allow.
+    pub fn new(session: Session) -> Self {
+        let again = |recipe: &Recipe| recipe.again(session.measurement.as_ref()?);
         let fits = session.fits.iter().filter_map(again).collect();
-        Ok(Self { session, fits })
+        Self { session, fits }
     }
 }
 
@@ -398,11 +402,12 @@ impl Worker {
         }
     }
 
-    /// Fits a document in that state.
-    pub fn start_fit(&mut self, problem: Problem, generation: u64, starts: Starts, seed: u64) -> Result<(), String> {
+    /// Fits a document as it is, from so many starts.
+    pub fn start_fit(&mut self, problem: Problem, document: &Document, starts: Starts, seed: u64) -> Result<(), String> {
         if let Some(job) = self.fit.take() {
             job.cancel();
         }
+        let (generation, mask) = (document.generation, document.mask().clone());
         let job = self.spawn("fit", move |teller: &Teller<TracePoint>, stop| {
             let begun = Instant::now();
             let watch = Watch {
@@ -411,7 +416,7 @@ impl Worker {
                 progress: &|point| teller.tell(point),
             };
             let report = Box::new(fit(&problem, starts, seed, watch));
-            Event::Fitted { report, problem: Arc::new(problem), generation }
+            Event::Fitted { report, problem: Arc::new(problem), generation, mask }
         })?;
         self.fit = Some(job);
         Ok(())

@@ -5,6 +5,7 @@ use super::layout::Layout;
 use super::leaving::{self, Outgoing};
 use super::panes::Panes;
 use super::past_fits::PastFit;
+use super::session::Again;
 use super::state::Settings;
 use super::window::{Explorer, SAVE_AFTER};
 use super::worker::{Opened, save_session};
@@ -144,11 +145,16 @@ impl Explorer {
         self.window.layout = session.layout;
         self.panes = Panes::new(&self.window.layout);
         self.refitted = Some(self.settings.parameters);
-        for (report, problem, before) in fits.into_iter().rev() {
-            let (document, number, generation) = (self.document.name.clone(), self.document.number, self.document.generation);
-            let fit = PastFit { id: 0, report, problem, before, document, number, generation };
+        let shown = session.shown;
+        for (index, Again { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
+            let (document, number) = (self.document.name.clone(), self.document.number);
+            // None of this document, where the mask was another one.
+            let generation = if mask == *self.document.mask() { self.document.generation } else { 0 };
+            let fit = PastFit { id: 0, report, problem, before, document, number, generation, mask };
             let fit = self.past_fits.push(fit);
-            self.show_fit(Some(fit));
+            if Some(index) == shown {
+                self.show_fit(Some(fit));
+            }
         }
         let setup = self.setup();
         self.history.replace(setup);

@@ -121,6 +121,8 @@ pub struct FitReport {
     pub start_sum_of_squares: Option<f64>,
     /// Whether what was minimised is ΔE itself.
     pub minimises_delta_e: bool,
+    /// Where the loss changed from squares to sizes, for DoLP and BRDF, in units of the scaled residual.
+    pub loss_scales: [f64; 2],
     /// χ², where standard deviations were stated and used.
     pub chi2: Option<f64>,
     /// Number of residuals less the rank.
@@ -141,7 +143,7 @@ pub struct FitReport {
     pub correlations: DMatrix<f64>,
     /// Standard errors of the fitted curves at any geometry.
     pub band: Band,
-    /// Where the starts led.
+    /// Where the starts led; empty where that is not known any more.
     pub minima: Vec<Minimum>,
     /// The improvements on the way of the winning start.
     pub trace: Vec<TracePoint>,
@@ -173,6 +175,12 @@ pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> Fi
 }
 
 impl FitReport {
+    /// The report of a search that was made before, on a problem with the loss scales that it had then; none where it found nothing.
+    #[must_use]
+    pub fn again(problem: &Problem, search: Search, elapsed_ms: f64) -> Option<Self> {
+        (!search.found.is_empty()).then(|| Self::new(problem, search, elapsed_ms))
+    }
+
     fn new(problem: &Problem, search: Search, elapsed_ms: f64) -> Self {
         let Search { mut found, evaluations } = search;
         let minima = found.iter().map(|found| Minimum {
@@ -214,6 +222,7 @@ impl FitReport {
             sum_of_squares: if problem.is_empty() { 0.0 } else { in_data_units },
             start_sum_of_squares: problem.sum_of_squares(problem.start()).map(|sum| sum * problem.sum_of_squares_scale()),
             minimises_delta_e: problem.minimises_delta_e(),
+            loss_scales: problem.loss_scales(),
             chi2: (problem.choices().weights == Weights::Sigma).then_some(sum_of_squares),
             dof: problem.len().saturating_sub(uncertainty.rank),
             aicc: aicc(problem, in_data_units),

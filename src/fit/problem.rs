@@ -223,6 +223,18 @@ impl Problem {
         Self { loss_scales: [scale(0), scale(1)], ..self.clone() }
     }
 
+    /// The same problem with its loss changing from squares to sizes there.
+    #[must_use]
+    pub fn with_loss_scales(&self, loss_scales: [f64; 2]) -> Self {
+        Self { loss_scales, ..self.clone() }
+    }
+
+    /// Where the loss changes from squares to sizes, for DoLP and BRDF, in units of the scaled residual.
+    #[must_use]
+    pub fn loss_scales(&self) -> [f64; 2] {
+        self.loss_scales
+    }
+
     /// Which terms there are.
     #[must_use]
     pub fn model(&self) -> Model {

@@ -10,10 +10,10 @@ use super::problem::Problem;
 use super::walk::{Limits, Walk};
 use crate::model::Parameters;
 use nalgebra::DVector;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Why a fit ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StopReason {
     /// Objective, parameters or gradient changed by no more than rounding.

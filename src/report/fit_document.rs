@@ -123,9 +123,11 @@ impl FitDocument<'_> {
     }
 
     fn summary(&self) -> String {
-        let FitReport { stop_reason, evaluations, elapsed_ms, objective, start_objective, .. } = self.report;
+        let FitReport { stop_reason, evaluations, elapsed_ms, objective, start_objective, minima, .. } = self.report;
+        // A fit out of an old session does not know what it took.
+        let effort = if minima.is_empty() { String::new() } else { format!(" in {evaluations} evaluations and {elapsed_ms:.0} ms") };
         format!(
-            "{} of {} rows. How it ended: {}. ΔE of Eq. (18) went from {} to {} in {evaluations} evaluations and {elapsed_ms:.0} ms.",
+            "{} of {} rows. How it ended: {}. ΔE of Eq. (18) went from {} to {}{effort}.",
             self.used(),
             self.measurement.rows.len(),
             stop_reason.text(),

@@ -71,14 +71,7 @@ fn session() -> Session {
 }
 
 fn opened(bytes: &[u8]) -> Option<Opened> {
-    let session = Session::read(std::str::from_utf8(bytes).ok()?).ok()?;
-    let measurement = session.measurement.clone();
-    let again = session.fits.iter().filter_map(|recipe| {
-        let (report, problem) = recipe.again(measurement.as_ref()?)?;
-        Some((report, problem.into(), recipe.before))
-    });
-    let fits = again.collect();
-    Some(Opened { session, fits })
+    Some(Opened::new(Session::read(std::str::from_utf8(bytes).ok()?).ok()?))
 }
 
 #[test]

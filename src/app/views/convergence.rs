@@ -100,6 +100,10 @@ pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));
         return;
     };
+    if fit.report.minima.is_empty() {
+        ui.label(tr!("How this fit came about is not known: its session was saved by an older version."));
+        return;
+    }
     if way.points.is_empty() {
         ui.label(tr!("The fit made no step: ΔE of its start was the best."));
         return;

@@ -31,7 +31,7 @@ pub fn past_fits_ui(fits: &PastFits, shown: Option<&Rc<PastFit>>, number: u64, c
                     commands.push(Command::ReturnTo(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
-                ui.monospace(format!("{:.1} ms", report.elapsed_ms));
+                ui.monospace(if report.minima.is_empty() { "–".to_owned() } else { format!("{:.1} ms", report.elapsed_ms) });
                 ui.end_row();
             }
         });

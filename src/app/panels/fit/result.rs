@@ -40,7 +40,7 @@ pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Ve
             (tr!("Minimised"), minimised_text(fit)),
             (tr!("χ²/dof"), reduced_chi2_text(report)),
             (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}"))),
-            (tr!("Time"), tr!("{0} ms, {1} evaluations", format!("{:.2}", report.elapsed_ms), report.evaluations)),
+            (tr!("Time"), effort_text(report)),
         ] {
             if !value.is_empty() {
                 ui.label(name);
@@ -119,6 +119,14 @@ fn minimised_text(fit: &PastFit) -> String {
     tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", report.sum_of_squares))
 }
 
+/// What it took; a session of an older version does not tell.
+fn effort_text(report: &FitReport) -> String {
+    if report.minima.is_empty() {
+        return tr!("not known: from a session of an older version");
+    }
+    tr!("{0} ms, {1} evaluations", format!("{:.2}", report.elapsed_ms), report.evaluations)
+}
+
 /// χ² per degree of freedom where standard deviations were stated and used.
 fn reduced_chi2_text(report: &FitReport) -> String {
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
@@ -132,6 +140,9 @@ fn reduced_chi2_text(report: &FitReport) -> String {
 
 /// Where the starts led: distinct minima, best first.
 fn minima_ui(report: &FitReport, ui: &mut Ui) {
+    if report.minima.is_empty() {
+        return;
+    }
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
     ui.collapsing(tr!("{0} minima from {1} starts", report.minima.len(), starts), |ui| {
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
