@@ -10,13 +10,14 @@
 //! | `step` | begins a step | its heading |
 //! | `model` | step | name of a preset, such as `cauchy` |
 //! | `set` | step | parameters, such as `n=1.5, k=0`; the others stay |
+//! | `range` | step | ends of sliders while the step is shown, such as `k=0..3, sigma=0.05..0.5`; the others have their own |
 //! | `theta_i`, `dphi` | step | angles of the lobes in degrees |
 //! | `log` | step | `yes` or `no`: logarithmic BRDF |
 //! | `example` | step | name of a bundled example to open |
 //! | `panes` | step | names of the views to bring to the front |
 //! | `move`, `watch`, `why` | step | what to do, what to look at, and the reason |
 
-use super::{AssignmentError, Parameter, Preset, assignments_from_text};
+use super::{AssignmentError, Parameter, Preset, assignment_from_text, assignments_from_text};
 use crate::optics::Geometry;
 
 /// A text in one language or more.
@@ -62,6 +63,8 @@ pub struct Step {
     pub preset: Option<&'static Preset>,
     /// The parameters to set.
     pub set: Vec<(Parameter, f64)>,
+    /// Ends of sliders while the step is shown: parameter, lower, upper.
+    pub ranges: Vec<(Parameter, f64, f64)>,
     /// Angle of incidence of the lobes, degrees.
     pub theta_i: Option<f64>,
     /// Relative azimuth of the lobes, degrees.
@@ -130,6 +133,17 @@ pub enum LessonErrorKind {
     /// No such parameter, or a value that it cannot have.
     #[error(transparent)]
     Set(#[from] AssignmentError),
+    /// No `name=low..high`.
+    #[error("expected name=low..high, such as k=0..3, found {0:?}")]
+    Range(String),
+    /// Ends in the wrong order.
+    #[error("a slider from {low} to {high}: the first must be below the second")]
+    Order {
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+    },
     /// Not an angle in its range.
     #[error("{found:?} is no angle: expected {expected}")]
     Angle {
@@ -150,7 +164,7 @@ pub enum LessonErrorKind {
 }
 
 const HEAD_KEYS: &str = "title, about, step";
-const STEP_KEYS: &str = "step, model, set, theta_i, dphi, log, example, panes, move, watch, why";
+const STEP_KEYS: &str = "step, model, set, range, theta_i, dphi, log, example, panes, move, watch, why";
 
 /// A line with its continuations.
 struct Entry {
@@ -228,6 +242,7 @@ impl Step {
         match key.as_str() {
             "model" => self.preset = Some(Preset::from_key(&text).ok_or(LessonErrorKind::Model(text))?),
             "set" => self.set = assignments_from_text(&text)?,
+            "range" => self.ranges = ranges(&text)?,
             "theta_i" => self.theta_i = Some(angle(text, "0 ≤ θi < 90 degrees", |theta_i| Geometry::new(theta_i, 0.0, 0.0).is_ok())?),
             "dphi" => self.dphi = Some(angle(text, "a finite angle in degrees", f64::is_finite)?),
             "log" => {
@@ -243,6 +258,27 @@ impl Step {
         }
         Ok(())
     }
+}
+
+/// A list of `name=low..high`, each parameter at most once.
+fn ranges(text: &str) -> Result<Vec<(Parameter, f64, f64)>, LessonErrorKind> {
+    let mut ranges: Vec<(Parameter, f64, f64)> = Vec::new();
+    for part in text.split(',').map(str::trim) {
+        let form = || LessonErrorKind::Range(part.to_owned());
+        let (name, ends) = part.split_once('=').ok_or_else(form)?;
+        let (low, high) = ends.split_once("..").ok_or_else(form)?;
+        // Each end is a value that the parameter can have.
+        let end = |value: &str| assignment_from_text(&format!("{name}={value}"));
+        let ((parameter, low), (_, high)) = (end(low)?, end(high)?);
+        if low >= high {
+            return Err(LessonErrorKind::Order { low, high });
+        }
+        if ranges.iter().any(|(other, ..)| *other == parameter) {
+            return Err(AssignmentError::Twice(parameter).into());
+        }
+        ranges.push((parameter, low, high));
+    }
+    Ok(ranges)
 }
 
 fn angle(text: String, expected: &'static str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, LessonErrorKind> {
@@ -281,7 +317,7 @@ mod tests {
     use super::{Lesson, LessonErrorKind};
     use crate::model::Parameter;
 
-    const SMALL: &str = "# a comment\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n\nstep: Glass\nmodel: fresnel\nset: n=1.5, k=0\n\
+    const SMALL: &str = "# a comment\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n\nstep: Glass\nmodel: fresnel\nset: n=1.5, k=0\nrange: k=0..3, sigma = 0.05 .. 0.5\n\
                          theta_i: 56.3\nlog: no\npanes: dolp, lobes\nwatch: the maximum,\n  which is 1\nstep: Metal\nset: k=3\n";
 
     #[test]
@@ -292,6 +328,7 @@ mod tests {
         let first = &lesson.steps[0];
         assert_eq!(first.preset.map(|preset| preset.key), Some("fresnel"));
         assert_eq!(first.set, [(Parameter::N, 1.5), (Parameter::K, 0.0)]);
+        assert_eq!(first.ranges, [(Parameter::K, 0.0, 3.0), (Parameter::Sigma, 0.05, 0.5)]);
         assert_eq!((first.theta_i, first.log), (Some(56.3), Some(false)));
         assert_eq!(first.watch.in_language("zh"), "the maximum, which is 1");
         assert_eq!(first.panes, ["dolp", "lobes"]);
@@ -305,6 +342,12 @@ mod tests {
             ("title: a\nstep: b\nmodel: phong", 3, "\"phong\" is no model"),
             ("title: a\nstep: b\nset: n=0x", 3, "finite number"),
             ("title: a\nstep: b\nset: sigma=-1", 3, "not allowed"),
+            ("title: a\nstep: b\nrange: k=3", 3, "name=low..high"),
+            ("title: a\nstep: b\nrange: m=0..3", 3, "no parameter"),
+            ("title: a\nstep: b\nrange: k=0..x", 3, "finite number"),
+            ("title: a\nstep: b\nrange: q=1..3", 3, "not allowed"),
+            ("title: a\nstep: b\nrange: k=3..0", 3, "from 3 to 0"),
+            ("title: a\nstep: b\nrange: k=0..3, k=0..4", 3, "twice"),
             ("title: a\nstep: b\ntheta_i: 90", 3, "0 ≤ θi < 90"),
             ("title: a\nstep: b\ndphi: inf", 3, "finite angle"),
             ("title: a\nstep: b\nlog: maybe", 3, "yes or no"),
