@@ -42,7 +42,10 @@ pub enum Command {
     OpenExample(usize),
     /// The lesson of that number at the step of that number: sliders and views as it wants them.
     ShowStep(usize, usize),
+    /// Out of the lesson; what was there before it comes back.
     CloseLesson,
+    /// Out of the lesson, and on with what it set.
+    KeepLesson,
     /// Read the foreign file as it was chosen.
     Import,
     /// Leave it; what is open stays.
@@ -276,7 +279,10 @@ static ENTRIES: &[Entry] = &[
         ctrl(Key::B), |e| switch(e.settings.show_backscatter)),
     row(Command::Toggle(Switch::FrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |e| switch(e.window.show_frame_times)),
-    row(Command::CloseLesson, Menu::Lesson, "Close lesson", "The sliders stay as they are", None, |e| only_if(e.lessons.open.is_some())),
+    row(Command::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
+        |e| only_if(e.lessons.open.is_some())),
+    row(Command::KeepLesson, Menu::Lesson, "Keep what the lesson shows", "Close the lesson and go on from here; your work of before is given up",
+        None, |e| only_if(e.lessons.open.is_some())),
     row(Command::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
     row(Command::DismissNotice, Menu::None, "Dismiss notice", "Away with the sentence above the plots", None,
         |e| only_if(e.notice.is_some())),

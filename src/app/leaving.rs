@@ -1,12 +1,15 @@
 //! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
 
 use super::curves::{Curves, Marks};
+use super::document::Document;
+use super::layout::Layout;
 use super::panes::Pane;
-use super::past_fits::PastFit;
+use super::past_fits::{PastFit, PastFits};
 use super::plots::Ribbon;
 use super::plots::print::{FOREGROUND, MUTED, points};
 use super::reports::Subject;
 use super::session::{Recipe, Session};
+use super::state::Settings;
 use super::views;
 use super::window::Explorer;
 use crate::app::language::translated;
@@ -158,18 +161,29 @@ fn report(explorer: &Explorer) -> Result<Write, String> {
     }))
 }
 
-/// The session as it is now.
+/// The session as it is shown, that of a lesson included.
 pub fn session(explorer: &Explorer) -> Session {
-    let document = &explorer.document;
-    let fits: Vec<&Rc<PastFit>> = explorer.past_fits.iter().filter(|fit| fit.number == document.number).collect();
-    let is_shown = |fit: &&Rc<PastFit>| explorer.last_fit.as_ref().is_some_and(|shown| Rc::ptr_eq(fit, shown));
+    let Explorer { settings, document, past_fits, last_fit, .. } = explorer;
+    let layout = explorer.panes.layout().unwrap_or_else(|| explorer.window.layout.clone());
+    session_of(settings, layout, document, past_fits, last_fit.as_ref())
+}
+
+/// The session of the user's own work, which a lesson sets aside.
+pub fn own_session(explorer: &Explorer) -> Session {
+    let last_fit = explorer.aside.as_ref().map_or(&explorer.last_fit, |aside| &aside.last_fit);
+    let layout = explorer.window.layout.clone();
+    session_of(explorer.own_settings(), layout, explorer.own_document(), explorer.own_fits(), last_fit.as_ref())
+}
+
+fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &PastFits, shown: Option<&Rc<PastFit>>) -> Session {
+    let fits: Vec<&Rc<PastFit>> = fits.iter().filter(|fit| fit.number == document.number).collect();
     Session {
-        settings: explorer.settings.clone(),
-        layout: explorer.window.layout.clone(),
+        settings: settings.clone(),
+        layout,
         name: document.name.clone(),
         sha256: document.sha256.clone(),
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
-        shown: fits.iter().position(is_shown),
+        shown: fits.iter().position(|fit| shown.is_some_and(|shown| Rc::ptr_eq(fit, shown))),
         fits: fits.into_iter().map(|fit| Recipe::new(fit)).collect(),
     }
 }

@@ -1,7 +1,8 @@
 //! The lessons: those that are bundled, those in the user's own folder, and where in one of them the user is.
 
 use super::store;
-use pbrdf::model::{Lesson, Step};
+use pbrdf::model::{Lesson, Parameter, Step};
+use std::ops::RangeInclusive;
 use std::path::Path;
 use tr::tr;
 
@@ -45,6 +46,13 @@ impl Lessons {
             }
         }
         (Self { all, open: None }, faults)
+    }
+
+    /// The ends of a parameter's slider: as the open step wants them, else its own.
+    pub fn range(&self, parameter: Parameter) -> RangeInclusive<f64> {
+        let ranges = self.current().map_or(&[][..], |(_, step)| &step.ranges);
+        let stated = ranges.iter().find(|(other, ..)| *other == parameter);
+        stated.map_or_else(|| parameter.range(), |&(_, low, high)| low..=high)
     }
 
     /// The open step with its lesson.

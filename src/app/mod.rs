@@ -3,6 +3,7 @@
 //! `logic` drains the worker, applies commands and refreshes what is derived; `ui` draws what is there and pushes commands. No
 //! model is evaluated in a paint closure and no fit runs on this thread.
 
+mod aside;
 mod band;
 mod command;
 mod contours;

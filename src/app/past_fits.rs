@@ -33,7 +33,7 @@ const MOST_FITS: usize = 20;
 const MOST_RESIDUALS: usize = 500_000;
 
 /// The last fits, newest first.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct PastFits {
     fits: VecDeque<Rc<PastFit>>,
     made: usize,

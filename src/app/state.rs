@@ -4,6 +4,7 @@ use super::language::Language;
 use super::layout::Layout;
 use super::plan::Plan;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
+use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, SlopeDistribution};
 use serde::{Deserialize, Serialize};
@@ -203,6 +204,18 @@ pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), Par
 }
 
 impl Settings {
+    /// The defaults for data with or without a BRDF.
+    pub fn for_measurement(measurement: &Measurement) -> Self {
+        let mut settings = Self::default();
+        settings.lock_what_only_ratios_decide(measurement);
+        settings
+    }
+
+    /// With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
+    pub fn lock_what_only_ratios_decide(&mut self, measurement: &Measurement) {
+        self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
+    }
+
     /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
     pub fn fault(&self) -> Option<String> {
         if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {

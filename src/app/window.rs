@@ -1,5 +1,6 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
+use super::aside::Aside;
 use super::command::{self, Command};
 use super::derived::Derived;
 use super::document::{Document, EXAMPLES, Mask};
@@ -10,7 +11,7 @@ use super::latest_job::Background;
 use super::layout::Layout;
 use super::lessons::{self, Lessons};
 use super::palette::{Palette, palette_ui};
-use super::panes::{Pane, Panes, panes_ui};
+use super::panes::{Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
 use super::problem::{problem, reason};
 use super::reading::Arrived;
@@ -71,6 +72,8 @@ pub struct Explorer {
     /// A foreign file that waits for a choice.
     pub import: Option<Import>,
     pub lessons: Lessons,
+    /// The user's own work, while a lesson is on.
+    pub(super) aside: Option<Box<Aside>>,
     /// Where panes make what takes longer than a frame.
     pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
@@ -129,6 +132,7 @@ impl Explorer {
             palette: Palette::default(),
             import: None,
             lessons: Lessons::default(),
+            aside: None,
             background: Background::new(ctx),
             dragging: false,
             typed_path: String::new(),
@@ -178,9 +182,7 @@ impl Explorer {
     pub fn take(&mut self, name: String, measurement: Measurement) {
         self.generation += 1;
         self.import = None;
-        // With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
-        let locked = self.settings.locked;
-        self.settings.locked = if measurement.has_brdf() { locked.without(Parameter::Ks) } else { locked.with(Parameter::Ks) };
+        self.settings.lock_what_only_ratios_decide(&measurement);
         if !measurement.ignored_columns.is_empty() {
             self.say(format!("{name}: {}.", measurement.ignored_notice()));
         }
@@ -372,7 +374,8 @@ impl Explorer {
             }
             Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
-            Command::CloseLesson => self.lessons.open = None,
+            Command::CloseLesson => self.close_lesson(),
+            Command::KeepLesson => self.keep_lesson(),
             Command::Import => self.start_import()?,
             Command::CancelImport => self.cancel_import(),
             Command::CancelLoading => self.worker.load.iter().for_each(super::worker::Job::cancel),
@@ -579,34 +582,14 @@ impl Explorer {
         }
     }
 
-    /// Sliders, angles and views as a step of a lesson wants them; what it does not name stays.
-    fn show_step(&mut self, lesson: usize, step: usize) -> Result<(), String> {
-        self.lessons.open = Some((lesson, step));
-        let Some((_, step)) = self.lessons.current() else { return Ok(()) };
-        let settings = &mut self.settings;
-        settings.model = step.preset.map_or(settings.model, |preset| preset.model);
-        for &(parameter, value) in &step.set {
-            settings.parameters[parameter] = value;
-        }
-        settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
-        settings.dphi = step.dphi.unwrap_or(settings.dphi);
-        settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
-        let panes: Vec<Pane> = step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()).collect();
-        self.panes.show_together(&panes);
-        match EXAMPLES.iter().find(|example| step.example.as_deref() == Some(example.name)) {
-            Some(example) => self.worker.open_text(example.name.to_owned(), example.text),
-            None => Ok(()),
-        }
-    }
-
     fn remember_window(&mut self, ctx: &egui::Context) {
         let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
         self.window.maximized = maximized.unwrap_or(false);
         if let Some(size) = size.filter(|_| !self.window.maximized) {
             self.window.size = [size.x.round(), size.y.round()];
         }
-        // While all panes are closed, the arrangement before that is kept.
-        if let Some(layout) = self.panes.layout() {
+        // While all panes are closed, the arrangement before that is kept; that of a lesson goes with it.
+        if let Some(layout) = self.panes.layout().filter(|_| self.aside.is_none()) {
             self.window.layout = layout;
         }
     }
@@ -625,13 +608,13 @@ impl Explorer {
     }
 
     fn is_changed(&self) -> bool {
-        self.settings != self.saved.settings || self.window != self.saved.window
+        *self.own_settings() != self.saved.settings || self.window != self.saved.window
     }
 
     /// Writes the settings now.
     pub fn save(&mut self) {
         self.changed_at = None;
-        self.saved = Stored { settings: self.settings.clone(), window: self.window.clone() };
+        self.saved = Stored { settings: self.own_settings().clone(), window: self.window.clone() };
         if let Some(path) = &self.settings_file
             && let Err(error) = store::save(path, &self.saved)
         {

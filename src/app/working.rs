@@ -37,16 +37,16 @@ impl Explorer {
 
     fn working(&self) -> Working {
         Working {
-            settings: self.settings.clone(),
+            settings: self.own_settings().clone(),
             layout: self.window.layout.clone(),
-            generation: self.document.generation,
-            fits: self.past_fits.made(),
+            generation: self.own_document().generation,
+            fits: self.own_fits().made(),
         }
     }
 
     /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
     fn due(&self) -> Option<(PathBuf, Working)> {
-        let path = self.working_file.clone().filter(|_| self.document.measurement.rows.len() <= MOST_ROWS)?;
+        let path = self.working_file.clone().filter(|_| self.own_document().measurement.rows.len() <= MOST_ROWS)?;
         let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
         let working = self.working();
         (!is_waiting && self.autosaved.as_ref() != Some(&working)).then_some((path, working))
@@ -64,7 +64,7 @@ impl Explorer {
         }
         self.unsaved_since = None;
         self.autosaved = Some(working);
-        if let Err(sentence) = self.worker.autosave(path, leaving::session(self)) {
+        if let Err(sentence) = self.worker.autosave(path, leaving::own_session(self)) {
             self.say(sentence);
         }
     }
@@ -72,7 +72,7 @@ impl Explorer {
     /// Writes the working state before the window closes.
     pub fn autosave_now(&mut self) {
         if let Some((path, working)) = self.due()
-            && save_session(&path, &leaving::session(self)).is_ok()
+            && save_session(&path, &leaving::own_session(self)).is_ok()
         {
             self.autosaved = Some(working);
         }
@@ -100,7 +100,8 @@ impl Explorer {
         match result {
             Ok(path) => {
                 self.say(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
-                if what == Outgoing::Session {
+                // What was saved out of a lesson is no file of the work that comes back.
+                if what == Outgoing::Session && self.aside.is_none() {
                     self.session_file = Some(path);
                 }
             }
@@ -137,6 +138,9 @@ impl Explorer {
     }
 
     fn show_session(&mut self, opened: Opened) {
+        // It takes the place of a lesson, and of what that would give back.
+        self.lessons.open = None;
+        self.aside = None;
         let Opened { session, fits } = opened;
         let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
         self.take(session.name, measurement);

@@ -4,12 +4,14 @@
 //! begins with `#` is a comment. Texts may be given in further languages under the key with the language behind a dot
 //! (`title.zh`).
 //!
+//! A lesson begins with the program's default settings and with the measurement that is open; when it is closed, all is as it was before.
+//!
 //! | key | where | meaning |
 //! |---|---|---|
 //! | `title`, `about` | first | what the lesson is called, and what it shows, in a sentence |
 //! | `step` | begins a step | its heading |
 //! | `model` | step | name of a preset, such as `cauchy` |
-//! | `set` | step | parameters, such as `n=1.5, k=0`; the others stay |
+//! | `set` | step | parameters, such as `n=1.5, k=0`; the others stay as the step before left them |
 //! | `range` | step | ends of sliders while the step is shown, such as `k=0..3, sigma=0.05..0.5`; the others have their own |
 //! | `theta_i`, `dphi` | step | angles of the lobes in degrees |
 //! | `log` | step | `yes` or `no`: logarithmic BRDF |

@@ -24,12 +24,14 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
     ui.horizontal(|ui| {
         // The title last: it takes what room the buttons leave.
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.button(tr!("Close lesson")).clicked() {
+            if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
                 commands.push(Command::CloseLesson);
             }
             let last = lesson.steps.len() - 1;
-            if ui.add_enabled(index < last, egui::Button::new(tr!("Next step"))).clicked() {
-                commands.push(Command::ShowStep(number, index + 1));
+            let (name, command) =
+                if index < last { (tr!("Next step"), Command::ShowStep(number, index + 1)) } else { (tr!("Done"), Command::CloseLesson) };
+            if ui.button(name).clicked() {
+                commands.push(command);
             }
             if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
                 commands.push(Command::ShowStep(number, index));
@@ -43,6 +45,13 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 ui.add(Label::new(RichText::new(title).strong()).truncate());
             });
         });
+    });
+    ui.horizontal(|ui| {
+        ui.weak(tr!("Your own work comes back when you close the lesson."));
+        let help = tr!("Close the lesson and go on from here; your work of before is given up");
+        if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
+            commands.push(Command::KeepLesson);
+        }
     });
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();

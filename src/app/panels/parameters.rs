@@ -1,6 +1,7 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
 use crate::app::language::translated;
+use crate::app::lessons::Lessons;
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -8,18 +9,19 @@ use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
 use std::cell::RefCell;
+use std::ops::RangeInclusive;
 use tr::tr;
 
 pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, notice, .. } = explorer;
+    let Explorer { settings, notice, lessons, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);
         bounds_switch_ui(settings, ui);
         ui.separator();
-        specular_ui(settings, notice, ui);
-        diffuse_ui(settings, notice, ui);
-        volume_ui(settings, notice, ui);
+        specular_ui(settings, notice, lessons, ui);
+        diffuse_ui(settings, notice, lessons, ui);
+        volume_ui(settings, notice, lessons, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
         if ui.button(tr!("Reset all parameters")).on_hover_text(tr!("All nine parameters to their defaults")).clicked() {
@@ -64,7 +66,7 @@ fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
     });
 }
 
-fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
+fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
             .on_hover_text(tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
@@ -83,12 +85,12 @@ fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui
         if settings.model.distribution == SlopeDistribution::Cauchy {
             shown.push(Parameter::Q);
         }
-        sliders_ui(settings, notice, ui, "specular", &shown);
+        sliders_ui(settings, notice, lessons, ui, "specular", &shown);
     }
     ui.separator();
 }
 
-fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
+fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
     let switch =
         ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_text(tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
@@ -107,16 +109,16 @@ fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui)
             Diffuse::Lambert => &[Parameter::Kd],
             Diffuse::Minnaert => &[Parameter::Kd, Parameter::C],
         };
-        sliders_ui(settings, notice, ui, "diffuse", shown);
+        sliders_ui(settings, notice, lessons, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
-fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui) {
+fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
         .on_hover_text(tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
     if settings.model.volume {
-        sliders_ui(settings, notice, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+        sliders_ui(settings, notice, lessons, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
     ui.separator();
 }
@@ -161,10 +163,10 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
     twice && responses.iter().any(|response| response.contains_pointer())
 }
 
-fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(settings, notice, ui, parameter);
+            slider_ui(settings, notice, lessons.range(parameter), ui, parameter);
             ui.end_row();
             if settings.show_bounds {
                 bounds_ui(settings, notice, ui, parameter);
@@ -175,8 +177,13 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui,
 }
 
 /// Name, slider, typed value with unit, lock, reset.
-fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
-    let range = parameter.range();
+fn slider_ui(
+    settings: &mut Settings,
+    notice: &mut Option<String>,
+    range: RangeInclusive<f64>,
+    ui: &mut Ui,
+    parameter: Parameter,
+) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it.",

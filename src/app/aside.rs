@@ -1,0 +1,133 @@
+//! The user's own work, set aside while a lesson is on: a lesson moves sliders, opens examples and arranges panes, and gives all of it back.
+//!
+//! What is kept without being asked, the settings and the working state, is the user's own work all the while: a crash in a lesson brings that
+//! back, without the lesson.
+
+use super::document::{Document, EXAMPLES};
+use super::history::History;
+use super::panes::{Pane, Panes};
+use super::past_fits::{PastFit, PastFits};
+use super::scans::Scans;
+use super::state::Settings;
+use super::views::Views;
+use super::window::{Explorer, Setup};
+use super::worker::Rung;
+use pbrdf::model::Parameters;
+use std::path::PathBuf;
+use std::rc::Rc;
+use tr::tr;
+
+/// What a lesson gives back.
+pub struct Aside {
+    pub settings: Settings,
+    pub document: Document,
+    pub last_fit: Option<Rc<PastFit>>,
+    pub past_fits: PastFits,
+    panes: Panes,
+    comparison: Vec<Rung>,
+    scans: Scans,
+    history: History<Setup>,
+    refitted: Option<Parameters>,
+    session_file: Option<PathBuf>,
+}
+
+impl Explorer {
+    /// Sliders, angles and views as a step of a lesson wants them; what it does not name stays as the step before left it.
+    pub(super) fn show_step(&mut self, lesson: usize, step: usize) -> Result<(), String> {
+        if self.lessons.all.get(lesson).is_none_or(|lesson| step >= lesson.steps.len()) {
+            return Ok(());
+        }
+        if self.lessons.open.is_none_or(|(open, _)| open != lesson) {
+            self.close_lesson();
+            self.set_aside()?;
+        }
+        self.lessons.open = Some((lesson, step));
+        let Some((_, step)) = self.lessons.current() else { return Ok(()) };
+        let settings = &mut self.settings;
+        settings.model = step.preset.map_or(settings.model, |preset| preset.model);
+        for &(parameter, value) in &step.set {
+            settings.parameters[parameter] = value;
+        }
+        settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
+        settings.dphi = step.dphi.unwrap_or(settings.dphi);
+        settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
+        let panes: Vec<Pane> = step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()).collect();
+        self.panes.show_together(&panes);
+        match EXAMPLES.iter().find(|example| step.example.as_deref() == Some(example.name)) {
+            Some(example) => self.worker.open_text(example.name.to_owned(), example.text),
+            None => Ok(()),
+        }
+    }
+
+    /// Keeps the user's own work, and goes on with the same data and panes and with settings that every lesson finds alike.
+    fn set_aside(&mut self) -> Result<(), String> {
+        if self.worker.load.is_some() || self.worker.session.is_some() {
+            return Err(tr!("A file is still being read: begin the lesson when it is there."));
+        }
+        if self.worker.fit.is_some() || self.worker.comparison.is_some() || self.worker.scan.is_some() {
+            self.say(tr!("What was being fitted was stopped for the lesson."));
+        }
+        self.worker.abandon();
+        let setup = self.setup();
+        self.history.rest(setup);
+        let copy = self.panes.layout().map_or_else(|| Panes::new(&self.window.layout), |layout| Panes::new(&layout));
+        self.aside = Some(Box::new(Aside {
+            settings: std::mem::replace(&mut self.settings, Settings::for_measurement(&self.document.measurement)),
+            document: self.document.clone(),
+            last_fit: self.last_fit.clone(),
+            past_fits: self.past_fits.clone(),
+            panes: std::mem::replace(&mut self.panes, copy),
+            comparison: std::mem::take(&mut self.comparison),
+            scans: std::mem::take(&mut self.scans),
+            history: std::mem::take(&mut self.history),
+            refitted: self.refitted,
+            session_file: self.session_file.take(),
+        }));
+        self.refitted = Some(self.settings.parameters);
+        Ok(())
+    }
+
+    /// Closes the lesson; the user's own work is back as it was.
+    pub(super) fn close_lesson(&mut self) {
+        self.lessons.open = None;
+        let Some(aside) = self.aside.take() else { return };
+        let Aside { settings, document, last_fit, past_fits, panes, comparison, scans, history, refitted, session_file } = *aside;
+        self.worker.abandon();
+        self.worker.abandon_load();
+        self.import = None;
+        self.settings = settings;
+        self.document = document;
+        self.last_fit = last_fit;
+        self.past_fits = past_fits;
+        self.panes = panes;
+        self.comparison = comparison;
+        self.scans = scans;
+        self.history = history;
+        self.refitted = refitted;
+        self.session_file = session_file;
+        self.views = Views::default();
+    }
+
+    /// Closes the lesson and goes on with what it set; undo leads back to the sliders of before.
+    pub(super) fn keep_lesson(&mut self) {
+        self.lessons.open = None;
+        if let Some(aside) = self.aside.take() {
+            self.history = aside.history;
+        }
+    }
+
+    /// The settings that are the user's own.
+    pub(super) fn own_settings(&self) -> &Settings {
+        self.aside.as_ref().map_or(&self.settings, |aside| &aside.settings)
+    }
+
+    /// The measurement that is the user's own.
+    pub(super) fn own_document(&self) -> &Document {
+        self.aside.as_ref().map_or(&self.document, |aside| &aside.document)
+    }
+
+    /// The fits that are the user's own.
+    pub(super) fn own_fits(&self) -> &PastFits {
+        self.aside.as_ref().map_or(&self.past_fits, |aside| &aside.past_fits)
+    }
+}
