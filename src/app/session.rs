@@ -154,12 +154,12 @@ impl Recipe {
         for &(parameter, low, high) in &self.bounds {
             bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
         }
+        if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
+            return Err(fault.to_owned());
+        }
         let places = self.account.iter().flat_map(|account| account.places(self.start, &self.free));
         for parameters in [self.start, self.parameters, self.before].into_iter().chain(places) {
             can_be_set(&parameters, self.model.parameters()).map_err(|error| error.to_string())?;
-        }
-        if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
-            return Err(fault.to_owned());
         }
         let free: ParameterSet = self.free.iter().copied().collect();
         let measurement = self.account.as_ref().map_or(Cow::Borrowed(measurement), |account| account.masked(measurement));

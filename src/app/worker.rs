@@ -14,7 +14,7 @@ use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
-use pbrdf::model::{Parameter, Parameters, Preset};
+use pbrdf::model::{Parameter, Preset};
 use pbrdf::report::Surroundings;
 use sha2::{Digest as _, Sha256};
 use std::io::Read;

@@ -8,6 +8,7 @@ use crate::app::session::Session;
 use crate::app::window::Explorer;
 use crate::app::worker::save_session;
 use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::Loss;
 use pbrdf::model::Parameter;
 use std::path::{Path, PathBuf};
@@ -81,7 +82,12 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     }
     let said = |harness: &mut Harness<'static, Option<Explorer>>| {
         let texts = ["evaluations", "minima from", "Winning start of", "The mask has changed"];
-        texts.map(|text| harness.query_all_by_label_contains(text).map(|node| node.label()).collect::<Vec<_>>())
+        texts.map(|text| {
+            harness
+                .query_all_by_label_contains(text)
+                .map(|node| (node.accesskit_node().label(), node.accesskit_node().value()))
+                .collect::<Vec<_>>()
+        })
     };
     assert_eq!(said(&mut before), said(&mut after));
     assert!(after.query_by_label_contains("The mask has changed").is_some());
