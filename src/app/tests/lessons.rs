@@ -2,10 +2,19 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
+use crate::app::document::Mask;
 use crate::app::language::Language;
+use crate::app::layout::Layout;
+use crate::app::leaving::Outgoing;
 use crate::app::panes::Pane;
-use egui_kittest::kittest::Queryable as _;
-use pbrdf::model::Preset;
+use crate::app::session::Session;
+use crate::app::state::Settings;
+use crate::app::store;
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use pbrdf::measurement::Row;
+use pbrdf::model::{Parameter, Parameters, Preset};
 
 #[test]
 fn every_step_of_every_lesson_is_shown() {
@@ -71,4 +80,200 @@ fn a_damaged_lesson_is_named_and_the_window_goes_on() {
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).settings.parameters.n, 1.75);
     assert!(harness.query_all_by_label_contains("My own step").next().is_some());
+}
+
+fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+    explorer(harness).commands.push(command);
+    wait(harness);
+}
+
+/// The lesson that opens an example and asks for a fit.
+const WITH_EXAMPLE: usize = 6;
+
+/// What must come back.
+#[derive(Debug, PartialEq)]
+struct Work {
+    settings: Settings,
+    rows: Vec<Row>,
+    mask: Mask,
+    fits: Vec<usize>,
+    shown: Option<usize>,
+    layout: Option<Layout>,
+}
+
+fn work(explorer: &Explorer) -> Work {
+    Work {
+        settings: explorer.settings.clone(),
+        rows: explorer.document.measurement.rows.clone(),
+        mask: explorer.document.mask().clone(),
+        fits: explorer.past_fits.iter().map(|fit| fit.id).collect(),
+        shown: explorer.last_fit.as_ref().map(|fit| fit.id),
+        layout: explorer.panes.layout(),
+    }
+}
+
+/// A window that somebody worked in.
+fn worked_in() -> Harness<'static, Option<Explorer>> {
+    let mut harness = harness();
+    order(&mut harness, Command::OpenExample(1));
+    order(&mut harness, Command::Mask { rows: vec![2, 7], masked: true });
+    explorer(&mut harness).settings.starts = pbrdf::fit::Starts::One;
+    order(&mut harness, Command::StartFit);
+    order(&mut harness, Command::ClosePane(Pane::Lobes));
+    explorer(&mut harness).settings.parameters.k = 4.25;
+    harness.run();
+    harness
+}
+
+/// Moves everything that a lesson can move.
+fn go_through_a_lesson(harness: &mut Harness<'static, Option<Explorer>>) {
+    order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
+    order(harness, Command::Mask { rows: vec![1], masked: true });
+    explorer(harness).settings.starts = pbrdf::fit::Starts::One;
+    order(harness, Command::StartFit);
+    order(harness, Command::ClosePane(Pane::Dolp));
+    // Into another lesson and back.
+    order(harness, Command::ShowStep(0, 0));
+    explorer(harness).settings.parameters.k = 1.5;
+    order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
+}
+
+#[test]
+fn closing_a_lesson_brings_everything_back() {
+    for button in ["Close lesson", "Done"] {
+        let mut harness = worked_in();
+        let before = work(explorer(&mut harness));
+        go_through_a_lesson(&mut harness);
+        assert_ne!(work(explorer(&mut harness)), before);
+        assert!(harness.query_by_label_contains("Your own work comes back").is_some());
+        while button == "Done" && harness.query_by_label("Next step").is_some() {
+            harness.get_by_label("Next step").click();
+            wait(&mut harness);
+        }
+        harness.get_by_label(button).click();
+        wait(&mut harness);
+        assert_eq!(work(explorer(&mut harness)), before, "{button}");
+        assert_eq!(explorer(&mut harness).lessons.open, None);
+        // Undo goes on where it was.
+        order(&mut harness, Command::Undo);
+        assert_ne!(explorer(&mut harness).settings.parameters.k, 4.25);
+        order(&mut harness, Command::Redo);
+        assert_eq!(work(explorer(&mut harness)), before, "{button}");
+    }
+}
+
+#[test]
+fn an_example_that_is_still_being_read_is_no_guest_of_the_own_work() {
+    let mut harness = worked_in();
+    let before = work(explorer(&mut harness));
+    explorer(&mut harness).commands.extend([Command::ShowStep(WITH_EXAMPLE, 0), Command::CloseLesson]);
+    wait(&mut harness);
+    assert_eq!(work(explorer(&mut harness)), before);
+}
+
+#[test]
+fn what_a_lesson_shows_can_be_kept_and_undone() {
+    let mut harness = worked_in();
+    let before = explorer(&mut harness).settings.clone();
+    order(&mut harness, Command::ShowStep(0, 0));
+    harness.get_by_label("Keep this").click();
+    wait(&mut harness);
+    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).settings.parameters.n), (None, 1.5));
+    order(&mut harness, Command::CloseLesson);
+    assert_eq!(explorer(&mut harness).settings.parameters.n, 1.5, "there is nothing to go back to any more");
+    order(&mut harness, Command::Undo);
+    assert_eq!(explorer(&mut harness).settings, before);
+}
+
+#[test]
+fn what_is_kept_without_being_asked_in_a_lesson_is_the_own_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (working, settings) = (folder.path().join("working.pbrdf.json"), folder.path().join("settings.json"));
+    let mut first = worked_in();
+    let before = work(explorer(&mut first));
+    go_through_a_lesson(&mut first);
+    let crashed = explorer(&mut first);
+    (crashed.working_file, crashed.settings_file) = (Some(working.clone()), Some(settings.clone()));
+    crashed.autosave_now();
+    crashed.save();
+    assert_eq!(store::load_from(&settings).0.settings, before.settings);
+    let mut second = harness();
+    explorer(&mut second).working_file = Some(working);
+    explorer(&mut second).resume();
+    wait(&mut second);
+    let after = work(explorer(&mut second));
+    assert_eq!((after.settings, after.rows, after.mask, after.layout), (before.settings, before.rows, before.mask, before.layout));
+    assert_eq!((after.fits.len(), after.shown.is_some()), (before.fits.len(), before.shown.is_some()));
+    assert_eq!(explorer(&mut second).lessons.open, None);
+}
+
+#[test]
+fn saving_in_a_lesson_leaves_the_file_of_the_own_session_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("own.pbrdf.json");
+    let mut harness = worked_in();
+    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    order(&mut harness, Command::ShowStep(0, 0));
+    // Asks where to; nobody answers.
+    order(&mut harness, Command::SaveSession);
+    let k =
+        |path: &std::path::Path| Session::read(&std::fs::read_to_string(path).expect("a file")).expect("a session").settings.parameters.k;
+    assert_eq!(k(&path), 4.25);
+    // Into a file of its own it saves what is shown.
+    let other = folder.path().join("lesson.pbrdf.json");
+    order(&mut harness, Command::Export(Outgoing::Session, other.clone()));
+    assert_eq!(k(&other), 0.0);
+    order(&mut harness, Command::CloseLesson);
+    explorer(&mut harness).settings.parameters.k = 4.5;
+    order(&mut harness, Command::SaveSession);
+    assert_eq!((k(&path), k(&other)), (4.5, 0.0));
+}
+
+#[test]
+fn a_session_opened_in_a_lesson_ends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("own.pbrdf.json");
+    let mut harness = worked_in();
+    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    let before = work(explorer(&mut harness)).settings;
+    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Command::OpenSession(path));
+    assert_eq!(explorer(&mut harness).lessons.open, None);
+    order(&mut harness, Command::CloseLesson);
+    assert_eq!(explorer(&mut harness).settings, before);
+}
+
+#[test]
+fn a_lesson_begins_with_the_defaults_whatever_was_set() {
+    let mut harness = harness();
+    let settings = &mut explorer(&mut harness).settings;
+    (settings.refit_live, settings.show_limit, settings.parameters.sigma) = (true, false, 2.0);
+    harness.run();
+    order(&mut harness, Command::ShowStep(0, 0));
+    let settings = &explorer(&mut harness).settings;
+    assert_eq!((settings.refit_live, settings.show_limit, settings.parameters.sigma), (false, true, Parameters::default().sigma));
+}
+
+#[test]
+fn a_step_states_the_ends_of_a_slider() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    std::fs::write(folder.path().join("mine.txt"), "title: Mine\nstep: One\nset: k=3\nrange: k=1..3\nstep: Two\nset: k=3\n")
+        .expect("a file");
+    let mut harness = harness();
+    explorer(&mut harness).read_lessons(Some(folder.path()));
+    let last = explorer(&mut harness).lessons.all.len() - 1;
+    let reach = |harness: &mut Harness<'static, Option<Explorer>>| {
+        let slider = harness.get_all_by_role_and_label(egui::accesskit::Role::Slider, "k").next().expect("a slider");
+        (slider.accesskit_node().min_numeric_value(), slider.accesskit_node().max_numeric_value())
+    };
+    let own = Parameter::K.range();
+    let own = (Some(*own.start()), Some(*own.end()));
+    assert_eq!(reach(&mut harness), own);
+    order(&mut harness, Command::ShowStep(last, 0));
+    assert_eq!(reach(&mut harness), (Some(1.0), Some(3.0)));
+    order(&mut harness, Command::ShowStep(last, 1));
+    assert_eq!(reach(&mut harness), own);
+    order(&mut harness, Command::ShowStep(last, 0));
+    order(&mut harness, Command::CloseLesson);
+    assert_eq!(reach(&mut harness), own);
 }
