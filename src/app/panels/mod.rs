@@ -1,5 +1,6 @@
 //! The panels around the plots.
 
+mod beside;
 mod fit;
 mod import;
 mod lesson;

@@ -1,5 +1,6 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
+use super::beside::Beside as _;
 use crate::app::language::translated;
 use crate::app::lessons::Lessons;
 use crate::app::state::Settings;
@@ -24,7 +25,7 @@ pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
         volume_ui(settings, notice, lessons, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
-        if ui.button(tr!("Reset all parameters")).on_hover_text(tr!("All nine parameters to their defaults")).clicked() {
+        if ui.button(tr!("Reset all parameters")).on_hover_beside(ui, tr!("All nine parameters to their defaults")).clicked() {
             settings.parameters = Parameters::default();
         }
     });
@@ -49,17 +50,18 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
         response
             .response
             .labelled_by(label.id)
-            .on_hover_text(current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
+            .on_hover_beside(ui, current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
     });
 }
 
 fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_text(tr!(
-            "Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"
-        ));
+        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_beside(
+            ui,
+            tr!("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"),
+        );
         if !settings.bounds.is_empty()
-            && ui.button(tr!("Reset bounds")).on_hover_text(tr!("All bounds back to the sliders' ranges")).clicked()
+            && ui.button(tr!("Reset bounds")).on_hover_beside(ui, tr!("All bounds back to the sliders' ranges")).clicked()
         {
             settings.bounds.clear();
         }
@@ -69,17 +71,20 @@ fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
 fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
-            .on_hover_text(tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
+            .on_hover_beside(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
     });
     if settings.model.specular {
         ui.horizontal(|ui| {
             for (distribution, name) in [(SlopeDistribution::Gauss, tr!("Gauss")), (SlopeDistribution::Cauchy, tr!("Cauchy"))] {
-                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_text(match distribution {
-                    SlopeDistribution::Gauss => tr!("Gaussian facet slopes, Eq. (5): Beckmann"),
-                    SlopeDistribution::Cauchy => tr!("Hyper-Cauchy facet slopes, Eq. (7): q = 2 is GGX"),
-                });
+                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_beside(
+                    ui,
+                    match distribution {
+                        SlopeDistribution::Gauss => tr!("Gaussian facet slopes, Eq. (5): Beckmann"),
+                        SlopeDistribution::Cauchy => tr!("Hyper-Cauchy facet slopes, Eq. (7): q = 2 is GGX"),
+                    },
+                );
             }
-            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_text(tr!("V-groove masking–shadowing, Eq. (6)"));
+            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_beside(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
         });
         let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
         if settings.model.distribution == SlopeDistribution::Cauchy {
@@ -93,16 +98,16 @@ fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &L
 fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
     let switch =
-        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_text(tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
+        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_beside(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
     if switch.changed() {
         settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
     }
     if present {
         ui.horizontal(|ui| {
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_text("(cos θi cos θr)^c / π");
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_text(tr!("1/π in all directions: c = 0"));
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_beside(ui, "(cos θi cos θr)^c / π");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_beside(ui, tr!("1/π in all directions: c = 0"));
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
-                .on_hover_text(tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
+                .on_hover_beside(ui, tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
         });
         let shown: &[Parameter] = match settings.model.diffuse {
             Diffuse::Absent | Diffuse::Hyde => &[],
@@ -116,7 +121,7 @@ fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Le
 
 fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
     ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
-        .on_hover_text(tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
+        .on_hover_beside(ui, tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
     if settings.model.volume {
         sliders_ui(settings, notice, lessons, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
@@ -140,7 +145,7 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
         for (angle, default, range, name, help) in angles {
             let label = name_ui(ui, name, &help);
             let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
-            let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help);
+            let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help);
             if is_double_clicked(ui, &[&label, &slider]) {
                 *angle = default;
             }
@@ -154,7 +159,7 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
 /// The name of a slider; a double click on it resets what it names.
 fn name_ui(ui: &mut Ui, name: &str, help: &str) -> egui::Response {
     // Clicks alone: a stop on the way of the Tab key would be one too many.
-    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_text(help)
+    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_beside(ui, help)
 }
 
 /// Whether any of them was clicked twice; a slider senses drags alone.
@@ -177,13 +182,7 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Le
 }
 
 /// Name, slider, typed value with unit, lock, reset.
-fn slider_ui(
-    settings: &mut Settings,
-    notice: &mut Option<String>,
-    range: RangeInclusive<f64>,
-    ui: &mut Ui,
-    parameter: Parameter,
-) {
+fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it.",
@@ -200,7 +199,7 @@ fn slider_ui(
     if parameter.is_logarithmic() {
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
-    let slider = ui.add(slider).labelled_by(label.id).on_hover_text(&help);
+    let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help.as_str());
     if is_double_clicked(ui, &[&label, &slider]) {
         *value = parameter.default_value();
     }
@@ -236,17 +235,20 @@ fn slider_ui(
         typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false).suffix(suffix),
     )
     .labelled_by(label.id)
-    .on_hover_text(if outside {
-        tr!("outside the slider's range {0} to {1}", range.start(), range.end())
-    } else {
-        tr!("type a value: {}", domain_text(domain))
-    });
+    .on_hover_beside(
+        ui,
+        if outside {
+            tr!("outside the slider's range {0} to {1}", range.start(), range.end())
+        } else {
+            tr!("type a value: {}", domain_text(domain))
+        },
+    );
 
     if let Some(sentence) = refused.into_inner() {
         *notice = Some(sentence);
     }
     let mut locked = settings.locked.contains(parameter);
-    let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_text(tr!("{} stays as it is in a fit", parameter.symbol()));
+    let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_beside(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
     if lock.changed() {
         settings.locked = if locked { settings.locked.with(parameter) } else { settings.locked.without(parameter) };
@@ -255,11 +257,14 @@ fn slider_ui(
     let is_default = settings.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
     let text = egui::RichText::new(if outside { tr!("outside") } else { tr!("reset") }).color(color);
-    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_text(if outside {
-        tr!("back to {}: the value is outside the slider's range", parameter.default_value())
-    } else {
-        tr!("back to {}", parameter.default_value())
-    });
+    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_beside(
+        ui,
+        if outside {
+            tr!("back to {}: the value is outside the slider's range", parameter.default_value())
+        } else {
+            tr!("back to {}", parameter.default_value())
+        },
+    );
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, tr!("Reset {}", parameter.key())));
     if reset.clicked() {
         settings.parameters[parameter] = parameter.default_value();
@@ -300,7 +305,7 @@ fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
             })
             .inner;
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("{0} of {1}", name, parameter.key())));
-        response.on_hover_text(tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
+        response.on_hover_beside(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
     }
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
@@ -311,7 +316,7 @@ fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
         *notice = Some(sentence);
     }
     ui.label("");
-    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_text(tr!("back to the slider's range"));
+    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_beside(ui, tr!("back to the slider's range"));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         settings.reset_bounds(parameter);

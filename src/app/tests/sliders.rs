@@ -1,7 +1,9 @@
 //! Sliders and switches.
 
 use super::{explorer, harness};
+use crate::app::window::Explorer;
 use egui::accesskit::Role;
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Diffuse, Parameter, Parameters};
 
@@ -126,4 +128,27 @@ fn arrow_keys_step_a_logarithmic_slider_away_from_zero_and_back() {
         harness.run();
     }
     assert_eq!(explorer(&mut harness).settings.parameters.kd, 0.0);
+}
+
+#[test]
+fn tooltips_of_sliders_cover_no_row_of_the_panel() {
+    for name in ["n", "σ_v", "θi"] {
+        let mut harness = harness();
+        let slider = harness.get_all_by_role_and_label(Role::Slider, name).next().expect("a slider").rect();
+        let panel = harness.get_by_role_and_label(Role::Button, "Reset n").rect().right();
+        harness.hover_at(slider.center());
+        let tooltips = |harness: &Harness<'static, Option<Explorer>>| {
+            let tooltip = |layer: &egui::LayerId| layer.order == egui::Order::Tooltip;
+            let layers: Vec<egui::LayerId> = harness.ctx.memory(|memory| memory.areas().visible_layer_ids().into_iter().collect());
+            let layers = layers.into_iter().filter(tooltip);
+            layers.filter_map(|layer| harness.ctx.memory(|memory| memory.area_rect(layer.id))).collect::<Vec<_>>()
+        };
+        // It comes when the pointer has rested.
+        for _ in 0..60 {
+            harness.step();
+        }
+        let rects = tooltips(&harness);
+        assert_eq!(rects.len(), 1, "{name}: {rects:?}");
+        assert!(rects[0].left() >= panel && rects[0].top() <= slider.bottom() && rects[0].bottom() >= slider.top(), "{name}: {rects:?}");
+    }
 }
