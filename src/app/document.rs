@@ -2,6 +2,7 @@
 
 use crate::app::language::translated;
 use pbrdf::measurement::{Measurement, Row};
+use pbrdf::optics::{self, Metal};
 use std::sync::Arc;
 use tr::tr;
 
@@ -94,6 +95,11 @@ impl Document {
     pub fn wavelength_nm(&self) -> Option<f64> {
         let stated: f64 = self.measurement.metadata("wavelength_nm")?.parse().ok()?;
         (stated.is_finite() && stated > 0.0).then_some(stated)
+    }
+
+    /// The tabulated metal that its metadata name as its material, if they name one.
+    pub fn metal(&self) -> Option<&'static Metal> {
+        optics::metal_named_in(self.measurement.metadata("material")?).ok()?
     }
 
     /// Whether anything was measured on the backscatter side.

@@ -6,7 +6,7 @@ use super::plan::Plan;
 use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
-use pbrdf::optics::{Geometry, SlopeDistribution};
+use pbrdf::optics::{Geometry, Metal, SlopeDistribution};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use tr::tr;
@@ -125,6 +125,14 @@ impl Default for Tabulated {
 }
 
 impl Tabulated {
+    /// Turns to a metal, if there is one.
+    pub fn look_at(&mut self, metal: Option<&Metal>) {
+        if let Some(metal) = metal.filter(|metal| metal.key != self.metal) {
+            self.metal.clone_from(&metal.key);
+            self.source = None;
+        }
+    }
+
     /// Ends of the slider in nm: what the tables hold.
     pub const SHORTEST_NM: f64 = 200.0;
     pub const LONGEST_NM: f64 = 2500.0;

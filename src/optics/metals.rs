@@ -151,6 +151,26 @@ pub fn metal(name: &str) -> Result<Option<&'static Metal>, MetalsError> {
     Ok(metals()?.iter().find(is_it))
 }
 
+/// The bundled metal that a text names as a word: its symbol as it is written, or its name, capitals or not. Of several the one named first.
+pub fn metal_named_in(text: &str) -> Result<Option<&'static Metal>, MetalsError> {
+    let words = |text: &str| -> Vec<String> {
+        text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    };
+    let lower = |words: &[String]| -> Vec<String> {
+        let spelt = |word: &String| if word == "aluminum" { "aluminium".to_owned() } else { word.clone() };
+        words.iter().map(|word| spelt(&word.to_lowercase())).collect()
+    };
+    let said = words(text);
+    let said_lower = lower(&said);
+    let place = |metal: &Metal| {
+        let symbol = said.iter().position(|word| *word == metal.key);
+        let name = lower(&words(&metal.name));
+        let name = said_lower.windows(name.len().max(1)).position(|window| window == name);
+        symbol.into_iter().chain(name).min()
+    };
+    Ok(metals()?.iter().filter_map(|metal| Some((place(metal)?, metal))).min_by_key(|(place, _)| *place).map(|(_, metal)| metal))
+}
+
 /// Reads a table of metals: `# metal: key | name` and `# source: metal/key | name | citation | comment` lines, the header
 /// `source,wavelength_nm,n,k`, and a row per sample, by source and ascending wavelength in nm. Other `#` lines are comments.
 pub fn read_metals(text: &str) -> Result<Vec<Metal>, MetalsError> {
@@ -299,7 +319,7 @@ impl Source {
 
 #[cfg(test)]
 mod tests {
-    use super::{MetalsErrorKind, RefractiveIndex, metal, metals, read_metals};
+    use super::{MetalsErrorKind, RefractiveIndex, metal, metal_named_in, metals, read_metals};
 
     const HEAD: &str = "# metal: X | ex\n# source: X/A | A 1999 | J. 1, 2 | film\nsource,wavelength_nm,n,k\n";
 
@@ -337,6 +357,28 @@ mod tests {
         let (low, high) = (n.iter().copied().fold(f64::INFINITY, f64::min), n.iter().copied().fold(0.0, f64::max));
         // The sources of the database at 650 nm, as published: n from 0.09 to 0.50.
         assert!(n.len() >= 6 && low < 0.12 && high > 0.4, "{n:?}");
+    }
+
+    #[test]
+    fn a_metal_is_known_by_a_word_that_names_it() {
+        for (text, expected) in [
+            ("Cu", Some("Cu")),
+            ("Al 6061", Some("Al")),
+            ("rolled aluminum, 150 nm coat", Some("Al")),
+            ("Copper plate", Some("Cu")),
+            ("Al-1%Si", Some("Al")),
+            ("Stainless steel 316L", Some("stainless-steel")),
+            ("gold on chromium", Some("Au")),
+            ("Ta", None),
+            ("45# steel", None),
+            ("TiN", None),
+            ("goldenrod", None),
+            ("the w in a word", None),
+            ("", None),
+        ] {
+            let found = metal_named_in(text).expect("the bundled table is whole");
+            assert_eq!(found.map(|metal| metal.key.as_str()), expected, "{text:?}");
+        }
     }
 
     #[test]

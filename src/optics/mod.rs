@@ -23,7 +23,7 @@ pub(crate) use facets::reduced_slope_sq;
 pub use fresnel::{Fresnel, FresnelGradient};
 pub use geometry::{Facet, Geometry, GeometryError, Rotation};
 pub(crate) use grooves::Grooves;
-pub use metals::{Metal, MetalsError, MetalsErrorKind, OutsideRange, Sample, Source, metal, metals, read_metals};
+pub use metals::{Metal, MetalsError, MetalsErrorKind, OutsideRange, Sample, Source, metal, metal_named_in, metals, read_metals};
 pub use polarization::{Mueller, Stokes};
 pub(crate) use quadrature::Order;
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};

@@ -116,3 +116,15 @@ fn the_wavelength_of_a_measurement_is_taken_over() {
         assert_eq!(explorer(&mut harness).settings.tabulated.wavelength_nm, expected, "{stated}");
     }
 }
+
+#[test]
+fn the_metal_that_a_measurement_names_is_looked_at() {
+    let mut harness = shown("W", 650.0);
+    let mut measurement = explorer(&mut harness).document.measurement.as_ref().clone();
+    for (material, expected) in [("Al 6061", "Al"), ("Ta", "Al"), ("rolled copper", "Cu"), ("45# steel", "Cu")] {
+        measurement.metadata = vec![("material".to_owned(), material.to_owned())];
+        explorer(&mut harness).take("mine".to_owned(), measurement.clone());
+        wait(&mut harness);
+        assert_eq!(explorer(&mut harness).settings.tabulated.metal, expected, "{material}");
+    }
+}

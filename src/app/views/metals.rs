@@ -99,9 +99,8 @@ fn choice_ui(tabulated: &mut Tabulated, metal: &Metal, ui: &mut Ui) {
         let text = |Metal { key, name, .. }: &Metal| format!("{} ({key})", translated(name));
         let combo = ComboBox::from_id_salt("metal").width(170.0).height(400.0).selected_text(text(metal)).show_ui(ui, |ui| {
             for other in optics::metals().into_iter().flatten() {
-                if ui.selectable_label(other.key == metal.key, text(other)).clicked() && other.key != metal.key {
-                    tabulated.metal.clone_from(&other.key);
-                    tabulated.source = None;
+                if ui.selectable_label(other.key == metal.key, text(other)).clicked() {
+                    tabulated.look_at(Some(other));
                 }
             }
         });
