@@ -7,6 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::collections::HashMap;
 use tr::{Translator, tr};
 
@@ -101,7 +102,22 @@ pub fn install() {
     });
 }
 
-pub use switch::{current, set};
+pub use switch::set;
+
+thread_local! { static IN_ENGLISH: Cell<bool> = const { Cell::new(false) }; }
+
+/// The language of the window; English inside [`in_english`].
+pub fn current() -> Language {
+    if IN_ENGLISH.get() { Language::English } else { switch::current() }
+}
+
+/// What texts are in English, whatever the window speaks.
+pub fn in_english<R>(texts: impl FnOnce() -> R) -> R {
+    IN_ENGLISH.set(true);
+    let result = texts();
+    IN_ENGLISH.set(false);
+    result
+}
 
 /// One language for the whole program: jobs write sentences too.
 #[cfg(not(test))]

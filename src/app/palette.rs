@@ -1,6 +1,7 @@
 //! The command palette: every command by a few letters of its name.
 
 use super::command::{self, Item, Status};
+use super::language::{self, Language};
 use super::window::Explorer;
 use egui::{Key, Modifiers, Role, Ui};
 use tr::tr;
@@ -33,7 +34,7 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if !explorer.palette.is_open {
         return;
     }
-    let items = matching(command::items(explorer), &explorer.palette.filter);
+    let items = matching(command::items(explorer), english_names(explorer), &explorer.palette.filter);
     let Explorer { palette, commands, .. } = explorer;
     let area = egui::Modal::default_area(egui::Id::unique("palette")).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 80.0));
     let response = egui::Modal::new(egui::Id::unique("palette")).area(area).show(ui.ctx(), |ui| {
@@ -80,12 +81,32 @@ fn row_ui(item: &Item, is_chosen: bool, ui: &mut Ui) -> bool {
     ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).clicked()
 }
 
-/// The commands that fit, the best first; what is impossible now comes last.
-fn matching(items: Vec<Item>, filter: &str) -> Vec<Item> {
-    let mut ranked: Vec<(u32, Item)> = items.into_iter().filter_map(|item| Some((misfit(&item.text, filter)?, item))).collect();
+/// The names of all commands in English, where the window speaks another language.
+fn english_names(explorer: &Explorer) -> Option<Vec<String>> {
+    let names = || command::items(explorer).into_iter().map(|item| item.text.into_owned()).collect();
+    (language::current() != Language::English).then(|| language::in_english(names))
+}
+
+/// The commands that fit, the best first; what is impossible now comes last. Those found by their English names show these too.
+fn matching(mut items: Vec<Item>, english: Option<Vec<String>>, filter: &str) -> Vec<Item> {
+    let misfits: Vec<Option<u32>> = items.iter().map(|item| misfit(&item.text, filter)).collect();
+    let misfits: Vec<Option<u32>> = match english {
+        None => misfits,
+        Some(names) => items.iter_mut().zip(misfits).zip(names).map(|((item, own), name)| with_english(item, own, &name, filter)).collect(),
+    };
+    let mut ranked: Vec<(u32, Item)> = misfits.into_iter().zip(items).filter_map(|(misfit, item)| Some((misfit?, item))).collect();
     ranked.sort_by_key(|(misfit, item)| (item.status == Status::Impossible, *misfit));
     ranked.truncate(MOST_LISTED);
     ranked.into_iter().map(|(_, item)| item).collect()
+}
+
+/// How far a command is from the letters of a filter by its own name or its English one, which is shown where it is the nearer.
+fn with_english(item: &mut Item, own: Option<u32>, name: &str, filter: &str) -> Option<u32> {
+    let english = misfit(name, filter).filter(|english| !filter.trim().is_empty() && own.is_none_or(|own| *english < own));
+    if english.is_some() && item.text != name {
+        item.text = format!("{} · {name}", item.text).into();
+    }
+    english.or(own)
 }
 
 /// How far a name is from the letters of a filter; none if it lacks some of them in their order. A letter costs nothing where a word

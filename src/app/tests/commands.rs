@@ -2,6 +2,7 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::{self, Command, Status, Switch};
+use crate::app::language::Language;
 use crate::app::state::Theme;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -207,4 +208,27 @@ fn what_is_impossible_is_not_ordered_by_its_keys() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run();
     assert!(explorer(&mut harness).notice.is_none());
+}
+
+#[test]
+fn the_palette_finds_english_names_in_every_language() {
+    let mut harness = harness();
+    explorer(&mut harness).window.language = Language::Chinese;
+    explorer(&mut harness).commands.push(Command::OpenPalette);
+    harness.run();
+    harness.get_by_label("查找命令").type_text("start fit");
+    harness.run();
+    assert!(harness.query_by_label_contains("Start fit").is_some(), "what was found is seen");
+    harness.key_press(Key::Enter);
+    harness.step();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).last_fit.is_some());
+    // And the names that are shown, without the English ones.
+    explorer(&mut harness).commands.push(Command::OpenPalette);
+    harness.run();
+    harness.get_by_label("查找命令").type_text("拟合");
+    harness.run();
+    assert!(harness.query_by_label_contains("Start fit").is_none());
+    harness.key_press(Key::Escape);
+    harness.run();
 }
