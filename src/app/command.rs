@@ -1,7 +1,7 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
 use super::document::EXAMPLES;
-use super::language::Language;
+use super::language::{self, Language};
 use super::leaving::{Outgoing, PLOTS};
 use super::panes::{PANES, Pane};
 use super::reports::Subject;
@@ -95,6 +95,8 @@ pub enum Command {
     /// Measure, in the background.
     MakeReport(Subject),
     CancelReport,
+    /// Not to be made after the one that is being made.
+    ForgetReport(Subject),
     /// Sliders, terms and angles as that case of the stability gallery has them.
     UseCase(usize),
     Toggle(Switch),
@@ -257,11 +259,11 @@ static ENTRIES: &[Entry] = &[
     row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
         |e| only_if(e.worker.comparison.is_some())),
     row(Command::MakeReport(Subject::ErrorVsTime), Menu::None, "Measure error against run time",
-        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.running.is_none())),
-    row(Command::MakeReport(Subject::Stability), Menu::None, "Run the stability gallery", "Stiff and extreme cases against 60 digits, and fits",
-        None, |e| only_if(e.reports.running.is_none())),
+        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.can_start(Subject::ErrorVsTime))),
+    row(Command::MakeReport(Subject::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
+        None, |e| only_if(e.reports.can_start(Subject::Stability))),
     row(Command::MakeReport(Subject::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
-        |e| only_if(e.reports.running.is_none())),
+        |e| only_if(e.reports.can_start(Subject::Cost))),
     row(Command::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
         |e| only_if(e.reports.running.is_some())),
     row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
@@ -343,7 +345,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         item(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
     });
-    let code = explorer.window.language.code();
+    let code = language::current().code();
     let lessons = explorer.lessons.all.iter().enumerate().map(|(i, lesson)| {
         let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
         item(Command::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Status::Possible)

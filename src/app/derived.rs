@@ -17,6 +17,8 @@ pub struct Derived {
     pub curves: Memo<CurveKey, CurveSet>,
     problem: Memo<(u64, Model, Eq17), Option<Problem>>,
     delta_e: Memo<(Parameters, u64, Model, Eq17), Option<f64>>,
+    /// Whether every value that counts comes with its standard deviation, by generation of the document.
+    states_sigmas: Memo<u64, bool>,
     fault: Memo<(Parameters, Model), Option<String>>,
     outlook: Memo<(Settings, ParameterSet, u64), Option<Outlook>>,
 }
@@ -38,6 +40,7 @@ impl Derived {
         self.problem.refresh((document.generation, model, eq17), |_| {
             problem(settings, &document.measurement, model, ParameterSet::EMPTY, Choices { eq17, ..Choices::default() }).ok()
         });
+        self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
         let problem = self.problem.get().and_then(Option::as_ref);
         self.delta_e.refresh((parameters, document.generation, model, eq17), |_| problem?.delta_e(&parameters));
     }
@@ -54,6 +57,16 @@ impl Derived {
     /// ΔE of the sliders.
     pub fn delta_e(&self) -> Option<f64> {
         self.delta_e.get().copied().flatten()
+    }
+
+    /// How many measured values a fit has; none where the model predicts nothing of them.
+    pub fn values(&self) -> Option<usize> {
+        Some(self.problem.get()?.as_ref()?.len())
+    }
+
+    /// Whether every value that counts comes with its standard deviation.
+    pub fn states_sigmas(&self) -> bool {
+        self.states_sigmas.get().is_some_and(|states| *states)
     }
 
     /// Why there is no curve.

@@ -426,7 +426,9 @@ impl Behavior<Pane> for Shown<'_> {
             let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
             let (button, _) = egui::containers::menu::MenuButton::new(tr!("Show")).config(config).ui(ui, |ui| options(self.explorer, ui));
             let name = tr!("Show in {}", translated(pane.entry().title));
-            button.on_hover_text(tr!("What this pane shows")).widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            button
+                .on_hover_text(tr!("Switches for what is drawn in this pane"))
+                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         }
     }
 

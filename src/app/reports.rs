@@ -1,4 +1,4 @@
-//! The reports of the program about itself, made in the background one at a time, since each measures times, and kept until they are made again.
+//! The reports of the program about itself, made in the background one after the other, since each measures times, and kept until they are made again.
 
 use super::panes::Pane;
 use super::plots::Drawing;
@@ -81,18 +81,46 @@ impl<R: Row> Shown<R> {
 #[derive(Default)]
 pub struct Reports {
     pub running: Option<(Subject, Job<f64>)>,
+    /// Those that come next.
+    waiting: Vec<Subject>,
     pub error_vs_time: Option<Shown<ErrorVsTime>>,
     pub stability: Option<Shown<Stability>>,
     pub cost: Option<Shown<Cost>>,
 }
 
 impl Reports {
-    /// Begins one, unless another is being made: the two would disturb each other.
+    /// Begins one, or puts it behind the one that is being made: the two would disturb each other.
     pub fn start(&mut self, subject: Subject, worker: &mut Worker) -> Result<(), String> {
         if self.running.is_none() {
             self.running = Some((subject, worker.start_report(subject)?));
+        } else if self.can_start(subject) {
+            self.waiting.push(subject);
         }
         Ok(())
+    }
+
+    /// Begins the one that waits longest, once nothing is being made.
+    pub fn go_on(&mut self, worker: &mut Worker) -> Result<(), String> {
+        if self.running.is_some() || self.waiting.is_empty() {
+            return Ok(());
+        }
+        let next = self.waiting.remove(0);
+        self.start(next, worker)
+    }
+
+    /// Whether it is neither being made nor waiting.
+    pub fn can_start(&self, subject: Subject) -> bool {
+        !self.is_waiting(subject) && self.running.as_ref().is_none_or(|(running, _)| *running != subject)
+    }
+
+    /// Whether it comes after another one.
+    pub fn is_waiting(&self, subject: Subject) -> bool {
+        self.waiting.contains(&subject)
+    }
+
+    /// Takes it out of the row of those that wait.
+    pub fn forget(&mut self, subject: Subject) {
+        self.waiting.retain(|other| *other != subject);
     }
 
     /// Takes the report that was being made in the place of the one before.

@@ -197,6 +197,7 @@ impl Explorer {
         if let Some(wavelength_nm) = self.document.wavelength_nm() {
             self.settings.tabulated.wavelength_nm = wavelength_nm;
         }
+        self.settings.tabulated.look_at(self.document.metal());
         self.last_fit = None;
         self.scans.forget();
         self.comparison.clear();
@@ -286,7 +287,12 @@ impl Explorer {
                 }
             }
             Event::Compared(rungs) => self.comparison = rungs,
-            Event::Reported { made, is_part } => self.reports.take(*made, is_part),
+            Event::Reported { made, is_part } => {
+                self.reports.take(*made, is_part);
+                if let Err(sentence) = self.reports.go_on(&mut self.worker) {
+                    self.say(sentence);
+                }
+            }
             Event::Profiled(profile) => {
                 let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
                 self.scans.profile = self.last_fit.as_ref().map(curve);
@@ -406,6 +412,7 @@ impl Explorer {
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => self.compare_models()?,
             Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
+            Command::ForgetReport(subject) => self.reports.forget(subject),
             Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
             Command::UseCase(index) => self.use_case(index),
             Command::CancelComparison => self.worker.comparison.iter().for_each(super::worker::Job::cancel),

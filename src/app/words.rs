@@ -1,6 +1,6 @@
-//! Errors of parameters in words that more than one panel says.
+//! What more than one panel says: errors of parameters, and what words mean.
 
-use pbrdf::fit::size_of;
+use pbrdf::fit::{Standing, size_of};
 use pbrdf::model::Parameter;
 use tr::tr;
 
@@ -26,6 +26,63 @@ pub fn open_direction(text: &str) -> String {
     } else {
         text.to_owned()
     }
+}
+
+/// What ΔE is.
+pub fn delta_e_help() -> String {
+    tr!("ΔE = Σ (X − Xm)² / Σ Xm², Eq. (18): the squared distance between model X and measurement Xm over that of the measurement from 0; \
+         with DoLP and BRDF measured, the sum of both. 0 is a perfect fit.")
+}
+
+/// What the standing of an estimate means.
+pub fn standing_help(standing: Standing) -> String {
+    match standing {
+        Standing::Fixed => tr!("The fit left it as it was."),
+        Standing::AtBound(_) => {
+            tr!("It rests on the end of its range: a better value may lie outside. There it has no standard error.")
+        }
+        Standing::Determined(_) => tr!("One standard error, linearised at the solution"),
+        Standing::NoFreedom => {
+            tr!("As many values as free parameters (no degree of freedom): nothing is left over to tell an error from.")
+        }
+        Standing::Open => open_help(),
+    }
+}
+
+/// What it means that data leave a parameter open.
+pub fn open_help() -> String {
+    tr!("The data leave it open: quite other values, together with other parameters, fit as well, so that it has no standard error.")
+}
+
+/// Headings of a list of minima.
+pub fn minima_headings_ui(ui: &mut egui::Ui) {
+    ui.strong("ΔE").on_hover_text(delta_e_help());
+    ui.strong(tr!("reached")).on_hover_text(tr!("How many of the starts ended there"));
+    ui.strong(tr!("stop")).on_hover_text(tr!("Why the best of them went no further"));
+}
+
+/// What AICc is.
+pub fn aicc_help() -> String {
+    tr!(
+        "Akaike's criterion, corrected for few data: the smaller, the better a model is worth its parameters on the same data. A difference \
+         below 2 means little, one above 10 decides."
+    )
+}
+
+/// What a mask is.
+pub fn mask_help() -> String {
+    tr!("Masked rows stay in the file and are shown, but count in no fit and no statistic.")
+}
+
+/// That there are fewer measured values than free parameters, if so.
+pub fn too_few(values: usize, free: usize) -> Option<String> {
+    (values < free).then(|| {
+        tr!(
+            "{0} measured values cannot determine {1} free parameters: tick fixed for what you know, or measure at more angles.",
+            values,
+            free
+        )
+    })
 }
 
 /// Three significant digits, enough for an error.

@@ -89,6 +89,13 @@ impl Measurement {
         self.rows.iter().any(|row| row.brdf.is_some())
     }
 
+    /// Whether every value that is not masked comes with its standard deviation.
+    #[must_use]
+    pub fn states_sigmas(&self) -> bool {
+        let used = self.rows.iter().filter(|row| !row.masked);
+        used.flat_map(|row| [row.dolp, row.brdf]).flatten().all(|quantity| quantity.sigma.is_some())
+    }
+
     /// The different angles of incidence in degrees, ascending.
     #[must_use]
     pub fn incidence_angles(&self) -> Vec<f64> {

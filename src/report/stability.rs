@@ -104,8 +104,8 @@ impl Stability {
         }
         let notes = vec![
             format!(
-                "Evaluations: relative errors of BRDF and DoLP against 60 digits, bar {VALUE_BAR:.0e}; error of the nine derivatives by the \
-                 smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), bar {GRADIENT_BAR:.0e}; both bars times sin²β/|N² − sin²β| where that is \
+                "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {VALUE_BAR:.0e}; error of the nine derivatives by the \
+                 smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {GRADIENT_BAR:.0e}; both limits times sin²β/|N² − sin²β| where that is \
                  above 1, near the critical angle. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. \
                  condition: the largest |∂ln f/∂ln p| of BRDF and DoLP."
             ),
@@ -166,8 +166,8 @@ fn digits_held(rows: &[Stability]) -> Figure {
             series("BRDF and DoLP", &|row| Some(row.brdf_error?.max(row.dolp_error?))),
             series("gradient", &|row| row.gradient_error),
             series("textbook form", &|row| row.textbook_error),
-            Series::level("bar on values", digits(VALUE_BAR)),
-            Series::level("bar on gradients", digits(GRADIENT_BAR)),
+            Series::level("limit on values", digits(VALUE_BAR)),
+            Series::level("limit on gradients", digits(GRADIENT_BAR)),
         ],
         ..Panel::default()
     };

@@ -3,14 +3,17 @@
 use crate::app::command::Command;
 use crate::app::theme;
 use crate::app::window::Explorer;
+use crate::app::words;
 use tr::tr;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
     let Explorer { derived, document, worker, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
-        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(tr!(
-            "ΔE = Σ (X − Xm)² / Σ Xm² of the sliders as they stand, Eq. (18); with DoLP and BRDF measured, the sum of both."
+        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
+            "{}\n{}",
+            tr!("Of the sliders as they stand."),
+            words::delta_e_help()
         ));
         ui.separator();
         if let Some(job) = &worker.load {
@@ -26,7 +29,10 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
             ui.label(frame_times.text());
             ui.separator();
         }
-        ui.add(egui::Label::new(document.description()).truncate());
+        let description = ui.add(egui::Label::new(document.description()).truncate());
+        if !document.mask().is_empty() {
+            description.on_hover_text(words::mask_help());
+        }
         if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out.as_ref()) {
             ui.separator();
             ui.label(left_out);

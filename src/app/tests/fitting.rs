@@ -3,7 +3,9 @@
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use egui_kittest::kittest::Queryable as _;
-use pbrdf::model::Parameters;
+use pbrdf::fit::{Starts, Weights};
+use pbrdf::measurement::Quantity;
+use pbrdf::model::{Parameter, ParameterSet, Parameters};
 
 #[test]
 fn pressing_fit_moves_the_sliders_to_a_better_place() {
@@ -185,4 +187,45 @@ fn measured_lobes_have_a_band_of_their_own() {
         let bands = explorer.views.lobes.band.get().expect("the lobes are on screen");
         assert!(bands.iter().flatten().any(|ribbon| !ribbon.is_empty()), "log {log}");
     }
+}
+
+#[test]
+fn fewer_values_than_free_parameters_are_said_before_and_after_a_fit() {
+    let mut harness = harness();
+    let mut few = explorer(&mut harness).document.measurement.as_ref().clone();
+    assert!(harness.query_by_label_contains("measured values cannot determine").is_none());
+    few.rows.truncate(3);
+    explorer(&mut harness).take("few.csv".to_owned(), few);
+    explorer(&mut harness).settings.starts = Starts::One;
+    harness.run();
+    let said = "3 measured values cannot determine 8 free parameters";
+    assert_eq!(harness.query_all_by_label_contains(said).count(), 1);
+    harness.get_by_label("Fit").click();
+    harness.step();
+    wait(&mut harness);
+    assert_eq!(harness.query_all_by_label_contains(said).count(), 2);
+    // With all but three fixed it is no longer true of the next fit.
+    let settings = &mut explorer(&mut harness).settings;
+    settings.locked = [Parameter::N, Parameter::K, Parameter::Sigma].into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    harness.run();
+    assert_eq!(harness.query_all_by_label_contains(said).count(), 1);
+}
+
+#[test]
+fn stated_standard_deviations_are_offered_as_weights() {
+    let mut harness = harness();
+    let offer = "The file states standard deviations: use them as weights";
+    harness.get_by_label(offer).click();
+    harness.run();
+    assert_eq!(explorer(&mut harness).settings.choices.weights, Weights::Sigma);
+    assert!(harness.query_by_label(offer).is_none());
+    explorer(&mut harness).settings.choices.weights = Weights::None;
+    let mut bare = explorer(&mut harness).document.measurement.as_ref().clone();
+    bare.rows[4].dolp = bare.rows[4].dolp.map(|quantity| Quantity { sigma: None, ..quantity });
+    explorer(&mut harness).take("bare.csv".to_owned(), bare);
+    harness.run();
+    assert!(harness.query_by_label(offer).is_none(), "one value has none");
+    explorer(&mut harness).commands.push(Command::Mask { rows: vec![4], masked: true });
+    harness.run();
+    assert!(harness.query_by_label(offer).is_some(), "and is masked now");
 }

@@ -1,8 +1,9 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
-use super::{explorer, harness, wait};
+use super::{PATIENCE, explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::leaving::{Outgoing, figure};
+use crate::app::panes::Pane;
 use crate::app::reports::{Made, Subject};
 use crate::app::window::Explorer;
 use crate::app::worker::Event;
@@ -10,6 +11,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::report::{Setting, Surroundings};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// A report stopped after so many looks at whether to stop, which is early enough for a test.
 fn part(subject: Subject, looks: usize) -> Made {
@@ -86,16 +88,49 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     harness.step();
     harness.step();
     assert!(explorer(&mut harness).reports.progress().is_some());
-    // A second one would disturb the first.
-    explorer(&mut harness).commands.push(Command::MakeReport(Subject::Stability));
-    harness.step();
-    assert_eq!(explorer(&mut harness).reports.progress().map(|(subject, _)| subject), Some(Subject::Cost));
     harness.get_by_label("Stop measuring").click();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     let shown = explorer.reports.cost.as_ref().expect("what was measured so far");
     assert!(shown.is_part && shown.report.rows.len() < 19 && explorer.reports.stability.is_none());
     harness.get_by_label_contains("stopped before its end");
+}
+
+#[test]
+fn a_second_report_waits_for_the_first_and_can_be_called_off() {
+    let mut harness = harness();
+    let made = |harness: &mut Harness<'static, Option<Explorer>>| explorer(harness).reports.progress().map(|(subject, _)| subject);
+    explorer(&mut harness).commands.push(Command::MakeReport(Subject::Cost));
+    explorer(&mut harness).panes.show(Pane::Stability);
+    harness.step();
+    harness.step();
+    harness.get_by_label("Run all cases").click();
+    for _ in 0..3 {
+        harness.step();
+    }
+    // Side by side they would disturb each other.
+    assert_eq!(made(&mut harness), Some(Subject::Cost));
+    harness.get_by_label_contains("Comes after the report that is being made");
+    explorer(&mut harness).commands.push(Command::CancelReport);
+    let begun = Instant::now();
+    while made(&mut harness) != Some(Subject::Stability) {
+        assert!(begun.elapsed() < PATIENCE, "the second report does not begin");
+        harness.step();
+    }
+    // Another one behind it is called off.
+    explorer(&mut harness).panes.show(Pane::ErrorVsTime);
+    explorer(&mut harness).commands.push(Command::MakeReport(Subject::ErrorVsTime));
+    for _ in 0..3 {
+        harness.step();
+    }
+    harness.get_by_label("Do not wait").click();
+    for _ in 0..3 {
+        harness.step();
+    }
+    explorer(&mut harness).commands.push(Command::CancelReport);
+    wait(&mut harness);
+    let reports = &explorer(&mut harness).reports;
+    assert!(reports.cost.is_some() && reports.stability.is_some() && reports.error_vs_time.is_none());
 }
 
 #[test]

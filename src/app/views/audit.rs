@@ -156,8 +156,8 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
     let headings = [
         (tr!("check"), tr!("What was looked at, and why it is as it is")),
         (tr!("number"), tr!("The largest over a mesh of directions")),
-        (tr!("bar"), tr!("What the number must keep")),
-        (tr!("where"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
+        (tr!("limit"), tr!("What the number must keep for the check to pass")),
+        (tr!("direction"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
     ];
     row_ui(ui, |ui, column| {
         let (heading, help) = &headings[column];

@@ -52,9 +52,9 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+        ui.strong(tr!("model"));
+        ui.strong("ΔE").on_hover_text(words::delta_e_help());
         for (heading, help) in [
-            ("model", ""),
-            ("ΔE", "Eq. (18)"),
             ("χ²/dof", "Where standard deviations are used as weights"),
             ("ΔAICc", "Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"),
             ("starts", "How many reached the best minimum, of how many"),
@@ -110,15 +110,14 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
             Standing::NoFreedom => tr!("{} no d.o.f.", value),
             Standing::Open => tr!("{} open", value),
         };
-        ui.monospace(text);
+        ui.monospace(text).on_hover_text(words::standing_help(estimate.standing()));
     }
 }
 
 fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
     Grid::new("starts").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
-        for heading in ["model", "ΔE", "reached", "stop"] {
-            ui.strong(translated(heading));
-        }
+        ui.strong(tr!("model"));
+        words::minima_headings_ui(ui);
         ui.end_row();
         for rung in comparison {
             let minima = rung.result.as_ref().map_or(&[][..], |report| &report.minima);

@@ -8,7 +8,7 @@ use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
-use crate::app::words::{open_direction, percent, short};
+use crate::app::words::{open_direction, open_help, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Eq17, is_loose};
 use pbrdf::measurement::Columns;
@@ -233,8 +233,12 @@ fn error_row_ui(
     };
     ui.label(parameter.symbol()).on_hover_text(translated(parameter.name()));
     ui.monospace(significant(value));
-    ui.monospace(text(now));
-    ui.monospace(text(planned));
+    for prediction in [now, planned] {
+        let response = ui.monospace(text(prediction));
+        if prediction.is_ok() && error(prediction).is_none() {
+            response.on_hover_text(open_help());
+        }
+    }
     ui.monospace(error(now).zip(error(planned)).map_or_else(String::new, |(now, planned)| short(now / planned)));
     ui.end_row();
 }

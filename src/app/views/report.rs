@@ -23,10 +23,14 @@ pub fn run_ui(explorer: &mut Explorer, subject: Subject, (button, about): (&str,
                 // Nothing that moves by itself: frames would take their time from what is being measured.
                 ui.add(ProgressBar::new(done).desired_width(160.0).show_percentage());
             }
-            other => {
-                let response = ui.add_enabled(other.is_none(), egui::Button::new(button)).on_hover_text(about);
-                let response = response.on_disabled_hover_text(tr!("Another report is being made; both would be slower for it"));
-                if response.clicked() {
+            _ if explorer.reports.is_waiting(subject) => {
+                if ui.button(tr!("Do not wait")).on_hover_text(tr!("This report is not made after all")).clicked() {
+                    explorer.commands.push(Command::ForgetReport(subject));
+                }
+                ui.label(tr!("Comes after the report that is being made: both would be slower side by side."));
+            }
+            _ => {
+                if ui.button(button).on_hover_text(about).clicked() {
                     explorer.commands.push(Command::MakeReport(subject));
                 }
             }

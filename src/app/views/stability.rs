@@ -12,7 +12,12 @@ use pbrdf::report::{Setting, Stability, digits};
 use tr::tr;
 
 const HEADINGS: [Heading; 7] = [
-    Heading { text: "", help: "Whether the case meets its bar", width: 18.0, is_number: false },
+    Heading {
+        text: "",
+        help: "Whether the case passes: errors of BRDF and DoLP up to 1e-13, of the derivatives up to 1e-12, more where the condition is bad; a fit finds its truth",
+        width: 18.0,
+        is_number: false,
+    },
     Heading { text: "case", help: "A click puts the sliders there", width: 250.0, is_number: false },
     Heading { text: "digits", help: "Decimal digits of BRDF and DoLP against 60-digit values, 16 at most", width: 48.0, is_number: true },
     Heading { text: "gradient", help: "Digits of the nine derivatives of both", width: 58.0, is_number: true },
@@ -27,15 +32,15 @@ const HEADINGS: [Heading; 7] = [
 ];
 
 pub fn stability_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let about = tr!("Evaluates and fits all cases: some seconds");
+    let about = tr!("Evaluates and fits all stiff and extreme cases: some seconds");
     let outcome = explorer.reports.stability.as_ref().map(|shown| {
         let passed = shown.report.rows.iter().filter(|row| row.pass).count();
         tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, shown.report.rows.len())
     });
-    run_ui(explorer, Subject::Stability, (&tr!("Run the gallery"), &about), outcome.as_deref(), ui);
+    run_ui(explorer, Subject::Stability, (&tr!("Run all cases"), &about), outcome.as_deref(), ui);
     let Explorer { reports, commands, .. } = explorer;
     let Some(shown) = &mut reports.stability else {
-        ui.label(tr!("The gallery was not run yet."));
+        ui.label(tr!("The cases were not run yet."));
         return;
     };
     if pages_ui(shown, &["Table", "Digits held"], ui) {

@@ -7,7 +7,7 @@ use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::problem::dolp_gain;
 use crate::app::window::Explorer;
-use crate::app::words::short;
+use crate::app::words::{mask_help, short};
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::fit::Eq17;
@@ -151,7 +151,7 @@ fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, u
         }
         let table = builder.header(height, |mut header| {
             header.col(|ui| {
-                ui.strong(tr!("mask")).on_hover_text(tr!("Masked rows stay and are shown, but count in no statistic"));
+                ui.strong(tr!("mask")).on_hover_text(mask_help());
             });
             for (heading, help, _) in [("row", "Place in the file, from 1", 0.0)].iter().chain(headings) {
                 header.col(|ui| {

@@ -1,7 +1,7 @@
 //! The ladder of models on the open measurement.
 
 use crate::app::command::Command;
-use crate::app::language::translated;
+use crate::app::words::{aicc_help, delta_e_help};
 use crate::app::worker::Rung;
 use egui::{Grid, Ui};
 use tr::tr;
@@ -27,9 +27,10 @@ pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>,
         return;
     }
     Grid::new("comparison").num_columns(4).striped(true).show(ui, |ui| {
-        for heading in ["model", "ΔE", "AICc", "n, k"] {
-            ui.strong(translated(heading));
-        }
+        ui.strong(tr!("model"));
+        ui.strong("ΔE").on_hover_text(delta_e_help());
+        ui.strong(tr!("AICc")).on_hover_text(aicc_help());
+        ui.strong("n, k");
         ui.end_row();
         for Rung { preset, result } in comparison {
             let Ok(report) = result else { continue };

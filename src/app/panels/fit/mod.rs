@@ -9,10 +9,14 @@ mod scans;
 
 use super::status::delta_e_text;
 use crate::app::command::Command;
+use crate::app::derived::Derived;
+use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
+use crate::app::words;
 use crate::app::worker::Job;
-use egui::Ui;
+use egui::{Label, RichText, Ui};
+use pbrdf::fit::Weights;
 use pbrdf::model::{Parameter, ParameterSet};
 use tr::tr;
 
@@ -40,14 +44,18 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         });
         ui.weak(free_text(free));
+        if let Some(text) = derived.values().and_then(|values| words::too_few(values, free.len())) {
+            ui.add(Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
+        }
+        sigmas_ui(settings, derived, ui);
         ui.checkbox(&mut settings.refit_live, tr!("keep refitting while I drag"))
             .on_hover_text(tr!("Fixed parameters follow their sliders, the others are fitted again at once"));
         match worker.fit.as_ref().map(Job::progress) {
             Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
             Some(None) => ui.label(tr!("Fitting…")),
-            None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))),
+            None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))).on_hover_text(words::delta_e_help()),
         };
-        options::options_ui(settings, &document.measurement, ui);
+        options::options_ui(settings, &document.measurement, derived.states_sigmas(), ui);
         let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(derived.outlook(), ui));
         let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
         if *outlook_is_shown != was_shown {
@@ -61,7 +69,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("This fit is of another model than the sliders show."));
                 }
                 if fit.generation != document.generation {
-                    ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."));
+                    ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."))
+                        .on_hover_text(words::mask_help());
                 }
                 result::result_ui(fit, scans.scatter.as_ref(), commands, ui);
                 scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
@@ -74,6 +83,18 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.separator();
         comparison::comparison_ui(comparison, worker.comparison.as_ref().map(Job::progress), commands, ui);
     });
+}
+
+/// Offers stated standard deviations as weights, where they are there and not used.
+fn sigmas_ui(settings: &mut Settings, derived: &Derived, ui: &mut Ui) {
+    let has_values = derived.values().is_some_and(|values| values > 0);
+    if settings.choices.weights == Weights::None && has_values && derived.states_sigmas() {
+        let help =
+            tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ². The options take it back.");
+        if ui.link(tr!("The file states standard deviations: use them as weights")).on_hover_text(help).clicked() {
+            settings.choices.weights = Weights::Sigma;
+        }
+    }
 }
 
 fn free_text(free: ParameterSet) -> String {

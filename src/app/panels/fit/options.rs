@@ -14,7 +14,7 @@ const MOST_STARTS: usize = 100_000;
 /// Starts when a number of them is first asked for.
 const SOME_STARTS: usize = 100;
 
-pub fn options_ui(settings: &mut Settings, measurement: &Measurement, ui: &mut Ui) {
+pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sigmas: bool, ui: &mut Ui) {
     let are_defaults = settings.choices == Choices::default() && settings.starts == Starts::Automatic;
     let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
@@ -24,7 +24,7 @@ pub fn options_ui(settings: &mut Settings, measurement: &Measurement, ui: &mut U
             eq17_ui(settings, measurement.has_brdf(), ui);
             starts_ui(settings, ui);
         });
-        if settings.choices.weights == Weights::Sigma && !has_sigmas(measurement) {
+        if settings.choices.weights == Weights::Sigma && !states_sigmas {
             let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
@@ -138,10 +138,4 @@ fn starts_ui(settings: &mut Settings, ui: &mut Ui) {
         ui.add(DragValue::new(&mut settings.seed).speed(0.1)).labelled_by(label.id);
         ui.end_row();
     }
-}
-
-/// Whether every value that would be fitted comes with its standard deviation.
-fn has_sigmas(measurement: &Measurement) -> bool {
-    let used = measurement.rows.iter().filter(|row| !row.masked);
-    used.flat_map(|row| [row.dolp, row.brdf]).flatten().all(|quantity| quantity.sigma.is_some())
 }

@@ -2,7 +2,7 @@
 
 use crate::app::derived::Outlook;
 use crate::app::panels::parameters::significant;
-use crate::app::words::open_direction;
+use crate::app::words::{open_direction, open_help};
 use egui::{Grid, Ui};
 use tr::tr;
 
@@ -21,7 +21,10 @@ pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
     Grid::new("outlook").num_columns(2).show(ui, |ui| {
         for (parameter, error) in &outlook.errors {
             ui.label(parameter.symbol());
-            ui.label(error.map_or_else(|| tr!("open"), |error| format!("± {} {}", significant(error), parameter.unit())));
+            match error {
+                Some(error) => ui.label(format!("± {} {}", significant(*error), parameter.unit())),
+                None => ui.label(tr!("open")).on_hover_text(open_help()),
+            };
             ui.end_row();
         }
     });

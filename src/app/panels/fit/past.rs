@@ -3,6 +3,7 @@
 use crate::app::command::Command;
 use crate::app::language::translated;
 use crate::app::past_fits::{PastFit, PastFits};
+use crate::app::words::delta_e_help;
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::rc::Rc;
@@ -16,9 +17,9 @@ pub fn past_fits_ui(fits: &PastFits, shown: Option<&Rc<PastFit>>, number: u64, c
     CollapsingHeader::new(title).id_salt("past fits").show(ui, |ui| {
         ui.weak(tr!("A click returns to a fit; undo takes it back."));
         Grid::new("past fits").num_columns(3).striped(true).show(ui, |ui| {
-            for heading in ["model", "ΔE", "time"] {
-                ui.strong(translated(heading));
-            }
+            ui.strong(tr!("model"));
+            ui.strong("ΔE").on_hover_text(delta_e_help());
+            ui.strong(tr!("time"));
             ui.end_row();
             for (index, fit) in fits.iter().enumerate() {
                 let report = &fit.report;

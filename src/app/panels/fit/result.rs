@@ -8,7 +8,7 @@ use crate::app::past_fits::PastFit;
 use crate::app::scans::Bootstrap;
 use crate::app::theme;
 use crate::app::words;
-use egui::{Grid, Ui};
+use egui::{Grid, RichText, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
 use tr::tr;
 
@@ -33,18 +33,23 @@ pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Ve
     } else {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), capital);
     }
+    if let Some(text) = words::too_few(fit.problem.len(), fit.problem.free().len()) {
+        ui.add(egui::Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
+    }
     Grid::new("fit summary").num_columns(2).show(ui, |ui| {
-        for (name, value) in [
-            (tr!("Before"), delta_e_text(report.start_objective)),
-            (tr!("After"), delta_e_text(report.objective)),
-            (tr!("Minimised"), minimised_text(fit)),
-            (tr!("χ²/dof"), reduced_chi2_text(report)),
-            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}"))),
-            (tr!("Time"), effort_text(report)),
+        let minimised = tr!("What the fit made small, in place of ΔE");
+        let chi2 = tr!("Squared residuals over their stated σ, per degree of freedom: near 1 where model and σ are right");
+        for (name, value, help) in [
+            (tr!("Before"), delta_e_text(report.start_objective), words::delta_e_help()),
+            (tr!("After"), delta_e_text(report.objective), words::delta_e_help()),
+            (tr!("Minimised"), minimised_text(fit), minimised),
+            (tr!("χ²/dof"), reduced_chi2_text(report), chi2),
+            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), words::aicc_help()),
+            (tr!("Time"), effort_text(report), tr!("Of all starts together; an evaluation is the model at all rows once")),
         ] {
             if !value.is_empty() {
-                ui.label(name);
-                ui.label(value);
+                ui.label(name).on_hover_text(help.as_str());
+                ui.label(value).on_hover_text(help);
                 ui.end_row();
             }
         }
@@ -65,7 +70,7 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
         return;
     }
     ui.add_space(6.0);
-    ui.strong(tr!("The data leave open:"));
+    ui.strong(tr!("The data leave open:")).on_hover_text(words::open_help());
     for direction in &report.undetermined {
         ui.add(egui::Label::new(format!("• {}", words::open_direction(&direction.text))).wrap());
     }
@@ -77,8 +82,13 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
 /// Values and their errors, one parameter a row.
 fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
     Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
-        for heading in ["", "start", "value", "± std. error"] {
-            ui.strong(translated(heading));
+        ui.label("");
+        for (heading, help) in [
+            ("start", "The slider before the fit"),
+            ("value", "Where the fit ended"),
+            ("± std. error", "One standard error, or why there is none"),
+        ] {
+            ui.strong(translated(heading)).on_hover_text(translated(help));
         }
         if let Some(bootstrap) = bootstrap {
             ui.strong(tr!("± boot")).on_hover_text(tr!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates));
@@ -88,7 +98,7 @@ fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate));
+            ui.label(error_text(estimate)).on_hover_text(words::standing_help(estimate.standing()));
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
@@ -146,9 +156,7 @@ fn minima_ui(report: &FitReport, ui: &mut Ui) {
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
     ui.collapsing(tr!("{0} minima from {1} starts", report.minima.len(), starts), |ui| {
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
-            for heading in ["ΔE", "reached", "stop"] {
-                ui.strong(translated(heading));
-            }
+            words::minima_headings_ui(ui);
             ui.end_row();
             for minimum in report.minima.iter().take(MOST_MINIMA) {
                 ui.monospace(format!("{:.5e}", minimum.objective));
