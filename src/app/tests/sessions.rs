@@ -101,7 +101,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));
     let marks = |explorer: &Explorer| {
         let marks = explorer.views.landscape.marks().expect("what lies on the map");
-        (marks.minima.len(), marks.ways.iter().map(|way| way.len()).collect::<Vec<_>>())
+        (marks.minima.len(), marks.ways.iter().map(|way| way.points.len()).collect::<Vec<_>>())
     };
     assert_eq!(marks(before), marks(after));
     assert!(marks(after).0 >= 1 && marks(after).1.iter().all(|&steps| steps > 1));
