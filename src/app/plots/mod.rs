@@ -21,7 +21,7 @@ pub use ribbon::{Ribbon, ribbons_in};
 use super::curves::Pieces;
 use super::theme;
 use egui::{Role, Ui, WidgetInfo};
-use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 
 /// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
 #[derive(Debug, Default)]
@@ -80,10 +80,16 @@ pub fn legend() -> Legend {
     Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.85)
 }
 
+/// A line that is as wide where it is steep: `egui_plot` draws points that are less than a pixel apart as a band, which is as high
+/// everywhere as the line is wide.
+pub fn line<'a>(name: &str, points: &'a [PlotPoint]) -> Line<'a> {
+    Line::new(name, PlotPoints::Borrowed(points)).allow_band(false)
+}
+
 /// A curve in its pieces, under one name.
 pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: egui::Color32, style: Option<LineStyle>, width: f32) {
     for piece in pieces {
-        let line = Line::new(name.to_owned(), PlotPoints::Borrowed(piece)).color(color).width(width);
+        let line = line(name, piece).color(color).width(width);
         plot.line(if let Some(style) = style { line.style(style) } else { line });
     }
 }
@@ -93,14 +99,16 @@ pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: 
     #[expect(clippy::cast_possible_truncation, reason = "egui_plot takes a height as f32")]
     let floor = floor as f32;
     for piece in pieces {
-        plot.line(Line::new(name.to_owned(), PlotPoints::Borrowed(piece)).color(color).width(1.5).fill(floor).fill_alpha(0.25));
+        plot.line(line(name, piece).color(color).width(1.5).fill(floor).fill_alpha(0.25));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Axes, Plot, Range};
+    use super::{Axes, Plot, Range, curve};
+    use egui::{Color32, Shape};
     use egui_kittest::Harness;
+    use egui_plot::PlotPoint;
 
     /// What the axes keep, which plot is drawn, and where it turned out to be.
     #[derive(Default)]
@@ -128,5 +136,17 @@ mod tests {
         harness.state_mut().plot = 2;
         harness.run();
         assert_eq!(harness.state().seen, [3.0, 3.0]);
+    }
+
+    #[test]
+    fn a_steep_curve_is_as_wide_as_a_flat_one() {
+        // Some points to the pixel, and steeper and steeper to the right.
+        let point = |i: i32| PlotPoint::new(f64::from(i), 1.0 / f64::from(2001 - i));
+        let pieces = vec![(0..=2000).map(point).collect::<Vec<_>>()];
+        let harness = Harness::new_ui(|ui| {
+            Plot::new("plot").show(ui, |plot| curve(plot, &pieces, "curve", Color32::RED, None, 1.5));
+        });
+        let path = |shape: &Shape| matches!(shape, Shape::Path(path) if path.points.len() > 2000 && path.stroke.width == 1.5);
+        assert!(harness.output().shapes.iter().any(|clipped| path(&clipped.shape)));
     }
 }

@@ -4,10 +4,11 @@ use crate::app::command::Command;
 use crate::app::panels::parameters::significant;
 use crate::app::past_fits::PastFit;
 use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::line;
 use crate::app::scans::{ProfileCurve, Scans};
 use crate::app::theme;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
-use egui_plot::{AxisHints, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;
 use tr::tr;
 
@@ -108,7 +109,7 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
             plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
         }
         plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
-        plot.line(Line::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).width(1.5).allow_hover(false));
+        plot.line(line(&tr!("profile"), &profile.points).color(color).width(1.5).allow_hover(false));
         plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
     });
     let said = || WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", name, profile.parameter.symbol()));
