@@ -264,11 +264,18 @@ impl TryFrom<String> for Pane {
 /// The panes and where they lie.
 pub struct Panes {
     tree: Tree<Pane>,
+    /// Those that the frame before drew.
+    drawn: Vec<Pane>,
+    /// Those whose tabs are being brought into view, and for how many frames still.
+    revealed: Vec<(Pane, u8)>,
 }
+
+/// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of their room.
+const REVEALING: u8 = 4;
 
 impl Panes {
     pub fn new(layout: &Layout) -> Self {
-        Self { tree: layout.tree() }
+        Self { tree: layout.tree(), drawn: Vec::new(), revealed: Vec::new() }
     }
 
     /// The arrangement; none where all panes are closed.
@@ -291,6 +298,14 @@ impl Panes {
                 self.tree.tiles.insert(id, Tile::Container(Container::Tabs(tabs)));
             }
         }
+    }
+
+    /// Remembers which tabs have come to the front since the last frame: they may lie outside their bar.
+    fn reveal(&mut self) {
+        let on_screen = self.on_screen();
+        let fresh = on_screen.iter().filter(|pane| !self.drawn.contains(pane)).map(|pane| (*pane, REVEALING));
+        self.revealed.extend(fresh);
+        self.drawn = on_screen;
     }
 
     pub fn is_on_screen(&self, pane: Pane) -> bool {
@@ -379,6 +394,7 @@ pub fn panes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         return;
     }
     // The panes draw from the explorer that holds their tiles.
+    explorer.panes.reveal();
     let mut tree = std::mem::replace(&mut explorer.panes.tree, Tree::empty(egui::Id::unique("no panes")));
     tree.ui(&mut Shown { explorer }, ui);
     explorer.panes.tree = tree;
@@ -389,9 +405,28 @@ struct Shown<'a> {
     explorer: &'a mut Explorer,
 }
 
+impl Shown<'_> {
+    /// Brings the tab of a pane that has come to the front into view, if it is not.
+    fn reveal(&mut self, pane: Pane, tab: &egui::Response) {
+        let revealed = &mut self.explorer.panes.revealed;
+        let Some(place) = revealed.iter().position(|(other, _)| *other == pane) else { return };
+        let frames = &mut revealed[place].1;
+        *frames -= 1;
+        let is_cut = tab.interact_rect.width() < tab.rect.width();
+        // Not after the first: then the arrows know nothing of the tabs yet.
+        if *frames == 0 || (!is_cut && *frames + 1 < REVEALING) {
+            revealed.remove(place);
+        }
+        if is_cut {
+            tab.scroll_to_me_animation(None, egui::style::ScrollAnimation::none());
+            tab.ctx.request_repaint();
+        }
+    }
+}
+
 impl Behavior<Pane> for Shown<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
-        egui::Frame::new().inner_margin(egui::Margin { left: 4, right: 10, top: 6, bottom: 2 }).show(ui, |ui| {
+        egui::Frame::new().inner_margin(egui::Margin { left: 4, right: 10, top: 8, bottom: 2 }).show(ui, |ui| {
             (pane.entry().ui)(self.explorer, ui);
         });
         UiResponse::None
@@ -402,10 +437,9 @@ impl Behavior<Pane> for Shown<'_> {
     }
 
     fn on_tab_button(&mut self, tiles: &mut Tiles<Pane>, tile: TileId, response: egui::Response) -> egui::Response {
-        match tiles.get_pane(&tile) {
-            Some(pane) => response.on_hover_text(translated(pane.entry().tooltip)),
-            None => response,
-        }
+        let Some(pane) = tiles.get_pane(&tile) else { return response };
+        self.reveal(*pane, &response);
+        response.on_hover_text(translated(pane.entry().tooltip))
     }
 
     fn is_tab_closable(&self, _tiles: &Tiles<Pane>, _tile: TileId) -> bool {

@@ -16,6 +16,7 @@ mod metals;
 mod mueller;
 mod options;
 mod panes;
+mod places;
 mod planning;
 mod reports;
 mod scans;

@@ -7,8 +7,8 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words;
 use crate::app::worker::{Job, Rung};
-use egui::{CollapsingHeader, Grid, ScrollArea, Ui};
-use pbrdf::fit::{Contest, FitReport, Standing};
+use egui::{CollapsingHeader, Grid, RichText, ScrollArea, Ui};
+use pbrdf::fit::{Contest, Estimate, FitReport, Standing};
 use pbrdf::model::Parameter;
 use tr::tr;
 
@@ -48,10 +48,13 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
     });
 }
 
+/// Between columns.
+const SPACING: [f32; 2] = [10.0, 4.0];
+
 fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
-    Grid::new("models").striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
+    Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(tr!("model"));
         ui.strong("ΔE").on_hover_text(words::delta_e_help());
         for (heading, help) in [
@@ -63,9 +66,6 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
         ] {
             ui.strong(translated(heading)).on_hover_text(translated(help));
         }
-        for parameter in Parameter::ALL {
-            ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
-        }
         ui.end_row();
         for (index, rung) in comparison.iter().enumerate() {
             let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
@@ -74,7 +74,7 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
                 commands.push(Command::UseRung(index));
             }
             match &rung.result {
-                Ok(report) => model_ui(report, best, ui),
+                Ok(report) => quality_ui(report, best, ui),
                 Err(reason) => {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
@@ -82,9 +82,11 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
             ui.end_row();
         }
     });
+    ui.add_space(6.0);
+    parameters_ui(comparison, ui);
 }
 
-fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
+fn quality_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
@@ -96,22 +98,43 @@ fn model_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
     ui.monospace(tr!("{} of {}", reached, starts));
     ui.monospace(report.evaluations.to_string());
     ui.monospace(format!("{:.1}", report.elapsed_ms));
-    for parameter in Parameter::ALL {
-        let estimate = report.estimates.iter().find(|estimate| estimate.parameter == parameter);
-        let Some(estimate) = estimate else {
-            ui.label("");
-            continue;
-        };
-        let value = significant(estimate.value);
-        let text = match estimate.standing() {
-            Standing::Fixed => tr!("{} fixed", value),
-            Standing::AtBound(_) => tr!("{} at bound", value),
-            Standing::Determined(error) => format!("{value} ± {}", words::short(error)),
-            Standing::NoFreedom => tr!("{} no d.o.f.", value),
-            Standing::Open => tr!("{} open", value),
-        };
-        ui.monospace(text).on_hover_text(words::standing_help(estimate.standing()));
-    }
+}
+
+/// The parameters of each model, with what is known of each under its value: side by side they would be wider than most screens.
+fn parameters_ui(comparison: &[Rung], ui: &mut Ui) {
+    Grid::new("parameters of models").striped(true).spacing(SPACING).show(ui, |ui| {
+        ui.strong(translated("model"));
+        for parameter in Parameter::ALL {
+            ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
+        }
+        ui.end_row();
+        for rung in comparison {
+            let Ok(report) = &rung.result else { continue };
+            ui.label(rung.preset.key);
+            for parameter in Parameter::ALL {
+                match report.estimates.iter().find(|estimate| estimate.parameter == parameter) {
+                    Some(estimate) => estimate_ui(estimate, ui),
+                    None => _ = ui.label(""),
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
+    let standing = match estimate.standing() {
+        Standing::Fixed => tr!("fixed"),
+        Standing::AtBound(_) => tr!("at bound"),
+        Standing::Determined(error) => format!("± {}", words::short(error)),
+        Standing::NoFreedom => tr!("no d.o.f."),
+        Standing::Open => tr!("open"),
+    };
+    ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.label(RichText::new(significant(estimate.value)).monospace().small());
+        ui.label(RichText::new(standing).monospace().small()).on_hover_text(words::standing_help(estimate.standing()));
+    });
 }
 
 fn starts_ui(comparison: &[Rung], ui: &mut Ui) {

@@ -142,6 +142,9 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),
         (SlopeDistribution::Cauchy, _) => tr!("Cauchy, equal σ"),
     };
+    // The legend has discs alone, so that words have to say which line is broken.
+    let (limit_name, ghost_name) = (tr!("Fresnel limit (dashed)"), tr!("last fit (dotted)"));
+    let other_name = tr!("{} (sparse dots)", other_name);
     let dashed = Some(LineStyle::dashed_dense());
     let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "DoLP", decimal);
@@ -161,10 +164,10 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
             if settings.show_limit {
                 for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.limit, &tr!("Fresnel limit"), theme::series(i, dark), dashed, 1.0);
+                    curve(plot, &curves.limit, &limit_name, theme::series(i, dark), dashed, 1.0);
                 }
                 if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.limit, &tr!("Fresnel limit"), theme::foreground(dark), dashed, 1.0);
+                    curve(plot, &curves.own.limit, &limit_name, theme::foreground(dark), dashed, 1.0);
                 }
             }
             if settings.shown.share {
@@ -179,7 +182,7 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
                 curve(plot, pieces, &other_name, theme::series(i, dark), Some(LineStyle::dotted_loose()), 2.0);
             }
             for (i, pieces) in view.ghost.get().into_iter().flatten().enumerate() {
-                curve(plot, pieces, &tr!("last fit"), theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
+                curve(plot, pieces, &ghost_name, theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
             }
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
                 let color = theme::series(i, dark);

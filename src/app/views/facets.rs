@@ -8,7 +8,7 @@ use crate::app::curves::{Pieces, directions, pieces};
 use crate::app::document::Series;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
+use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, plot, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::Ui;
@@ -160,8 +160,8 @@ fn name(distribution: SlopeDistribution) -> String {
     }
 }
 
-/// Where the vertical lines of the plot stand.
-fn widths_ui(densities: &[Density; 2], ui: &mut Ui) {
+/// What the lines of the plot mean, and where the upright ones stand: in lines above it, where they hide nothing.
+fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let help = tr!("Dotted: P has fallen to half of P(0). Dashed: half of the projected facets are tilted less.");
     ui.horizontal_wrapped(|ui| {
@@ -175,6 +175,15 @@ fn widths_ui(densities: &[Density; 2], ui: &mut Ui) {
             ui.add_space(8.0);
         }
     });
+    let ink = ui.visuals().text_color();
+    let entry = |name, style, width| KeyEntry { name, color: ink, style, width };
+    let entries = [
+        entry("P".to_owned(), LineStyle::Solid, 2.0),
+        entry("D = P / cos α".to_owned(), LineStyle::dashed_dense(), 1.0),
+        entry(tr!("half of P(0)"), LineStyle::dotted_dense(), 1.0),
+        entry(tr!("median"), LineStyle::dashed_loose(), 1.0),
+    ];
+    key_line_ui(&entries, ui);
 }
 
 /// Share of the height that the densities have.
@@ -196,13 +205,12 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let dark = ui.visuals().dark_mode;
     let log = settings.shown.facets_log;
     let top = ui.cursor().top();
-    widths_ui(densities, ui);
+    legend_ui(densities, ui);
     let height = (height - (ui.cursor().top() - top)).max(60.0);
     let x = axis(AxisHints::new_x(), ui, "α / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, &tr!("density / (1/sr)"), if log { power_of_ten } else { decimal });
     let response = plot("facet densities", ui, height, x, y)
         .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
-        .legend(legend().position(egui_plot::Corner::RightTop))
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let density = if log { libm::exp10(position.y) } else { position.y };
@@ -215,10 +223,9 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             for (i, (distribution, density)) in SlopeDistribution::ALL.into_iter().zip(densities).enumerate() {
                 let color = theme::series(i, dark);
                 let width = if distribution == settings.model.distribution { 2.5 } else { 1.5 };
-                // One entry of the legend for both: it would cover the curves.
-                let name = format!("{}: P, {}", name(distribution), tr!("dashed D = P / cos α"));
-                curve(plot, &density.p, &name, color, None, width);
-                curve(plot, &density.d, &name, color, Some(LineStyle::dashed_dense()), 1.0);
+                let name = name(distribution);
+                curve(plot, &density.p, &format!("{name}: P"), color, None, width);
+                curve(plot, &density.d, &format!("{name}: D"), color, Some(LineStyle::dashed_dense()), 1.0);
                 if let Some(half) = density.half_width {
                     plot.vline(VLine::new("", half).color(color).style(LineStyle::dotted_dense()).allow_hover(false));
                 }

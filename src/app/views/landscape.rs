@@ -1,28 +1,29 @@
 //! The objective over two parameters, the others at their sliders: its valleys, the way of the last fits, where they ended, and
 //! tabulated metals where the axes are n and k. It follows the sliders; a click puts them there.
 
+mod axes;
+mod drawn;
 mod figure;
+mod legend;
+mod map;
+mod marks;
 
 pub use figure::landscape_figure;
 
-use super::landscape_marks::{Marks, MarksKey, marks_in};
 use crate::app::command::Command;
-use crate::app::contours::Heights;
-use crate::app::curves::Pieces;
-use crate::app::latest_job::{LatestJob, Stopped};
+use crate::app::latest_job::LatestJob;
 use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Range, color_bar, ink_on, plot};
-use crate::app::problem::problem;
+use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
 use crate::app::state::{OverTwo, Settings};
 use crate::app::window::Explorer;
-use egui::{Color32, ColorImage, ComboBox, Role, TextureHandle, TextureOptions, Ui, WidgetInfo, vec2};
-use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Line, PlotBounds, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
-use pbrdf::fit::{Axis, Choices, Landscape, Loss, Problem, Weights};
-use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
-use pbrdf::report::figure::ColorMap;
-use std::sync::Arc;
+use axes::{axis_over, first, tidy, value, whole};
+use drawn::Drawn;
+use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
+use egui_plot::PlotPoint;
+use map::map_ui;
+use marks::{Marks, MarksKey};
+use pbrdf::fit::{Axis, Choices, Loss};
+use pbrdf::model::{Model, Parameter, Parameters};
 use tr::tr;
 
 /// What the pane keeps.
@@ -60,149 +61,16 @@ impl Key {
     }
 }
 
-/// A landscape as it is drawn.
-pub struct Drawn {
-    landscape: Landscape,
-    image: Arc<ColorImage>,
-    scale: ColorScale,
-    contours: Vec<(Color32, Pieces)>,
-    title: &'static str,
-}
-
 /// Nodes along a side, at rest and while a slider moves.
 const FINE: usize = 256;
 const COARSE: usize = 128;
 /// The least of both where there are many rows, and the evaluations that decide it.
 const LEAST: usize = 16;
 const EVALUATIONS: [usize; 2] = [20_000_000, 4_000_000];
-/// Decades that colours tell apart, from the lowest node upwards.
-const DECADES: f64 = 6.0;
-/// Lines of equal height at most; from 5 to 1 there are so many more.
-const LINES: usize = 12;
-
-/// The coordinate of a value on an axis: its logarithm where the parameter is best walked by factors.
-pub fn coordinate(parameter: Parameter, value: f64) -> f64 {
-    if parameter.is_logarithmic() { libm::log10(value) } else { value }
-}
-
-/// The value at a coordinate.
-fn value(parameter: Parameter, coordinate: f64) -> f64 {
-    if parameter.is_logarithmic() { libm::exp10(coordinate) } else { coordinate }
-}
-
-/// All that the slider reaches; four decades of a weight, whose range begins at 0.
-fn whole(parameter: Parameter) -> Range {
-    let (low, high) = parameter.range().into_inner();
-    let low = if parameter.is_logarithmic() { low.max(1e-4 * high) } else { low };
-    Range { low: coordinate(parameter, low), high: coordinate(parameter, high) }
-}
-
-/// What is seen first: of n and k where metals are in the visible, of the others all.
-fn first(parameter: Parameter) -> Range {
-    match parameter {
-        Parameter::N => Range { low: coordinate(parameter, 0.03), high: coordinate(parameter, 10.0) },
-        Parameter::K => Range { low: 0.0, high: 9.0 },
-        _ => whole(parameter),
-    }
-}
-
-/// The axis over what is seen, as far as there are surfaces.
-fn axis_over(parameter: Parameter, seen: Range, count: usize) -> Option<Axis> {
-    let [low, high] = [seen.low, seen.high].map(|coordinate| value(parameter, coordinate));
-    let low = if parameter.domain().contains(low) { low } else { whole_low(parameter) };
-    let is_sound = low.is_finite() && high.is_finite() && low < high && parameter.domain().contains(low);
-    is_sound.then_some(Axis { parameter, low, high, count, logarithmic: parameter.is_logarithmic() })
-}
-
-fn whole_low(parameter: Parameter) -> f64 {
-    *parameter.range().start()
-}
 
 /// Nodes along a side for so many rows.
 fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
     (evaluations / rows.max(1)).isqrt().clamp(LEAST, most)
-}
-
-impl Drawn {
-    /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
-    fn new(mut settings: Settings, measurement: &Measurement, key: &Key, stopped: Stopped<'_>) -> Option<Self> {
-        let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
-        // Where its own two sliders stand is no matter, not even if that is nowhere.
-        for axis in [key.across, key.up] {
-            settings.parameters[axis.parameter] = axis.low;
-        }
-        let problem = problem(&settings, measurement, settings.model, free, settings.choices).ok()?;
-        let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
-        let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
-        let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();
-        let finite = || heights.iter().copied().filter(|height| height.is_finite());
-        let highest = finite().fold(f64::NEG_INFINITY, f64::max);
-        let lowest = finite().fold(f64::INFINITY, f64::min);
-        if lowest > highest {
-            return None;
-        }
-        // By quarters of a decade, so that colours do not flicker while a slider moves.
-        let high = 0.25 * (4.0 * highest).ceil();
-        let low = (0.25 * (4.0 * lowest).floor()).clamp(high - DECADES, high - 0.25);
-        let scale = ColorScale { map: ColorMap::Sequential, range: Range { low, high } };
-        let table = scale.table();
-        // The first row of an image is the uppermost.
-        let rows = heights.chunks(key.across.count).rev().flatten();
-        let image = ColorImage::new([key.across.count, key.up.count], rows.map(|height| table.color(*height)).collect());
-        let contours = contours(&heights, key, scale);
-        Some(Self { landscape, image: Arc::new(image), scale, contours, title: title(&problem) })
-    }
-
-    /// The number at the node nearest to a point of the plot.
-    fn at(&self, point: PlotPoint) -> Option<f64> {
-        let index = |axis: Axis, place: f64| {
-            let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
-            #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
-            let place = ((place - low) / (high - low) * (axis.count - 1) as f64).round();
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be 0 or more")]
-            (place >= 0.0).then_some(place as usize).filter(|index| *index < axis.count)
-        };
-        let (column, row) = (index(self.landscape.across, point.x)?, index(self.landscape.up, point.y)?);
-        self.landscape.objective.get(row * self.landscape.across.count + column).copied().filter(|objective| objective.is_finite())
-    }
-}
-
-/// What is minimised.
-fn title(problem: &Problem) -> &'static str {
-    match problem.choices().weights {
-        _ if problem.minimises_delta_e() => "ΔE",
-        Weights::Sigma if problem.choices().loss == Loss::Linear => "χ²",
-        _ => "Σ r²",
-    }
-}
-
-/// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
-fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Pieces)> {
-    let Range { low, high } = scale.range;
-    let levels = |factors: &[f64]| -> Vec<f64> {
-        #[expect(clippy::cast_possible_truncation, reason = "a few decades")]
-        let decades = low.floor() as i32..=high.ceil() as i32;
-        let all = decades.flat_map(|decade| factors.iter().map(move |factor| f64::from(decade) + libm::log10(*factor)));
-        all.filter(|level| *level > low && *level < high).collect()
-    };
-    let levels = [levels(&[1.0, 2.0, 5.0]), levels(&[1.0, 3.0])].into_iter().find(|levels| levels.len() <= LINES);
-    let levels = levels.unwrap_or_else(|| (1..LINES).map(|i| low + (high - low) * f64_of(i) / f64_of(LINES)).collect());
-    let place = |axis: Axis, index: f64| {
-        let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
-        low + (high - low) * index / f64_of(axis.count - 1)
-    };
-    let grid = Heights { values: heights, columns: key.across.count };
-    let pieces = |level: f64| -> Pieces {
-        let points =
-            |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| PlotPoint::new(place(key.across, x), place(key.up, y))).collect();
-        grid.lines(level).into_iter().map(points).collect()
-    };
-    levels.into_iter().map(|level| (ink_on(scale.color(level)).gamma_multiply(0.55), pieces(level))).collect()
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a small number")]
-fn f64_of(count: usize) -> f64 {
-    count as f64
 }
 
 pub fn landscape_refresh(explorer: &mut Explorer) {
@@ -303,11 +171,6 @@ fn status(is_there: bool, is_one: bool) -> String {
     }
 }
 
-/// Four digits: what a click can mean.
-fn tidy(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
-}
-
 fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { settings, views, .. } = explorer;
     let used = settings.model.parameters();
@@ -333,100 +196,6 @@ fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         // The landscape over them is made before the next frame.
         ui.ctx().request_repaint();
     }
-}
-
-/// The map with what lies on it.
-fn map_ui(explorer: &mut Explorer, height: f32, ui: &mut Ui) -> PlotResponse<()> {
-    let Explorer { settings, views, .. } = explorer;
-    let view = &mut views.landscape;
-    let shown = settings.landscape;
-    let drawn = view.job.get().and_then(Option::as_ref);
-    if let (Some(key), Some(drawn)) = (view.job.key(), drawn) {
-        let (texture, ctx) = (&mut view.texture, ui.ctx());
-        view.textured.refresh(key.clone(), |_| match texture {
-            Some(texture) => texture.set(drawn.image.clone(), TextureOptions::LINEAR),
-            None => *texture = Some(ctx.load_texture("landscape", drawn.image.clone(), TextureOptions::LINEAR)),
-        });
-    }
-    let (wanted, seen) = (view.wanted.take(), view.seen.map(|(_, _, seen)| seen));
-    let format = |parameter: Parameter| if parameter.is_logarithmic() { logarithmic } else { decimal };
-    let marks = view.marks.get();
-    let x = axis(AxisHints::new_x(), ui, shown.across.symbol(), format(shown.across)).min_thickness(36.0);
-    let y = axis(AxisHints::new_y(), ui, shown.up.symbol(), format(shown.up));
-    plot("landscape", ui, height, x, y)
-        .width((ui.available_width() - BAR_ROOM).max(80.0))
-        .x_grid_spacer(move |input| grid(shown.across, &input, 7.0))
-        .y_grid_spacer(move |input| grid(shown.up, &input, 5.0))
-        .show_grid(false)
-        .legend(crate::app::plots::legend().position(egui_plot::Corner::LeftTop))
-        .label_formatter(|hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { plot_name, index, .. } => marks.and_then(|marks| marks.text(plot_name, *index)),
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            // A plot that was closed and opened again has forgotten where it was.
-            let forgotten = seen.filter(|[x, y]| plot.plot_bounds() != PlotBounds::from_min_max([x.low, y.low], [x.high, y.high]));
-            if let Some([x, y]) = wanted.or(forgotten) {
-                plot.set_plot_bounds_x(x.low..=x.high);
-                plot.set_plot_bounds_y(y.low..=y.high);
-            }
-            if let (Some(drawn), Some(texture)) = (drawn, &view.texture) {
-                drawn_in(plot, drawn, texture, shown.contours);
-            }
-            if let Some(marks) = marks {
-                marks_in(plot, marks, shown);
-            }
-            let sliders = [shown.across, shown.up].map(|parameter| coordinate(parameter, settings.parameters[parameter]));
-            if sliders.iter().all(|place| place.is_finite()) {
-                super::landscape_marks::sliders_in(plot, sliders);
-            }
-        })
-}
-
-fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a Drawn, texture: &TextureHandle, with_contours: bool) {
-    let ends = |axis: Axis| [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
-    let ([left, right], [bottom, top]) = (ends(drawn.landscape.across), ends(drawn.landscape.up));
-    let center = PlotPoint::new(f64::midpoint(left, right), f64::midpoint(bottom, top));
-    #[expect(clippy::cast_possible_truncation, reason = "a size on the screen")]
-    let size = vec2((right - left) as f32, (top - bottom) as f32);
-    plot.image(PlotImage::new("", texture.id(), center, size).allow_hover(false));
-    for (color, pieces) in drawn.contours.iter().filter(|_| with_contours) {
-        for piece in pieces {
-            plot.line(Line::new("", PlotPoints::Borrowed(piece)).color(*color).width(1.0).allow_hover(false));
-        }
-    }
-}
-
-/// Marks of an axis, so many smallest spacings apart; of logarithms at 1, 2 and 5 times powers of ten where there is room.
-fn grid(parameter: Parameter, input: &GridInput, spread: f64) -> Vec<GridMark> {
-    let (low, high) = input.bounds;
-    if !parameter.is_logarithmic() {
-        return axis::marks(input, spread, 0.0);
-    }
-    if high - low < 1.0 {
-        // At round values, nowhere closer than at the upper end.
-        let (first, last) = (libm::exp10(low), libm::exp10(high));
-        let base_step_size = std::f64::consts::LN_10 * last * input.base_step_size;
-        let marks = axis::marks(&GridInput { bounds: (first, last), base_step_size }, spread, 0.0);
-        return marks.into_iter().map(|mark| GridMark { value: libm::log10(mark.value), ..mark }).collect();
-    }
-    // From 1 to 2 is 0.3 of a decade.
-    if 0.3 < 0.7 * spread * input.base_step_size {
-        return axis::marks(input, spread, 1.0);
-    }
-    let mut marks = Vec::new();
-    let mut decade = low.floor();
-    while decade <= high {
-        marks.extend([1.0, 2.0, 5.0].map(|factor| GridMark { value: decade + libm::log10(factor), step_size: 1.0 }));
-        decade += 1.0;
-    }
-    marks.retain(|mark| mark.value >= low && mark.value <= high);
-    marks
-}
-
-/// A mark of an axis of logarithms: the value itself.
-fn logarithmic(exponent: f64, step_size: f64) -> String {
-    if (-4.0..=4.0).contains(&exponent) { tidy(libm::exp10(exponent)).to_string() } else { power_of_ten(exponent, step_size) }
 }
 
 impl LandscapeView {
@@ -470,7 +239,7 @@ impl LandscapeView {
 
 #[cfg(test)]
 mod tests {
-    use super::{Key, Range, axis_over, coordinate, nodes, tidy, value, whole};
+    use super::{Key, nodes};
     use pbrdf::fit::{Axis, Choices};
     use pbrdf::model::{Model, Parameter, Parameters};
     use pbrdf::optics::SlopeDistribution;
@@ -491,27 +260,8 @@ mod tests {
     }
 
     #[test]
-    fn every_axis_over_the_whole_range_is_sound_and_values_come_back() {
-        for parameter in Parameter::ALL {
-            let range = whole(parameter);
-            let axis = axis_over(parameter, range, 16).expect("a range of values");
-            assert!(parameter.domain().contains(axis.low) && parameter.domain().contains(axis.high), "{}", parameter.key());
-            let back = coordinate(parameter, value(parameter, range.high));
-            assert!((back - range.high).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn an_axis_stops_where_surfaces_stop() {
-        let axis = axis_over(Parameter::K, Range { low: -3.0, high: 5.0 }, 16).expect("half of it is a range");
-        assert_eq!((axis.low, axis.high), (0.0, 5.0));
-        assert_eq!(axis_over(Parameter::K, Range { low: -3.0, high: -1.0 }, 16), None);
-    }
-
-    #[test]
     fn many_rows_make_a_coarse_landscape() {
         assert_eq!((nodes(27, 256, 20_000_000), nodes(27, 128, 4_000_000), nodes(0, 256, 20_000_000)), (256, 128, 256));
         assert_eq!((nodes(2000, 256, 20_000_000), nodes(1_000_000, 256, 20_000_000)), (100, 16));
-        assert_eq!((tidy(2.037_19), tidy(1.0)), (2.037, 1.0));
     }
 }

@@ -64,7 +64,9 @@ pub fn metals_refresh(explorer: &mut Explorer) {
     let seen = || metal.sources.iter().flat_map(Source::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
     for ((parameter, part), range) in PARTS.into_iter().zip(&mut view.ranges) {
         let top = seen().map(|sample| part(sample.index)).fold(settings.parameters[parameter].min(20.0), f64::max);
-        range.follow(Range { low: 0.0, high: round_up(top) }, *dragging);
+        let high = round_up(top);
+        // The mark at 0 keeps off that of the first wavelength.
+        range.follow(Range { low: -0.06 * high, high }, *dragging);
     }
 }
 
@@ -214,18 +216,21 @@ fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Optio
     pressed
 }
 
-/// Height of the plots.
-const HEIGHT: f32 = 170.0;
+/// Least height of the plots: where there is less room, the pane scrolls.
+const HEIGHT: f32 = 130.0;
+/// Beside a plot, for the half of the last mark that stands out.
+const BESIDE: f32 = 24.0;
 
 /// n and k against the wavelength, side by side.
 fn lines_ui(explorer: &mut Explorer, metal: &Metal, ui: &mut Ui) {
     let Explorer { settings, views, .. } = explorer;
     let view = &mut views.metals;
     let Some(lines) = view.lines.get() else { return };
+    let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);
     ui.columns(PARTS.len(), |columns| {
         for (part, (ui, axes)) in columns.iter_mut().zip(&mut view.axes).enumerate() {
             let found = view.found.get().map(Vec::as_slice).unwrap_or_default();
-            part_ui(part, settings, metal, lines, found, axes, (view.wavelengths.get(), view.ranges[part].get()), ui);
+            part_ui(part, settings, metal, lines, found, axes, (view.wavelengths.get(), view.ranges[part].get()), height, ui);
         }
     });
 }
@@ -239,6 +244,7 @@ fn part_ui(
     found: &[Option<RefractiveIndex>],
     axes: &mut Axes,
     ranges: (Option<Range>, Option<Range>),
+    height: f32,
     ui: &mut Ui,
 ) {
     let (parameter, of) = PARTS[part];
@@ -250,7 +256,8 @@ fn part_ui(
     let y = axis(AxisHints::new_y(), ui, parameter.symbol(), decimal);
     // Narrower than where plots stand one above the other.
     let narrow = y.clone().min_thickness(44.0);
-    let response = plot(parameter.key(), ui, HEIGHT, x, y)
+    let response = plot(parameter.key(), ui, height, x, y)
+        .width((ui.available_width() - BESIDE).max(60.0))
         .custom_y_axes(vec![narrow])
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {

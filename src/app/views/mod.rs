@@ -9,7 +9,6 @@ mod error_vs_time;
 mod facets;
 mod hemisphere;
 mod landscape;
-mod landscape_marks;
 mod lobes;
 mod metals;
 mod mueller;

@@ -35,8 +35,10 @@ pub fn planner_refresh(explorer: &mut Explorer) {
         .refresh(key, |_| [Prediction::of_measurement(settings, free, &document.measurement), Prediction::of_plan(settings, free)]);
 }
 
+/// Width from which errors stand in percent too.
+const WITH_PERCENT: f32 = 400.0;
 /// Width that angles and errors need side by side.
-const SIDE_BY_SIDE: f32 = 640.0;
+const SIDE_BY_SIDE: f32 = 540.0;
 
 pub fn planner_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { settings, document, views, .. } = explorer;
@@ -66,7 +68,7 @@ fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
             as_measured(plan, document);
         }
     });
-    Grid::new("planned angles").num_columns(5).show(ui, |ui| {
+    Grid::new("planned angles").num_columns(5).min_col_width(0.0).show(ui, |ui| {
         for heading in ["", "from", "to", "step", ""] {
             ui.weak(translated(heading));
         }
@@ -74,7 +76,7 @@ fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
         spans_ui(&mut plan.theta_i, "θi", 0.0, ui);
         spans_ui(&mut plan.theta_r, "θr", -STEEPEST, ui);
     });
-    Grid::new("planned noise").num_columns(2).show(ui, |ui| {
+    Grid::new("planned noise").num_columns(2).min_col_width(0.0).show(ui, |ui| {
         let help = tr!("Relative azimuth φr − φi: 180° is the plane of incidence, with the backscatter side at negative θr");
         number_ui(&mut plan.dphi, "Δφ", &help, "°", 0.0..=360.0, 0.5, ui);
         let label = ui.label(tr!("Measured"));
@@ -128,7 +130,7 @@ fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
         span.to = span.to.max(span.from);
         field(ui, &mut span.to, span.from..=STEEPEST, "to");
         field(ui, &mut span.step, 0.1..=90.0, "step");
-        let remove = ui.button(tr!("remove"));
+        let remove = ui.button("×").on_hover_text(tr!("remove"));
         remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Remove {0} {1}", name, i + 1)));
         if remove.clicked() {
             removed = Some(i);
@@ -191,13 +193,14 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
     }
     let any = planned.as_ref().or(now.as_ref());
     let Ok(any) = any else { return };
-    Grid::new("predicted errors").num_columns(5).striped(true).spacing([14.0, 4.0]).show(ui, |ui| {
+    let with_percent = ui.available_width() > WITH_PERCENT;
+    Grid::new("predicted errors").num_columns(5).striped(true).spacing([9.0, 4.0]).min_col_width(0.0).show(ui, |ui| {
         for (heading, help) in [
             ("", ""),
             ("value", "The slider"),
             ("± now", "With the angles of the open measurement"),
             ("± planned", "With the planned angles"),
-            ("now / planned", "How many times smaller the error becomes"),
+            ("gain", "How many times smaller the error becomes: now over planned"),
         ] {
             if heading.is_empty() {
                 ui.label("");
@@ -207,7 +210,7 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
         }
         ui.end_row();
         for (parameter, _) in &any.errors {
-            error_row_ui(settings, *parameter, now, planned, ui);
+            error_row_ui(settings, *parameter, [now, planned], with_percent, ui);
         }
     });
     for (prediction, angles) in [(planned, "With the planned angles"), (now, "With the measured angles")] {
@@ -220,23 +223,23 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
 fn error_row_ui(
     settings: &Settings,
     parameter: Parameter,
-    now: &Result<Prediction, String>,
-    planned: &Result<Prediction, String>,
+    [now, planned]: [&Result<Prediction, String>; 2],
+    with_percent: bool,
     ui: &mut Ui,
 ) {
     let value = settings.parameters[parameter];
     let error = |prediction: &Result<Prediction, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
-    let text = |prediction: &Result<Prediction, String>| match (prediction, error(prediction)) {
-        (Err(_), _) => "-".to_owned(),
-        (Ok(_), None) => tr!("open"),
-        (Ok(_), Some(error)) => format!("{} ({})", short(error), percent(parameter, value, error)),
-    };
     ui.label(parameter.symbol()).on_hover_text(translated(parameter.name()));
     ui.monospace(significant(value));
     for prediction in [now, planned] {
-        let response = ui.monospace(text(prediction));
-        if prediction.is_ok() && error(prediction).is_none() {
-            response.on_hover_text(open_help());
+        match (prediction, error(prediction)) {
+            (Err(_), _) => _ = ui.monospace("-"),
+            (Ok(_), None) => _ = ui.monospace(tr!("open")).on_hover_text(open_help()),
+            (Ok(_), Some(error)) => {
+                let share = percent(parameter, value, error);
+                let text = if with_percent { format!("{} ({share})", short(error)) } else { short(error) };
+                ui.monospace(text).on_hover_text(share);
+            }
         }
     }
     ui.monospace(error(now).zip(error(planned)).map_or_else(String::new, |(now, planned)| short(now / planned)));

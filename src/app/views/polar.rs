@@ -10,10 +10,10 @@ use crate::app::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
 use crate::app::document::Series;
 use crate::app::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::plots::{Axes, Following, Range, curve, legend, round_up};
+use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, round_up};
 use crate::app::theme;
 use crate::app::window::Explorer;
-use egui::{Align2, Color32, RichText, Ui};
+use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -140,15 +140,16 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let ink = ui.visuals().text_color();
     let log = settings.shown.polar_log;
     let in_plane = settings.dphi.rem_euclid(360.0) == 180.0;
+    key_line_ui(&key_entries(lobes, in_plane, ink, dark), ui);
+    let room = ui.available_size();
     let plot = Plot::new("polar lobes")
-        .height(ui.available_height())
+        .height(room.y)
         .data_aspect(1.0)
         .show_axes(false)
         .show_grid(false)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
         .cursor_color(Color32::TRANSPARENT)
-        .legend(legend())
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => {
                 let radius = libm::hypot(position.x, position.y);
@@ -160,7 +161,8 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
             _ => None,
         });
     let response = plot.show(ui, |plot| {
-        view.axes.apply(plot, Some(Range { low: -1.3, high: 1.3 }), Some(Range { low: -0.2, high: 1.3 }));
+        let [x, y] = ranges(room);
+        view.axes.apply(plot, Some(x), Some(y));
         protractor(plot, &lobes.rings, ink, dark);
         for (pieces, name, color, width, is_part) in [
             (&lobes.specular, tr!("specular"), theme::specular(dark), 1.5, true),
@@ -190,6 +192,29 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
     view.axes.listen(&response, &tr!("Plot: lobes around the point of incidence"), ui);
 }
 
+/// What is seen of the plane in a plot of that size: the whole drawing, with one unit as long on both axes.
+fn ranges(room: Vec2) -> [Range; 2] {
+    let (half, low, high) = (1.3, -0.2, 1.3);
+    let ratio = f64::from(room.x.max(1.0) / room.y.max(1.0));
+    let half = f64::max(half, 0.5 * ratio * (high - low));
+    [Range { low: -half, high: half }, Range { low, high: f64::max(high, low + 2.0 * half / ratio) }]
+}
+
+/// What is drawn, with the looks of the lines.
+fn key_entries(lobes: &Lobes, in_plane: bool, ink: Color32, dark: bool) -> Vec<KeyEntry> {
+    let solid = LineStyle::Solid;
+    let entries = [
+        (!lobes.specular.is_empty(), tr!("specular"), theme::specular(dark), solid, 1.5),
+        (!lobes.diffuse.is_empty(), tr!("diffuse"), theme::diffuse(dark), solid, 1.5),
+        (!lobes.volume.is_empty(), tr!("volume"), theme::volume(dark), solid, 1.5),
+        (true, tr!("total"), theme::foreground(dark), solid, 2.5),
+        (in_plane, tr!("incident ray"), ink, solid, 1.0),
+        (in_plane, tr!("mirror direction"), ink, LineStyle::dashed_dense(), 1.0),
+    ];
+    let shown = entries.into_iter().filter(|entry| entry.0);
+    shown.map(|(_, name, color, style, width)| KeyEntry { name, color, style, width }).collect()
+}
+
 /// Size of the letters in the drawing.
 const LETTERS: f32 = 12.0;
 
@@ -197,6 +222,10 @@ const LETTERS: f32 = 12.0;
 fn closed(piece: &[PlotPoint]) -> Vec<PlotPoint> {
     piece.iter().copied().chain([PlotPoint::new(0.0, 0.0)]).collect()
 }
+
+/// Half the length of the surface, and where its marks stand: lobes end between them.
+const SURFACE: f64 = 1.13;
+const BESIDE: f64 = 1.22;
 
 /// Surface, rings and directions with their labels.
 fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark: bool) {
@@ -207,9 +236,8 @@ fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark
         plot.line(still(vec![PlotPoint::new(0.0, 0.0), direction(theta_r, 1.0)], grid).width(1.0));
         if degrees % 30 == 0 {
             let label = RichText::new(format!("{}°", degrees.abs())).color(ink).size(LETTERS);
-            let mut at = direction(theta_r, 1.09);
-            // Above the surface, not across it.
-            at.y = at.y.max(0.05);
+            // Behind the ends of the surface, where no lobe comes.
+            let at = direction(theta_r, if degrees.abs() == 90 { BESIDE } else { 1.09 });
             plot.text(Text::new("", at, label).allow_hover(false));
         }
     }
@@ -221,7 +249,7 @@ fn protractor(plot: &mut PlotUi<'_>, rings: &[(f64, String)], ink: Color32, dark
         let label = RichText::new(label).color(ink).size(LETTERS);
         plot.text(Text::new("", PlotPoint::new(*radius, -0.01), label).anchor(Align2::CENTER_TOP).allow_hover(false));
     }
-    plot.line(still(vec![PlotPoint::new(-1.2, 0.0), PlotPoint::new(1.2, 0.0)], ink).width(2.5));
+    plot.line(still(vec![PlotPoint::new(-SURFACE, 0.0), PlotPoint::new(SURFACE, 0.0)], ink).width(2.5));
 }
 
 /// The incident ray and the mirror direction.
@@ -238,7 +266,17 @@ fn rays(plot: &mut PlotUi<'_>, theta_i: f64, ink: Color32) {
 
 #[cfg(test)]
 mod tests {
-    use super::{PlotPoint, Range, bend, direction, rings};
+    use super::{PlotPoint, Range, Vec2, bend, direction, ranges, rings};
+
+    #[test]
+    fn the_whole_drawing_is_seen_in_plots_of_every_shape() {
+        for (width, height) in [(575.0, 285.0), (300.0, 400.0), (1200.0, 300.0)] {
+            let [x, y] = ranges(Vec2::new(width, height));
+            assert!(x.low <= -1.3 && x.high >= 1.3 && y.low <= -0.2 && y.high >= 1.3);
+            let lengths = [f64::from(width) / (x.high - x.low), f64::from(height) / (y.high - y.low)];
+            assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-6, "{lengths:?}");
+        }
+    }
 
     #[test]
     fn forward_is_to_the_right_and_the_normal_is_up() {

@@ -23,24 +23,30 @@ pub struct Residuals {
     /// DoLP of the model less the measured one, of each series; masked points left out.
     pub of_series: Memo<(Parameters, Model, Eq17, u64), Vec<Vec<PlotPoint>>>,
     range: Following,
-    is_empty: bool,
+    is_there: bool,
 }
+
+/// Half the axis where a fit has been exact from the first.
+const EXACT: f64 = 0.01;
 
 impl Residuals {
     pub fn refresh(&mut self, settings: &Settings, document: &Document, dragging: bool) {
         let key = (settings.parameters, settings.model, settings.choices.eq17, document.generation);
         self.of_series.refresh(key, |_| of_all(settings, document));
+        self.is_there = document.series.iter().any(|series| !series.dolp.is_empty());
         let largest = self.of_series.get().into_iter().flatten().flatten().map(|point| point.y.abs()).fold(0.0, f64::max);
-        self.is_empty = largest == 0.0;
-        if !self.is_empty {
+        if largest > 0.0 {
             let end = 1.08 * round_up(largest);
             self.range.follow(Range { low: -end, high: end }, dragging);
+        } else if self.range.get().is_none() {
+            // Nothing is missed, or there is no surface: the axis waits where it is.
+            self.range.follow(Range { low: -EXACT, high: EXACT }, dragging);
         }
     }
 
-    /// Ends of its axis; none where no DoLP was measured.
+    /// Ends of its axis; none where no DoLP was measured. A strip that came and went would move the plot above it.
     pub fn range(&self) -> Option<Range> {
-        self.range.get().filter(|_| !self.is_empty)
+        self.range.get().filter(|_| self.is_there)
     }
 }
 
@@ -68,7 +74,7 @@ pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let x = axis(AxisHints::new_x(), ui, "", decimal);
     let y = axis(AxisHints::new_y(), ui, &tr!("model − meas."), decimal);
     let response = plot("residuals", ui, height, x, y)
-        .y_grid_spacer(|input| axis::marks(&input, 3.0, 0.0))
+        .y_grid_spacer(|input| axis::marks(&input, 2.2, 0.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(tr!("{0}\nθr = {1}°\nresidual = {2}", plot_name, format!("{:.2}", position.x), format!("{:.2e}", position.y)))

@@ -1,6 +1,8 @@
 //! The landscape for print, with what lies on it.
 
-use super::{Drawn, Key, LandscapeView, coordinate, value};
+use super::axes::{coordinate, value};
+use super::drawn::Drawn;
+use super::{Key, LandscapeView};
 use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, placed};
 use crate::app::state::Settings;
 use crate::app::window::Explorer;

@@ -1,6 +1,6 @@
 //! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated metals, the sliders.
 
-use super::landscape::coordinate;
+use super::axes::coordinate;
 use crate::app::document::Document;
 use crate::app::language::translated;
 use crate::app::past_fits::{PastFit, PastFits};
@@ -14,7 +14,7 @@ use tr::tr;
 /// Ways that are drawn, of the newest fits.
 const WAYS: usize = 3;
 /// Minima that are drawn, the lowest ones.
-const MINIMA: usize = 24;
+const MOST_MINIMA: usize = 24;
 
 /// What the marks depend on: the axes, how many fits there were, the one shown, the measurement, the wavelength in nm.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ impl Marks {
         let own = past.iter().filter(|fit| fit.number == document.number);
         let ways = own.take(WAYS).map(|fit| way(fit)).collect();
         let mut minima = Noted::default();
-        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.minima).take(MINIMA).enumerate() {
+        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.minima).take(MOST_MINIMA).enumerate() {
             minima.push(place(&minimum.parameters), || {
                 let objective = format!("{:.4e}", minimum.objective);
                 tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.reached)
@@ -132,14 +132,23 @@ fn metals(key: &MarksKey) -> (Noted, Vec<(PlotPoint, &'static str)>) {
     (noted, names)
 }
 
-fn way_name(age: usize) -> String {
+pub fn way_name(age: usize) -> String {
     if age == 0 { tr!("way of the last fit") } else { tr!("way {} fits before", age) }
 }
 
 /// Colours that stand out from viridis.
 const WAY: Color32 = Color32::from_rgb(255, 96, 64);
+pub const MINIMA: Color32 = Color32::from_rgb(255, 214, 90);
+pub const METALS: Color32 = Color32::from_rgb(150, 220, 255);
+/// Of ways of earlier fits, as a share.
+const FADED: f32 = 0.55;
 const WHITE: Color32 = Color32::WHITE;
 const BLACK: Color32 = Color32::BLACK;
+
+/// Colour of the way of a fit.
+pub fn way_color(age: usize) -> Color32 {
+    if age == 0 { WAY } else { WAY.gamma_multiply(FADED) }
+}
 
 /// Marks with a dark rim, readable on every colour of the map.
 fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shape: MarkerShape, radius: f32, color: Color32) {
@@ -150,7 +159,7 @@ fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shap
 
 pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
     if shown.metals && !marks.metals.points.is_empty() {
-        rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, Color32::from_rgb(150, 220, 255));
+        rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, METALS);
         names_in(plot, &marks.names);
     }
     if shown.paths {
@@ -159,13 +168,16 @@ pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
         }
     }
     if shown.minima && !marks.minima.points.is_empty() {
-        rimmed(plot, &marks.minima.points, tr!("minima"), MarkerShape::Diamond, 4.0, Color32::from_rgb(255, 214, 90));
+        rimmed(plot, &marks.minima.points, tr!("minima"), MarkerShape::Diamond, 4.0, MINIMA);
     }
 }
 
+/// Behind words on the map.
+pub const PLATE: Color32 = Color32::from_black_alpha(190);
+
 /// Letters of the names of metals, and the room of one.
-const LETTERS: f32 = 11.0;
-const LETTER: egui::Vec2 = egui::vec2(6.6, 15.0);
+const LETTERS: f32 = 12.0;
+const LETTER: egui::Vec2 = egui::vec2(7.2, 16.0);
 
 /// Names beside their points, on a side where no other one stands; without room a name is left to the pointer.
 fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
@@ -178,7 +190,7 @@ fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
         let free = sides.into_iter().find(|side| taken.iter().all(|other| !other.intersects(side.anchor_size(at, size))));
         if let Some(side) = free {
             taken.push(side.anchor_size(at, size));
-            let text = RichText::new(format!(" {name} ")).size(LETTERS).color(WHITE).background_color(Color32::from_black_alpha(110));
+            let text = RichText::new(format!(" {name} ")).size(LETTERS).color(WHITE).background_color(PLATE);
             plot.text(Text::new("", *point, text).anchor(side).allow_hover(false));
         }
     }
@@ -186,7 +198,7 @@ fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
 
 /// Edge by edge: the corners of one long line are drawn as filled wedges.
 fn way_in<'a>(plot: &mut PlotUi<'a>, way: &'a Noted, age: usize) {
-    let color = if age == 0 { WAY } else { WAY.gamma_multiply(0.55) };
+    let color = way_color(age);
     for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, color)] {
         for edge in way.points.windows(2) {
             plot.line(Line::new("", PlotPoints::Borrowed(edge)).color(color).width(width).allow_hover(false));
@@ -195,9 +207,14 @@ fn way_in<'a>(plot: &mut PlotUi<'a>, way: &'a Noted, age: usize) {
     plot.points(Points::new(way_name(age), PlotPoints::Borrowed(&way.points)).color(color).radius(2.0));
 }
 
-/// Where the sliders stand: a cross.
+/// Where the sliders stand: a cross in a ring, white on black.
 pub fn sliders_in(plot: &mut PlotUi<'_>, [x, y]: [f64; 2]) {
-    let at = |name: String| Points::new(name, vec![[x, y]]).allow_hover(false);
-    plot.points(at(String::new()).shape(MarkerShape::Circle).color(BLACK).radius(7.0).filled(false));
-    plot.points(at(tr!("sliders")).shape(MarkerShape::Plus).color(WHITE).radius(6.0));
+    let at = |shape, radius| Points::new("", vec![[x, y]]).shape(shape).radius(radius).filled(false).allow_hover(false);
+    for (color, wider) in [(BLACK, 1.5), (WHITE, 0.0)] {
+        plot.points(at(MarkerShape::Circle, RING + wider).color(color));
+        plot.points(at(MarkerShape::Plus, RING + wider).color(color));
+    }
 }
+
+/// Radius of the ring around the sliders' place.
+pub const RING: f32 = 6.0;

@@ -1,0 +1,70 @@
+//! Where things stand in the window: nothing that is wanted lies outside, and nothing jumps.
+
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::panes::{PANES, Pane};
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+    explorer(harness).commands.push(command);
+    wait(harness);
+}
+
+/// Where a plot lies.
+fn plot(harness: &Harness<'static, Option<Explorer>>, name: &str) -> egui::Rect {
+    harness.get_by_label(name).rect()
+}
+
+/// Beside the panels at either side, the arrows and the menu in that line there is room for tabs.
+fn bar(harness: &Harness<'static, Option<Explorer>>, tab: egui::Rect) -> egui::Rangef {
+    let beside = |label: &str| {
+        let rects = harness.query_all_by_label_contains(label).map(|node| node.rect());
+        rects.filter(|rect| rect.y_range().contains(tab.center().y)).collect::<Vec<_>>()
+    };
+    let left = beside("Scroll tabs left").iter().map(egui::Rect::right).fold(366.0, f32::max);
+    let right = ["Scroll tabs right", "Show in "].into_iter().flat_map(beside);
+    egui::Rangef::new(left, right.map(|rect| rect.left()).fold(960.0, f32::min))
+}
+
+#[test]
+fn the_tab_of_a_pane_that_is_shown_is_in_view() {
+    let mut harness = harness();
+    // From the first to the last and back, so that bars are scrolled to either side.
+    for entry in PANES.iter().chain(PANES.iter().rev()) {
+        if !explorer(&mut harness).panes.is_on_screen(entry.pane) {
+            order(&mut harness, Command::TogglePane(entry.pane));
+        }
+        let tab = harness.query_all_by_label(entry.title).next().expect("a tab").rect();
+        let bar = bar(&harness, tab);
+        assert!(bar.contains(tab.left()) && bar.contains(tab.right()), "{}: {tab} outside {bar:?}", entry.title);
+    }
+}
+
+#[test]
+fn the_plot_of_dolp_stays_where_it_is_when_nothing_is_left_to_miss() {
+    let mut harness = harness();
+    let [before, strip] = ["Plot: DoLP against θr", "Plot: residuals of DoLP against θr"].map(|name| plot(&harness, name));
+    let rows = (0..explorer(&mut harness).document.measurement.rows.len()).collect();
+    order(&mut harness, Command::Mask { rows, masked: true });
+    assert_eq!(plot(&harness, "Plot: DoLP against θr"), before);
+    assert_eq!(plot(&harness, "Plot: residuals of DoLP against θr"), strip);
+}
+
+#[test]
+fn a_measurement_without_dolp_has_no_strip_under_it() {
+    let mut harness = harness();
+    let mut measurement = (*explorer(&mut harness).document.measurement).clone();
+    for row in &mut measurement.rows {
+        (row.brdf, row.dolp) = (row.dolp, None);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("brdf.csv");
+    let mut bytes = Vec::new();
+    pbrdf::measurement::write(&measurement, &mut bytes).expect("a table");
+    std::fs::write(&path, bytes).expect("a writable folder");
+    order(&mut harness, Command::OpenMeasurement(path));
+    assert!(explorer(&mut harness).panes.is_on_screen(Pane::Dolp));
+    assert!(harness.query_by_label("Plot: residuals of DoLP against θr").is_none());
+}

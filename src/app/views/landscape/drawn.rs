@@ -1,0 +1,113 @@
+//! A landscape as it is drawn: colours of heights, and lines of equal height.
+
+use super::Key;
+use super::axes::coordinate;
+use crate::app::contours::Heights;
+use crate::app::curves::Pieces;
+use crate::app::latest_job::Stopped;
+use crate::app::plots::{ColorScale, Range, ink_on};
+use crate::app::problem::problem;
+use crate::app::state::Settings;
+use egui::{Color32, ColorImage};
+use egui_plot::PlotPoint;
+use pbrdf::fit::{Axis, Landscape, Loss, Problem, Weights};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::ParameterSet;
+use pbrdf::report::figure::ColorMap;
+use std::sync::Arc;
+
+/// A landscape as it is drawn.
+pub struct Drawn {
+    pub landscape: Landscape,
+    pub image: Arc<ColorImage>,
+    pub scale: ColorScale,
+    pub contours: Vec<(Color32, Pieces)>,
+    pub title: &'static str,
+}
+
+/// Decades that colours tell apart, from the lowest node upwards.
+const DECADES: f64 = 6.0;
+/// Lines of equal height at most; from 5 to 1 there are so many more.
+const LINES: usize = 12;
+
+impl Drawn {
+    /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
+    pub fn new(mut settings: Settings, measurement: &Measurement, key: &Key, stopped: Stopped<'_>) -> Option<Self> {
+        let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
+        // Where its own two sliders stand is no matter, not even if that is nowhere.
+        for axis in [key.across, key.up] {
+            settings.parameters[axis.parameter] = axis.low;
+        }
+        let problem = problem(&settings, measurement, settings.model, free, settings.choices).ok()?;
+        let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
+        let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
+        let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();
+        let finite = || heights.iter().copied().filter(|height| height.is_finite());
+        let highest = finite().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = finite().fold(f64::INFINITY, f64::min);
+        if lowest > highest {
+            return None;
+        }
+        // By quarters of a decade, so that colours do not flicker while a slider moves.
+        let high = 0.25 * (4.0 * highest).ceil();
+        let low = (0.25 * (4.0 * lowest).floor()).clamp(high - DECADES, high - 0.25);
+        let scale = ColorScale { map: ColorMap::Sequential, range: Range { low, high } };
+        let table = scale.table();
+        // The first row of an image is the uppermost.
+        let rows = heights.chunks(key.across.count).rev().flatten();
+        let image = ColorImage::new([key.across.count, key.up.count], rows.map(|height| table.color(*height)).collect());
+        let contours = contours(&heights, key, scale);
+        Some(Self { landscape, image: Arc::new(image), scale, contours, title: title(&problem) })
+    }
+
+    /// The number at the node nearest to a point of the plot.
+    pub fn at(&self, point: PlotPoint) -> Option<f64> {
+        let index = |axis: Axis, place: f64| {
+            let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
+            #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
+            let place = ((place - low) / (high - low) * (axis.count - 1) as f64).round();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be 0 or more")]
+            (place >= 0.0).then_some(place as usize).filter(|index| *index < axis.count)
+        };
+        let (column, row) = (index(self.landscape.across, point.x)?, index(self.landscape.up, point.y)?);
+        self.landscape.objective.get(row * self.landscape.across.count + column).copied().filter(|objective| objective.is_finite())
+    }
+}
+
+/// What is minimised.
+fn title(problem: &Problem) -> &'static str {
+    match problem.choices().weights {
+        _ if problem.minimises_delta_e() => "ΔE",
+        Weights::Sigma if problem.choices().loss == Loss::Linear => "χ²",
+        _ => "Σ r²",
+    }
+}
+
+/// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
+fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Pieces)> {
+    let Range { low, high } = scale.range;
+    let levels = |factors: &[f64]| -> Vec<f64> {
+        #[expect(clippy::cast_possible_truncation, reason = "a few decades")]
+        let decades = low.floor() as i32..=high.ceil() as i32;
+        let all = decades.flat_map(|decade| factors.iter().map(move |factor| f64::from(decade) + libm::log10(*factor)));
+        all.filter(|level| *level > low && *level < high).collect()
+    };
+    let levels = [levels(&[1.0, 2.0, 5.0]), levels(&[1.0, 3.0])].into_iter().find(|levels| levels.len() <= LINES);
+    let levels = levels.unwrap_or_else(|| (1..LINES).map(|i| low + (high - low) * f64_of(i) / f64_of(LINES)).collect());
+    let place = |axis: Axis, index: f64| {
+        let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
+        low + (high - low) * index / f64_of(axis.count - 1)
+    };
+    let grid = Heights { values: heights, columns: key.across.count };
+    let pieces = |level: f64| -> Pieces {
+        let points =
+            |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| PlotPoint::new(place(key.across, x), place(key.up, y))).collect();
+        grid.lines(level).into_iter().map(points).collect()
+    };
+    levels.into_iter().map(|level| (ink_on(scale.color(level)).gamma_multiply(0.55), pieces(level))).collect()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a small number")]
+fn f64_of(count: usize) -> f64 {
+    count as f64
+}
