@@ -22,6 +22,7 @@ mod reports;
 mod scans;
 mod sessions;
 mod sliders;
+mod snapshots;
 
 use super::state::{Settings, Stored, WindowSettings};
 use super::window::Explorer;

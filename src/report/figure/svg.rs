@@ -135,6 +135,9 @@ fn draw_y_axis(canvas: &mut Canvas<'_>, axis: &Ruled, title: &str, frame: &Frame
     canvas.text(title, size, (edge + outwards * beside, middle), Anchor::Middle, true, INK);
 }
 
+/// Where on a map of colours the ground of a legend's samples is.
+const LIKE_A_MAP: f64 = 0.3;
+
 fn draw_legend(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed, colors: &[Rgb], top: f64) {
     let mut middle = top + 0.5 * LEGEND_LINE;
     for line in &placed.legend {
@@ -145,6 +148,11 @@ fn draw_legend(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed, colors: 
                 panel.series.iter().zip(colors.iter().copied()).filter(|(other, _)| other.name == series.name).collect();
             // One sample of each kind; a name for curves of several colours has none of them.
             let is_one = parts.iter().all(|(_, color)| *color == parts[0].1);
+            // Colours made for a map need one behind them.
+            if layout::heat_map(panel).is_some() {
+                let plate = rectangle(left, middle - 0.5 * LEGEND_LINE + 1.0, LEGEND_SAMPLE, LEGEND_LINE - 2.0);
+                canvas.path(&plate, Paint::Fill(super::ColorMap::Sequential.at(LIKE_A_MAP), 1.0));
+            }
             let mut kinds = Vec::new();
             for (part, color) in parts {
                 let kind = std::mem::discriminant(&part.drawn);

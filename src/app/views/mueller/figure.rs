@@ -1,6 +1,8 @@
-//! The Mueller matrix for print: sixteen plots against θr.
+//! The Mueller matrix for print: sixteen plots against θr, and all elements as numbers at the θr of the pane.
 
-use super::REACH;
+use super::{REACH, normalised, number};
+use crate::app::panels::significant;
+use crate::app::plots::print::{FOREGROUND, MUTED};
 use crate::app::window::Explorer;
 use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
 
@@ -8,14 +10,29 @@ pub fn mueller_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, document, .. } = explorer;
     let view = &views.mueller;
     let (curves, ((_, _, theta_i, plane), backscatter)) = (view.curves.get()?, view.curves.key()?);
+    let matrix = view.matrix.get().and_then(Option::as_ref).zip(view.matrix.key().map(|key| key.1));
     let reach = f64::from(REACH);
     let panels = curves.0.iter().enumerate().map(|(element, pieces)| {
         let gap = [[f64::NAN; 2]];
         let points = pieces.iter().flat_map(|piece| piece.iter().copied().chain(gap)).collect();
+        let mut series = vec![Series::line("", points).colored(SERIES[0])];
+        let mut title = String::new();
+        if let Some((matrix, theta_r)) = matrix {
+            let value = normalised(matrix, element);
+            series.insert(0, Series::upright("", theta_r).colored(MUTED));
+            series.push(Series::points("", [[theta_r, value]]).colored(FOREGROUND));
+            // On the free side of the curve.
+            let beside = if value > 0.0 { value - NUMBER } else { value + NUMBER };
+            series.push(Series::labels(vec![([theta_r, beside], number(value))]));
+            if element == 0 {
+                title = format!("numbers at θr = {theta_r:.1}°, m00 = {} sr⁻¹", significant(matrix.element(0, 0)));
+            }
+        }
         Panel {
+            title,
             x: Axis::linear("θr", "°").between(if *backscatter { -90.0 } else { 0.0 }, 90.0),
             y: Axis::linear(format!("m{}{} / m00", element / 4, element % 4), "").between(-reach, reach),
-            series: vec![Series::line("", points).colored(SERIES[0])],
+            series,
             legend: false,
             ..Panel::default()
         }
@@ -23,3 +40,6 @@ pub fn mueller_figure(explorer: &Explorer) -> Option<Figure> {
     let title = format!("{}: Mueller matrix at θi = {theta_i}°, Δφ = {plane}°", document.name);
     Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
 }
+
+/// How far from its value a number stands.
+const NUMBER: f64 = 0.25;
