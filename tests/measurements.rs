@@ -95,6 +95,29 @@ fn what_does_not_fit_is_refused_with_its_place() {
 }
 
 #[test]
+fn places_count_comments_empty_lines_and_all_line_ends() {
+    let head = "# a: b\n\n   # c\ntheta_i,theta_r,dolp\n";
+    for (text, place) in [
+        ("# a: b\n# c\n\nAOI,theta_r,dolp\n30,20,0.1\n".to_owned(), "line 4: the column theta_i"),
+        ("# a: b\n# c\ntheta_i,theta_r\n30,20\n".to_owned(), "line 3: neither"),
+        ("# a: b\n\n30,20,0.1\n".to_owned(), "line 3: there is no header"),
+        (format!("{head}# d\n"), "line 4: there is a header but no row"),
+        ("#\ntheta_i,theta_r,dolp,dolp\n30,20,0.1,0.1\n".to_owned(), "line 2, column 4 (dolp)"),
+        (format!("{head}# d\n30,20,1.5\n"), "line 6, column 3 (dolp)"),
+        (format!("{head}30,20,0.1\n \n# d\n\n30,20,x"), "line 9, column 3 (dolp)"),
+        (format!("{head}30,20,0.1\n\n30,20,0.1,7\n"), "line 7: the row has 4 cells"),
+    ] {
+        for line_end in ["\n", "\r\n", "\r"] {
+            let text = text.replace('\n', line_end);
+            let error = read(&text).expect_err(place).to_string();
+            assert!(error.starts_with(place), "{text:?}: {error}");
+        }
+    }
+    let measurement = accepted(format!("{head}30,20,0.1\r\n\r\n# d\r\n30,25,0.1"));
+    assert_eq!(measurement.lines, [5, 8]);
+}
+
+#[test]
 fn files_that_are_no_table_are_refused() {
     for (text, reason) in [
         (&b""[..], "empty"),

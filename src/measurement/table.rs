@@ -275,7 +275,7 @@ impl Table {
             return Err(ReadErrorKind::Empty.anywhere());
         }
         let header: Vec<String> = record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect();
-        self.header_line = record.position().map_or(1, csv::Position::line);
+        self.header_line = self.line_of(&record);
         if header.iter().any(|cell| cell.replace(',', ".").parse::<f64>().is_ok()) {
             let found = header.into_iter().next().unwrap_or_default();
             return Err(ReadError { line: Some(self.header_line), column: None, kind: ReadErrorKind::NoHeader { found } });
@@ -326,6 +326,16 @@ impl Table {
         Column { number: index + 1, name: self.header[index].clone() }
     }
 
+    /// Line of a record from 1. The reader's position is where it began to look: before comments and empty lines, or at the line feed
+    /// that ends the line before.
+    fn line_of(&self, record: &csv::ByteRecord) -> u64 {
+        let Some(position) = record.position() else { return 1 };
+        let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
+        let mut rest = self.bytes.get(from..).unwrap_or_default().split(|&byte| byte == b'\n');
+        let skipped = rest.position(|line| line.first() != Some(&b'#') && line.iter().any(|&byte| byte != b'\r'));
+        position.line() + skipped.map_or(0, |skipped| skipped as u64)
+    }
+
     /// Hands every row to `visit`, telling `progress` now and then.
     pub fn for_each(&self, progress: Progress<'_>, mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>) -> Result<(), ReadError> {
         let mut reader = self.csv_reader();
@@ -333,8 +343,7 @@ impl Table {
         read_record(&mut reader, &mut cells)?;
         let mut rows = 0_u64;
         while read_record(&mut reader, &mut cells)? {
-            let position = cells.position();
-            let line = position.map_or(0, csv::Position::line);
+            let line = self.line_of(&cells);
             if cells.len() != self.header.len() {
                 let kind = ReadErrorKind::RowLength { found: cells.len(), expected: self.header.len() };
                 return Err(ReadError { line: Some(line), column: None, kind });
@@ -343,7 +352,7 @@ impl Table {
             rows += 1;
             if rows.is_multiple_of(ROWS_PER_REPORT) {
                 #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress bar")]
-                let done = position.map_or(0.0, |position| position.byte() as f64 / self.bytes.len() as f64);
+                let done = cells.position().map_or(0.0, |position| position.byte() as f64 / self.bytes.len() as f64);
                 if progress(done).is_break() {
                     return Err(ReadErrorKind::Cancelled.anywhere());
                 }
