@@ -138,22 +138,117 @@ impl Field {
         found.ok_or_else(|| MappingError::Unit { field: self.key(), unit: text.to_owned(), expected })
     }
 
-    /// What others call it, in small letters and digits alone.
+    /// What others call it, in small letters and digits alone, the surest name first.
     fn aliases(self) -> &'static [&'static str] {
         match self {
-            Self::ThetaI => &["thetai", "aoi", "angleofincidence", "incidence", "incidentangle", "incidenceangle", "sza", "thetain", "ti"],
-            Self::ThetaR => {
-                &["thetar", "thetas", "thetav", "view", "viewangle", "viewingangle", "reflectionangle", "vza", "thetaout", "tr"]
+            Self::ThetaI => THETA_I,
+            Self::ThetaR => THETA_R,
+            Self::Dphi => DPHI,
+            Self::Dolp | Self::DolpSigma => DOLP,
+            Self::Brdf | Self::BrdfSigma => BRDF,
+            Self::Masked => &["masked", "mask", "excluded"],
+        }
+    }
+
+    /// The place of a name in small letters and digits among the names of this field, if it is one.
+    fn rank(self, name: &str) -> Option<usize> {
+        let place = |name: &str| self.aliases().iter().position(|alias| *alias == name);
+        match self {
+            Self::DolpSigma | Self::BrdfSigma => {
+                let of = SIGMA.iter().filter_map(|mark| name.strip_suffix(mark).or_else(|| name.strip_prefix(mark)));
+                of.filter_map(place).min()
             }
-            Self::Dphi => &["dphi", "deltaphi", "relativeazimuth", "azimuth", "raa", "phi"],
-            Self::Dolp => &["dolp", "dop", "degreeoflinearpolarization", "degreeoflinearpolarisation", "polarization", "polarisation"],
-            Self::DolpSigma => &["dolpsigma", "dolperr", "dolperror", "dolpstd", "sigmadolp"],
-            Self::Brdf => &["brdf", "fr", "brdf1sr", "brdfsr1"],
-            Self::BrdfSigma => &["brdfsigma", "brdferr", "brdferror", "brdfstd", "sigmabrdf"],
-            Self::Masked => &["masked", "mask"],
+            _ => place(name),
         }
     }
 }
+
+const THETA_I: &[&str] = &[
+    "thetai",
+    "thetain",
+    "thetainc",
+    "thetaincident",
+    "aoi",
+    "angleofincidence",
+    "incidenceangle",
+    "incidentangle",
+    "incidence",
+    "incident",
+    "inc",
+    "incangle",
+    "incidencezenith",
+    "incidentzenith",
+    "incidencezenithangle",
+    "incidentzenithangle",
+    "illuminationangle",
+    "illumination",
+    "sourceangle",
+    "sza",
+    "solarzenith",
+    "solarzenithangle",
+    "sunzenith",
+    "sunzenithangle",
+    "ti",
+];
+const THETA_R: &[&str] = &[
+    "thetar",
+    "thetav",
+    "thetas",
+    "thetaout",
+    "thetarefl",
+    "thetaview",
+    "viewangle",
+    "viewingangle",
+    "view",
+    "viewing",
+    "vza",
+    "viewzenith",
+    "viewingzenith",
+    "viewzenithangle",
+    "viewingzenithangle",
+    "angleofview",
+    "angleofreflection",
+    "reflectionangle",
+    "observationangle",
+    "observation",
+    "detectorangle",
+    "detector",
+    "emissionangle",
+    "emergenceangle",
+    "exitangle",
+    "tr",
+];
+const DPHI: &[&str] = &[
+    "dphi",
+    "deltaphi",
+    "relativeazimuth",
+    "relativeazimuthangle",
+    "relazimuth",
+    "relaz",
+    "raa",
+    "azimuth",
+    "azimuthangle",
+    "azim",
+    "az",
+    "phi",
+];
+const DOLP: &[&str] = &[
+    "dolp",
+    "dlp",
+    "degreeoflinearpolarization",
+    "degreeoflinearpolarisation",
+    "linearpolarization",
+    "linearpolarisation",
+    "dop",
+    "degreeofpolarization",
+    "degreeofpolarisation",
+    "polarization",
+    "polarisation",
+    "pol",
+];
+const BRDF: &[&str] = &["brdf", "brdf1", "brdf1sr", "brdfsr1", "fr", "reflectance"];
+/// What marks the standard deviation of a quantity, before or behind its name.
+const SIGMA: &[&str] = &["sigma", "err", "error", "std", "stddev", "sd", "unc", "uncertainty"];
 
 impl Mapping {
     /// Reads the form of the module's head.
@@ -183,8 +278,8 @@ impl Mapping {
     pub fn guess(header: &[String]) -> Self {
         let mut mapping = Self::default();
         for field in Field::ALL {
-            let matches = |name: &String| field.aliases().contains(&stem(name).as_str());
-            if let Some(index) = header.iter().position(matches) {
+            let ranked = header.iter().enumerate().filter_map(|(index, name)| Some((field.rank(&stem(name))?, index)));
+            if let Some((_, index)) = ranked.min() {
                 let name = header[index].to_lowercase();
                 let is = |unit: Unit, mark: &str| field.units().contains(&unit) && name.contains(mark);
                 let unit = if is(Unit::Radians, "rad") {
@@ -247,8 +342,13 @@ impl std::fmt::Display for Mapping {
 /// A name in small letters and digits, without what stands in brackets and without its unit.
 fn stem(name: &str) -> String {
     let name = name.split(['(', '[', '/']).next().unwrap_or(name).to_lowercase();
-    let letters: String =
-        name.replace('θ', "theta").replace('φ', "phi").replace('δ', "delta").chars().filter(char::is_ascii_alphanumeric).collect();
+    let letters: String = name
+        .replace(['θ', 'ϑ'], "theta")
+        .replace(['φ', 'ϕ'], "phi")
+        .replace('δ', "delta")
+        .chars()
+        .filter(char::is_ascii_alphanumeric)
+        .collect();
     let without = ["degrees", "deg", "radians", "rad", "percent"].iter().find_map(|unit| letters.strip_suffix(unit));
     without.unwrap_or(&letters).to_owned()
 }
@@ -287,5 +387,31 @@ mod tests {
         let own = ["theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"].map(str::to_owned);
         assert_eq!(Mapping::guess(&own).columns.len(), 8);
         assert!(Mapping::guess(&["a".to_owned(), "b".to_owned()]).columns.is_empty());
+    }
+
+    #[test]
+    fn a_guess_knows_what_other_laboratories_write() {
+        for (header, guess) in [
+            ("inc,view,azimuth,pol", "theta_i=1,theta_r=2,dphi=3,dolp=4"),
+            ("Incidence (deg),View zenith,RAA,Reflectance,Reflectance error", "theta_i=1,theta_r=2,dphi=3,brdf=4,brdf_sigma=5"),
+            ("SZA,VZA,phi,DOP [%],DOP err [%]", "theta_i=1,theta_r=2,dphi=3,dolp=4:percent,dolp_sigma=5:percent"),
+            ("inc_rad,viewing_angle_rad,pol_percent", "theta_i=1:radians,theta_r=2:radians,dolp=3:percent"),
+            ("ϑ_i/°,ϑ_r/°,Δϕ/°,DoLP,σ,BRDF 1/sr", "theta_i=1,theta_r=2,dphi=3,dolp=4,brdf=6"),
+            // The surer name wins, wherever it stands.
+            ("phi,relative azimuth,incident,AOI,pol,DoLP,std_dolp", "theta_i=4,dphi=2,dolp=6,dolp_sigma=7"),
+        ] {
+            let header: Vec<String> = header.split(',').map(str::to_owned).collect();
+            assert_eq!(Mapping::guess(&header).to_string(), guess, "{header:?}");
+        }
+    }
+
+    #[test]
+    fn no_name_stands_for_two_fields() {
+        for field in Field::ALL {
+            for name in field.aliases() {
+                let fields = Field::ALL.iter().filter(|other| other.rank(name).is_some()).count();
+                assert_eq!(fields, 1, "{name}");
+            }
+        }
     }
 }
