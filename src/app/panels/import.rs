@@ -11,9 +11,10 @@ use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider,
 use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
 use tr::tr;
 
-/// Width of the dialog, and height of what scrolls in it.
+/// Width of the dialog, and heights of what scrolls in it: it stays where it is and as large as it is whatever is chosen.
 const WIDTH: f32 = 640.0;
-const HEIGHT: f32 = 240.0;
+const COLUMNS_HEIGHT: f32 = 220.0;
+const ANSWER_HEIGHT: f32 = 176.0;
 /// Rows of the answer that are shown.
 const SHOWN: usize = 5;
 /// Above so many wavelengths there is a slider in place of a list.
@@ -26,7 +27,8 @@ pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.heading(tr!("Import {}", import.origin.name));
         choice_ui(import, ui);
         ui.separator();
-        let is_sound = answer_ui(import, ui);
+        let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
+        let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             if let Some(job) = &worker.load {
@@ -150,7 +152,7 @@ fn unit_text(field: Field, unit: Unit) -> String {
 /// Every column with its first cells, what it is and in which unit.
 fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
     ui.add(Label::new(tr!("Which column is what? The header is not the program's own: {}.", table.reason)).wrap());
-    ScrollArea::both().id_salt("columns").max_height(HEIGHT).show(ui, |ui| {
+    ScrollArea::both().id_salt("columns").max_height(COLUMNS_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
         Grid::new("columns").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
             for heading in [tr!("Column"), tr!("First rows"), tr!("Meaning"), tr!("Unit")] {
                 ui.strong(heading);

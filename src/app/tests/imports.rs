@@ -56,7 +56,7 @@ fn ellipsometry_asks_for_a_wavelength_and_becomes_specular_dolp() {
     assert_eq!(explorer.document.measurement.metadata("imported_from"), Some("al.dat"));
     assert_eq!(explorer.document.wavelength_nm(), Some(600.0));
     assert!(explorer.document.sha256.is_some() && explorer.window.recent[0].ends_with("al.dat"));
-    assert!(explorer.notice.as_deref().is_some_and(|notice| notice.contains("not applied to DoLP")));
+    assert!(explorer.notices.text().is_some_and(|notice| notice.contains("not applied to DoLP")));
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn a_foreign_table_is_guessed_shown_and_opened() {
     let row = explorer(&mut harness).document.measurement.rows[0];
     let (theta_r, dolp) = (row.geometry.theta_r().0, row.dolp.expect("a DoLP").value);
     assert!((theta_r - 0.5_f64.to_degrees()).abs() < 1e-12 && (dolp - 0.125).abs() < 1e-15);
-    assert!(explorer(&mut harness).notice.as_deref().is_some_and(|notice| notice.contains("Sample, note")));
+    assert!(explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("Sample, note")));
 }
 
 #[test]
@@ -134,6 +134,35 @@ fn columns_without_a_guess_are_named_by_hand() {
     assert_eq!(question(&mut harness).find(Field::Dolp).map(|column| column.unit), Some(Unit::Percent));
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("letters.csv".to_owned(), 2, false));
+}
+
+#[test]
+fn the_question_stays_where_it_is_and_as_large_as_it_is() {
+    let area = |harness: &Harness<'static, Option<Explorer>>| {
+        harness.ctx.memory(|memory| memory.area_rect(egui::Id::unique("import"))).expect("a question")
+    };
+    // Nothing is guessed; then what is chosen fails, with a long sentence; then it succeeds, with rows.
+    let (mut harness, _folder) = opened("letters.csv", b"a,b,c,d\n30,20,12,1\n30,40,14,1\n");
+    let before = area(&harness);
+    for text in [
+        "theta_i=1",
+        "theta_i=1,theta_r=2,dolp=3,brdf=4",
+        "theta_i=1,theta_r=2:radians,dolp=3:percent",
+        "theta_i=1,theta_r=2,dolp=3:percent,brdf=4",
+    ] {
+        explorer(&mut harness).import.as_mut().expect("a question").choice = Choice::Table(Mapping::from_text(text).expect("a mapping"));
+        harness.run();
+        assert_eq!(area(&harness), before, "{text}");
+    }
+    assert!(harness.query_by_label_contains("as they will be").is_some());
+    let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
+    let before = area(&harness);
+    let import = explorer(&mut harness).import.as_mut().expect("a question");
+    let Choice::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
+    (slices.theta_i.from, slices.theta_i.to, slices.dphi) = (30.0, 30.0, 90.0);
+    harness.run();
+    assert_eq!(area(&harness), before);
+    assert!(harness.ctx.content_rect().contains_rect(before));
 }
 
 #[test]
@@ -171,7 +200,7 @@ fn damaged_files_are_refused_with_a_sentence() {
     ] {
         let (mut harness, _folder) = opened(name, contents);
         assert_eq!(state(&mut harness), (OWN.to_owned(), 27, false), "{name}");
-        let notice = explorer(&mut harness).notice.clone().expect("a notice");
+        let notice = explorer(&mut harness).notices.text().expect("a notice");
         assert!(notice.contains(part) && notice.contains(name), "{notice}");
     }
 }
