@@ -1,6 +1,7 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
 use super::document::EXAMPLES;
+use super::help::Help;
 use super::language::{self, Language};
 use super::leaving::{Outgoing, PLOTS};
 use super::panes::{PANES, Pane};
@@ -26,6 +27,12 @@ pub enum Command {
     ChooseSave,
     /// Write the measurement, masks and all, into that file.
     SaveMeasurement(PathBuf),
+    /// The same into a new file; asks if there is one already.
+    SaveNew(PathBuf),
+    /// Write in the place of the file that is asked about.
+    Replace,
+    /// Leave it as it is.
+    KeepFile,
     /// Ask the desktop for a session.
     ChooseSession,
     OpenSession(PathBuf),
@@ -34,6 +41,8 @@ pub enum Command {
     /// Ask the desktop where to write that.
     ChooseExport(Outgoing),
     Export(Outgoing, PathBuf),
+    /// The same into a new file; asks if there is one already.
+    ExportNew(Outgoing, PathBuf),
     /// The plot of a pane to the clipboard, as an image.
     CopyPlot(Pane),
     /// The measurement to the clipboard, as text.
@@ -59,7 +68,7 @@ pub enum Command {
     UseFit,
     /// The values from before the fit to the sliders.
     Back,
-    DismissNotice,
+    DismissNotices,
     /// Take rows out of every statistic, or back in.
     Mask {
         rows: Vec<usize>,
@@ -107,6 +116,8 @@ pub enum Command {
     SetTheme(Theme),
     SetLanguage(Language),
     OpenPalette,
+    ShowHelp(Help),
+    CloseHelp,
     Quit,
 }
 
@@ -286,8 +297,12 @@ static ENTRIES: &[Entry] = &[
     row(Command::KeepLesson, Menu::Lesson, "Keep what the lesson shows", "Close the lesson and go on from here; your work of before is given up",
         None, |e| only_if(e.lessons.open.is_some())),
     row(Command::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
-    row(Command::DismissNotice, Menu::None, "Dismiss notice", "Away with the sentence above the plots", None,
-        |e| only_if(e.notice.is_some())),
+    row(Command::ShowHelp(Help::FirstSteps), Menu::Help, "First steps…", "From a file to a fit, step by step", plain(Key::F1), always),
+    row(Command::ShowHelp(Help::Words), Menu::Help, "Words…", "What the words and signs of this window mean", None, always),
+    row(Command::ShowHelp(Help::About), Menu::Help, "About pbrdf-explorer…", "Version, licence, the paper of the model, and where settings are kept",
+        None, always),
+    row(Command::DismissNotices, Menu::None, "Dismiss notices", "Away with the sentences over the plots", plain(Key::Escape),
+        |e| only_if(!e.notices.is_empty())),
 ];
 
 /// A command without keys.
@@ -400,6 +415,9 @@ pub fn pressed(explorer: &Explorer, ctx: &egui::Context) -> Option<Command> {
         return None;
     }
     let mut items = items(explorer);
+    // Escape leaves what lies above first, and is nobody's while there is nothing to dismiss.
+    let is_covered = ctx.memory(|memory| memory.top_modal_layer().is_some()) || egui::Popup::is_any_open(ctx);
+    items.retain(|item| item.command != Command::DismissNotices || (item.status == Status::Possible && !is_covered));
     // The longer shortcut first: egui takes the shorter one for a part of it.
     items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
     let hit = |item: &Item| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));

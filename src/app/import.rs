@@ -77,8 +77,11 @@ impl Explorer {
     /// Puts a measurement that was read in the place of the one that is open.
     pub(super) fn loaded(&mut self, origin: Origin, imported: Imported) {
         let Origin { name, path, sha256 } = origin;
-        self.notice = None;
-        path.iter().for_each(|path| self.window.remember(path));
+        self.notices.clear();
+        if let Some(path) = &path {
+            self.typed.served(path);
+            self.window.remember(path);
+        }
         let about = imported.notices.join(" ");
         if !about.is_empty() {
             self.say(format!("{name}: {about}"));

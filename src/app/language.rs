@@ -195,7 +195,7 @@ mod tests {
     }
 
     /// What shows a text: a literal right behind it is not translated.
-    const CALLS: [&str; 16] = [
+    const CALLS: [&str; 17] = [
         ".label(\"",
         ".weak(\"",
         ".strong(\"",
@@ -212,6 +212,7 @@ mod tests {
         "CollapsingHeader::new(\"",
         ".collapsing(\"",
         ".say(\"",
+        ".say_briefly(\"",
     ];
 
     /// The sources of the window with their names, without this file and the tests.

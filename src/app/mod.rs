@@ -9,10 +9,12 @@ mod command;
 mod contours;
 mod curves;
 mod derived;
+mod dialogs;
 mod document;
 mod fit_account;
 mod frame_times;
 mod heap;
+mod help;
 mod history;
 mod import;
 mod language;
@@ -21,6 +23,7 @@ mod layout;
 mod leaving;
 mod lessons;
 mod memo;
+mod notices;
 mod palette;
 mod panels;
 mod panes;
@@ -38,6 +41,7 @@ mod store;
 #[cfg(test)]
 mod tests;
 mod theme;
+mod typed;
 mod views;
 mod window;
 mod words;
@@ -65,7 +69,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         STARTED.store(true, Ordering::Relaxed);
         let mut explorer = Explorer::new(&context.egui_ctx, stored);
         explorer.settings_file = store::path();
-        explorer.worker.ask = worker::ask_desktop;
+        explorer.worker.ask = dialogs::ask_desktop;
         if let Some(notice) = notice {
             explorer.say(notice);
         }

@@ -3,13 +3,16 @@
 use super::aside::Aside;
 use super::command::{self, Command};
 use super::derived::Derived;
+use super::dialogs::NoDialog;
 use super::document::{Document, EXAMPLES, Mask};
 use super::frame_times::FrameTimes;
+use super::help::Help;
 use super::history::History;
 use super::import::Import;
 use super::latest_job::Background;
 use super::layout::Layout;
 use super::lessons::{self, Lessons};
+use super::notices::Notices;
 use super::palette::{Palette, palette_ui};
 use super::panes::{Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
@@ -18,6 +21,7 @@ use super::reading::Arrived;
 use super::reports::Reports;
 use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Stored, Theme, WindowSettings};
+use super::typed::{Replacing, Typed};
 use super::views::Views;
 use super::worker::{Event, Rung, Worker};
 use super::working::Working;
@@ -65,10 +69,12 @@ pub struct Explorer {
     pub outlook_is_shown: bool,
     /// Where the last refit left the sliders: what differs from it was moved since.
     pub(super) refitted: Option<Parameters>,
-    pub notice: Option<String>,
+    pub notices: Notices,
     pub views: Views,
     pub panes: Panes,
     pub palette: Palette,
+    /// The page of help that is open.
+    pub help: Option<Help>,
     /// A foreign file that waits for a choice.
     pub import: Option<Import>,
     pub lessons: Lessons,
@@ -78,10 +84,10 @@ pub struct Explorer {
     pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub dragging: bool,
-    /// A path typed by hand, where there is no file dialog.
-    pub typed_path: String,
-    /// A path to export to, typed by hand.
-    pub typed_export: String,
+    /// Paths typed by hand, where there is no file dialog.
+    pub typed: Typed,
+    /// A file that is asked about before it is replaced.
+    pub replacing: Option<Replacing>,
     /// The file of the session that is open.
     pub session_file: Option<PathBuf>,
     /// Where the working state goes; nowhere in tests.
@@ -90,8 +96,6 @@ pub struct Explorer {
     pub(super) autosaved: Option<Working>,
     /// Since when it is another one.
     pub(super) unsaved_since: Option<Instant>,
-    /// The same for a place to save.
-    pub typed_save_path: String,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
     generation: u64,
@@ -127,21 +131,21 @@ impl Explorer {
             history: History::default(),
             outlook_is_shown: false,
             refitted: None,
-            notice: None,
+            notices: Notices::default(),
             views: Views::default(),
             palette: Palette::default(),
+            help: None,
             import: None,
             lessons: Lessons::default(),
             aside: None,
             background: Background::new(ctx),
             dragging: false,
-            typed_path: String::new(),
-            typed_export: String::new(),
+            typed: Typed::default(),
+            replacing: None,
             session_file: None,
             working_file: None,
             autosaved: None,
             unsaved_since: None,
-            typed_save_path: String::new(),
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
             generation: 0,
@@ -169,13 +173,9 @@ impl Explorer {
         faults.into_iter().for_each(|sentence| self.say(sentence));
     }
 
-    /// Shows a sentence above the plots.
+    /// Shows a sentence over the plots until it is dismissed.
     pub fn say(&mut self, sentence: String) {
-        // One that nobody has dismissed yet stays.
-        self.notice = match self.notice.take() {
-            Some(before) if before != sentence => Some(format!("{before}\n{sentence}")),
-            _ => Some(sentence),
-        };
+        self.notices.say(sentence);
     }
 
     /// Puts a measurement in the place of the one that is open.
@@ -254,12 +254,8 @@ impl Explorer {
 
     pub(super) fn receive(&mut self, event: Event) {
         match event {
-            Event::Chosen(path) => self.commands.extend(path.map(Command::OpenMeasurement)),
-            Event::ChosenSave(path) => self.commands.extend(path.map(Command::SaveMeasurement)),
-            Event::ChosenSession(path) => self.commands.extend(path.map(Command::OpenSession)),
-            Event::ChosenExport(what, path) => {
-                self.commands.extend(path.map(|path| Command::Export(what, what.with_ending(path))));
-            }
+            Event::Answered(question, Ok(path)) => self.commands.extend(path.map(|path| question.command(path))),
+            Event::Answered(question, Err(NoDialog)) => self.say(question.without_dialog()),
             Event::Exported(what, result) => self.exported(what, result),
             Event::Autosaved(result) => {
                 if let Err(sentence) = result {
@@ -268,10 +264,16 @@ impl Explorer {
                 }
             }
             Event::SessionRead { path, result } => self.session_read(&path, result),
-            Event::Saved(Ok(path)) => self.say(tr!("The measurement is saved to {}.", path.display())),
+            Event::Saved(Ok(path)) => {
+                self.typed.served(&path);
+                self.notices.say_briefly(tr!("The measurement is saved to {}.", path.display()));
+            }
             Event::Saved(Err(sentence)) => self.say(sentence),
             Event::Loaded { origin, result: Ok(Arrived::Measurement(imported)) } => self.loaded(origin, *imported),
-            Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => self.import = Some(Import::new(origin, foreign)),
+            Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => {
+                origin.path.iter().for_each(|path| self.typed.served(path));
+                self.import = Some(Import::new(origin, foreign));
+            }
             Event::Loaded { origin, result: Err(sentence) } => {
                 origin.path.iter().for_each(|path| self.window.forget(path));
                 self.say(sentence);
@@ -355,24 +357,24 @@ impl Explorer {
         self.worker.start_comparison(problems, self.settings.starts, self.settings.seed)
     }
 
-    fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+    pub(super) fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         match command {
-            Command::ChooseMeasurement => self.worker.choose()?,
+            Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
+                self.choose(&command)?;
+            }
             Command::OpenMeasurement(path) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
                 self.worker.open_session(path)?;
             }
             Command::OpenMeasurement(path) => self.worker.open(path)?,
-            Command::ChooseSession => self.worker.choose_session()?,
             Command::OpenSession(path) => self.worker.open_session(path)?,
-            Command::SaveSession => self.save_session()?,
-            Command::ChooseExport(what) => self.choose_export(what)?,
+            Command::SaveSession => self.save_session(ctx)?,
             Command::Export(what, path) => {
                 let write = what.taken_from(self)?;
                 self.worker.export(what, path, write)?;
             }
             Command::CopyPlot(pane) => ctx.copy_image(leaving::image(self, pane)?),
             Command::CopyTable => self.copy_table(ctx)?,
-            Command::ChooseSave => self.worker.choose_save(self.document.file_name())?,
+            Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
             Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
                 self.document.set_masked(&rows, masked);
@@ -389,7 +391,7 @@ impl Explorer {
             Command::CancelFit => self.worker.fit.iter().for_each(super::worker::Job::cancel),
             Command::UseFit => self.use_fit(),
             Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
-            Command::DismissNotice => self.notice = None,
+            Command::DismissNotices => self.notices.clear(),
             Command::Undo => {
                 let step = self.history.undo();
                 self.go_to(step);
@@ -426,6 +428,8 @@ impl Explorer {
             Command::ResetLayout => self.panes = Panes::new(&Layout::default()),
             Command::ForgetRecent => self.window.recent.clear(),
             Command::OpenPalette => self.palette.open(),
+            Command::ShowHelp(page) => self.help = Some(page),
+            Command::CloseHelp => self.help = None,
             Command::SetLanguage(language) => self.window.language = language,
             Command::SetTheme(theme) => {
                 self.window.theme = theme;
@@ -641,13 +645,15 @@ impl Explorer {
             .min_size(250.0)
             .show(ui, |ui| panels::fit_ui(self, ui));
         egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
-            panels::notice_ui(self, ui);
-            panels::fault_ui(self, ui);
             panels::lesson_panel(self, ui);
+            let room = ui.available_rect_before_wrap();
             panes_ui(self, ui);
+            panels::notices_ui(self, ui, room);
         });
         palette_ui(self, ui);
         panels::import_ui(self, ui);
+        panels::replace_ui(self, ui);
+        panels::help_ui(self, ui);
     }
 }
 

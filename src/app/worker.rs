@@ -1,8 +1,9 @@
-//! Work that is not done on the window's thread: dialogs, reading, fitting.
+//! Work that is not done on the window's thread: waiting for dialogs, reading, fitting.
 //!
 //! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
 //! that was replaced meanwhile are dropped by its number.
 
+use super::dialogs::{Answer, Question};
 use super::document::{Document, Mask};
 use super::import::Origin;
 use super::leaving::{Outgoing, Write};
@@ -28,17 +29,11 @@ use tr::tr;
 
 /// What a job has come to.
 pub enum Event {
-    /// A file was chosen, or none.
-    Chosen(Option<PathBuf>),
-    /// A place to save was chosen, or none.
-    ChosenSave(Option<PathBuf>),
+    /// A path was chosen in a dialog, or none.
+    Answered(Question, Answer),
     /// A measurement was written there, or why not.
     Saved(Result<PathBuf, String>),
-    /// A session was chosen, or none.
-    ChosenSession(Option<PathBuf>),
-    /// A place for an export was chosen, or none.
-    ChosenExport(Outgoing, Option<PathBuf>),
-    /// It was written there, or why not.
+    /// An export was written there, or why not.
     Exported(Outgoing, Result<PathBuf, String>),
     /// The working state was written, or why not.
     Autosaved(Result<(), String>),
@@ -162,36 +157,7 @@ pub struct Worker {
     pub scan: Option<Job<()>>,
     dialog: Option<u64>,
     /// Asks for a path; no dialog where there is nobody to answer it.
-    pub ask: fn(Question) -> Option<PathBuf>,
-}
-
-/// What a dialog asks for.
-pub enum Question {
-    /// The measurement to open.
-    Open,
-    /// Where to save the measurement, with a name to begin with.
-    Save(String),
-    /// The session to open.
-    OpenSession,
-    /// Where to write an export, with a name to begin with and the endings there are.
-    Export(String, &'static [&'static str]),
-}
-
-/// Asks in a dialog of the desktop, and waits for the answer.
-pub fn ask_desktop(question: Question) -> Option<PathBuf> {
-    let dialog = rfd::FileDialog::new();
-    match question {
-        Question::Open => {
-            let dialog = dialog.set_title(tr!("Open measurement")).add_filter(tr!("Measurements"), &["csv", "tsv", "txt", "dat", "pbsdf"]);
-            dialog.add_filter(tr!("All files"), &["*"]).pick_file()
-        }
-        Question::OpenSession => dialog.set_title(tr!("Open session")).add_filter(tr!("Sessions"), &["json"]).pick_file(),
-        Question::Export(name, endings) => endings
-            .iter()
-            .fold(dialog.set_title(tr!("Export")).set_file_name(name), |dialog, ending| dialog.add_filter(*ending, &[*ending]))
-            .save_file(),
-        Question::Save(name) => dialog.set_title(tr!("Save measurement as")).add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
-    }
+    pub ask: fn(Question) -> Answer,
 }
 
 /// What a job tells its progress to.
@@ -231,7 +197,7 @@ impl Worker {
             session: None,
             scan: None,
             dialog: None,
-            ask: |_| None,
+            ask: |_| Ok(None),
         }
     }
 
@@ -258,42 +224,11 @@ impl Worker {
         }
     }
 
-    /// Asks the desktop for a file.
-    pub fn choose(&mut self) -> Result<(), String> {
+    /// Asks the desktop, one question at a time.
+    pub fn ask(&mut self, question: Question) -> Result<(), String> {
         if self.dialog.is_none() {
             let ask = self.ask;
-            let job: Job<()> = self.spawn("choose file", move |_, _| Event::Chosen(ask(Question::Open)))?;
-            self.dialog = Some(job.number);
-        }
-        Ok(())
-    }
-
-    /// Asks the desktop where to save, with a name to begin with.
-    pub fn choose_save(&mut self, name: String) -> Result<(), String> {
-        if self.dialog.is_none() {
-            let ask = self.ask;
-            let job: Job<()> = self.spawn("choose where to save", move |_, _| Event::ChosenSave(ask(Question::Save(name))))?;
-            self.dialog = Some(job.number);
-        }
-        Ok(())
-    }
-
-    /// Asks the desktop for a session.
-    pub fn choose_session(&mut self) -> Result<(), String> {
-        if self.dialog.is_none() {
-            let ask = self.ask;
-            let job: Job<()> = self.spawn("choose session", move |_, _| Event::ChosenSession(ask(Question::OpenSession)))?;
-            self.dialog = Some(job.number);
-        }
-        Ok(())
-    }
-
-    /// Asks the desktop where to write an export, with a name to begin with.
-    pub fn choose_export(&mut self, what: Outgoing, name: String) -> Result<(), String> {
-        if self.dialog.is_none() {
-            let ask = self.ask;
-            let question = Question::Export(name, what.extensions());
-            let job: Job<()> = self.spawn("choose where to export", move |_, _| Event::ChosenExport(what, ask(question)))?;
+            let job: Job<()> = self.spawn("dialog", move |_, _| Event::Answered(question.clone(), ask(question)))?;
             self.dialog = Some(job.number);
         }
         Ok(())
@@ -520,9 +455,7 @@ impl Worker {
                 Event::Exported(..) => self.export.take_if(|job| job.number == number).is_some(),
                 Event::Autosaved(_) => self.autosave.take_if(|job| job.number == number).is_some(),
                 Event::SessionRead { .. } => self.session.take_if(|job| job.number == number).is_some(),
-                Event::Chosen(_) | Event::ChosenSave(_) | Event::ChosenSession(_) | Event::ChosenExport(..) => {
-                    self.dialog.take_if(|dialog| *dialog == number).is_some()
-                }
+                Event::Answered(..) => self.dialog.take_if(|dialog| *dialog == number).is_some(),
                 Event::Profiled(_) | Event::Scattered { .. } => self.scan.take_if(|job| job.number == number).is_some(),
                 // One at a time, and never replaced: each one matters.
                 Event::Reported { .. } => true,

@@ -78,28 +78,17 @@ impl Explorer {
         }
     }
 
-    pub fn save_session(&mut self) -> Result<(), String> {
-        match self.session_file.clone() {
-            Some(path) => self.commands.push(Command::Export(Outgoing::Session, path)),
-            None => self.choose_export(Outgoing::Session)?,
-        }
-        Ok(())
-    }
-
-    /// Asks where to, unless a path was typed.
-    pub fn choose_export(&mut self, what: Outgoing) -> Result<(), String> {
-        let typed = std::mem::take(&mut self.typed_export);
-        if typed.trim().is_empty() {
-            return self.worker.choose_export(what, what.file_name(self));
-        }
-        self.commands.push(Command::Export(what, what.with_ending(PathBuf::from(typed.trim()))));
-        Ok(())
+    pub fn save_session(&mut self, ctx: &egui::Context) -> Result<(), String> {
+        let what = Outgoing::Session;
+        let command = self.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
+        self.carry_out(ctx, command)
     }
 
     pub fn exported(&mut self, what: Outgoing, result: Result<PathBuf, String>) {
         match result {
             Ok(path) => {
-                self.say(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
+                self.typed.served(&path);
+                self.notices.say_briefly(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
                 // What was saved out of a lesson is no file of the work that comes back.
                 if what == Outgoing::Session && self.aside.is_none() {
                     self.session_file = Some(path);
@@ -114,7 +103,8 @@ impl Explorer {
         let is_working = self.working_file.as_deref() == Some(path);
         match result {
             Ok(opened) => {
-                self.notice = None;
+                self.notices.clear();
+                self.typed.served(path);
                 self.show_session(*opened);
                 self.session_file = (!is_working).then(|| path.to_owned());
                 if is_working {

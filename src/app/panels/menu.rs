@@ -1,62 +1,104 @@
 //! The menu bar: the table of commands, sorted into menus.
 
 use crate::app::command::{self, Command, Item, Menu, Status};
-use crate::app::leaving::Outgoing;
+use crate::app::typed::path_in;
 use crate::app::window::Explorer;
-use egui::Ui;
-use std::path::PathBuf;
+use egui::containers::menu::MenuConfig;
+use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
 
 pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    // A click into the path field must not close the menu that it is in.
-    let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-    egui::MenuBar::new().config(config).ui(ui, |ui| {
-        ui.menu_button(tr!("File"), |ui| file_ui(explorer, ui));
+    egui::MenuBar::new().ui(ui, |ui| {
+        bar_menu_ui(tr!("File"), ui, |ui| file_ui(explorer, ui));
         for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
-            ui.menu_button(name, |ui| {
+            bar_menu_ui(name, ui, |ui| {
                 let items = command::items(explorer);
                 items_ui(&items, menu, &mut explorer.commands, ui);
             });
         }
-        ui.menu_button(tr!("View"), |ui| view_ui(explorer, ui));
-        ui.menu_button(tr!("Lessons"), |ui| {
+        bar_menu_ui(tr!("View"), ui, |ui| view_ui(explorer, ui));
+        bar_menu_ui(tr!("Lessons"), ui, |ui| {
             let items = command::items(explorer);
             items_ui(&items, Menu::Lesson, &mut explorer.commands, ui);
         });
-        ui.menu_button(tr!("Help"), |ui| {
+        bar_menu_ui(tr!("Help"), ui, |ui| {
             let items = command::items(explorer);
             items_ui(&items, Menu::Help, &mut explorer.commands, ui);
         });
     });
 }
 
+/// The menu of the bar that is open.
+#[derive(Clone, Copy, PartialEq)]
+struct Open {
+    menu: Id,
+    /// Whether it opened under the pointer alone, because a neighbour was open.
+    by_hover: bool,
+}
+
+/// A menu of the bar, as egui's own, except that a click on the title of one that opened under the pointer does not close it again: the
+/// click was meant to open it.
+fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    let button = ui.button(title);
+    let popup = Popup::menu(&button);
+    let (menu, bar) = (popup.get_id(), Id::unique("menu bar"));
+    let before: Option<Open> = ui.data(|data| data.get_temp(bar)).filter(|open: &Open| Popup::is_id_open(ui.ctx(), open.menu));
+    let stays = button.clicked() && before == Some(Open { menu, by_hover: true });
+    let opens = !button.clicked() && button.hovered() && before.is_some_and(|open| open.menu != menu);
+    let set = match button.clicked() {
+        true if !stays => Some(SetOpenCommand::Toggle),
+        _ => (stays || opens).then_some(SetOpenCommand::Bool(true)),
+    };
+    if set.is_some() {
+        ui.data_mut(|data| data.insert_temp(bar, Open { menu, by_hover: opens }));
+    }
+    // A click into the path field must not close the menu that it is in.
+    let behavior = if stays { PopupCloseBehavior::IgnoreClicks } else { PopupCloseBehavior::CloseOnClickOutside };
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let info = UiStackInfo::new(UiKind::Menu).with_tag_value(MenuConfig::MENU_CONFIG_TAG, config);
+    popup.open_memory(set).close_behavior(behavior).info(info).show(content);
+}
+
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let items = command::items(explorer);
-    let Explorer { commands, typed_path, typed_export, typed_save_path, window, .. } = explorer;
+    let Explorer { commands, typed, window, .. } = explorer;
     ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
         ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, commands, ui));
     });
     ui.menu_button(tr!("Export"), |ui| {
-        items_ui(&items, Menu::Export, commands, ui);
+        let mut chosen = Vec::new();
+        items_ui(&items, Menu::Export, &mut chosen, ui);
+        commands.extend(chosen.into_iter().map(|command| match command {
+            Command::ChooseExport(what) => typed.export_command(what).unwrap_or(command),
+            other => other,
+        }));
         ui.separator();
         let label = ui.label(tr!("Or type a path first, and then choose above:"));
-        ui.add(egui::TextEdit::singleline(typed_export).desired_width(260.0)).labelled_by(label.id);
+        ui.add(egui::TextEdit::singleline(&mut typed.export).desired_width(260.0)).labelled_by(label.id);
     });
     let label = ui.label(tr!("Type a path to open and press Enter:"));
-    let field = ui.add(egui::TextEdit::singleline(typed_path).desired_width(260.0)).labelled_by(label.id);
-    if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_path.trim().is_empty() {
-        commands.push(Command::OpenMeasurement(PathBuf::from(typed_path.trim())));
+    let field = ui.add(egui::TextEdit::singleline(&mut typed.open).desired_width(260.0)).labelled_by(label.id);
+    if is_entered(&field, ui)
+        && let Some(path) = path_in(&typed.open)
+    {
+        commands.push(Command::OpenMeasurement(path));
         ui.close();
     }
     let label = ui.label(tr!("Save to a path (.csv the measurement, .json the session), Enter:"));
-    let field = ui.add(egui::TextEdit::singleline(typed_save_path).desired_width(260.0)).labelled_by(label.id);
-    if field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) && !typed_save_path.trim().is_empty() {
-        commands.push(save_command(PathBuf::from(typed_save_path.trim())));
+    let field = ui.add(egui::TextEdit::singleline(&mut typed.save).desired_width(260.0)).labelled_by(label.id);
+    if is_entered(&field, ui)
+        && let Some(command) = typed.save_command()
+    {
+        commands.push(command);
         ui.close();
     }
     ui.separator();
     items_ui(&items, Menu::File, commands, ui);
+}
+
+fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
+    field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))
 }
 
 fn view_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -87,27 +129,6 @@ fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui
         if clicked.on_hover_text(item.tooltip.as_ref()).clicked() {
             commands.push(item.command.clone());
             ui.close();
-        }
-    }
-}
-
-/// What a typed path is saved as: a session where it ends in .json, else the measurement.
-fn save_command(path: PathBuf) -> Command {
-    let is_session = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-    if is_session { Command::Export(Outgoing::Session, path) } else { Command::SaveMeasurement(path) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Command, Outgoing, save_command};
-
-    #[test]
-    fn a_typed_path_says_by_its_ending_what_is_saved() {
-        for name in ["a.pbrdf.json", "a.JSON"] {
-            assert_eq!(save_command(name.into()), Command::Export(Outgoing::Session, name.into()));
-        }
-        for name in ["a.csv", "a", "a.json.csv"] {
-            assert_eq!(save_command(name.into()), Command::SaveMeasurement(name.into()));
         }
     }
 }

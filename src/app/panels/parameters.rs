@@ -3,6 +3,7 @@
 use super::beside::Beside as _;
 use crate::app::language::translated;
 use crate::app::lessons::Lessons;
+use crate::app::notices::Notices;
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -14,15 +15,15 @@ use std::ops::RangeInclusive;
 use tr::tr;
 
 pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, notice, lessons, .. } = explorer;
+    let Explorer { settings, notices, lessons, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);
         bounds_switch_ui(settings, ui);
         ui.separator();
-        specular_ui(settings, notice, lessons, ui);
-        diffuse_ui(settings, notice, lessons, ui);
-        volume_ui(settings, notice, lessons, ui);
+        specular_ui(settings, notices, lessons, ui);
+        diffuse_ui(settings, notices, lessons, ui);
+        volume_ui(settings, notices, lessons, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
         if ui.button(tr!("Reset all parameters")).on_hover_beside(ui, tr!("All nine parameters to their defaults")).clicked() {
@@ -68,7 +69,7 @@ fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
     });
 }
 
-fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
+fn specular_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
             .on_hover_beside(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
@@ -90,12 +91,12 @@ fn specular_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &L
         if settings.model.distribution == SlopeDistribution::Cauchy {
             shown.push(Parameter::Q);
         }
-        sliders_ui(settings, notice, lessons, ui, "specular", &shown);
+        sliders_ui(settings, notices, lessons, ui, "specular", &shown);
     }
     ui.separator();
 }
 
-fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
+fn diffuse_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
     let switch =
         ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_beside(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
@@ -114,16 +115,16 @@ fn diffuse_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Le
             Diffuse::Lambert => &[Parameter::Kd],
             Diffuse::Minnaert => &[Parameter::Kd, Parameter::C],
         };
-        sliders_ui(settings, notice, lessons, ui, "diffuse", shown);
+        sliders_ui(settings, notices, lessons, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
-fn volume_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui) {
+fn volume_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
     ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
         .on_hover_beside(ui, tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
     if settings.model.volume {
-        sliders_ui(settings, notice, lessons, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+        sliders_ui(settings, notices, lessons, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
     ui.separator();
 }
@@ -168,13 +169,13 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
     twice && responses.iter().any(|response| response.contains_pointer())
 }
 
-fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Lessons, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+fn sliders_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(settings, notice, lessons.range(parameter), ui, parameter);
+            slider_ui(settings, notices, lessons.range(parameter), ui, parameter);
             ui.end_row();
             if settings.show_bounds {
-                bounds_ui(settings, notice, ui, parameter);
+                bounds_ui(settings, notices, ui, parameter);
                 ui.end_row();
             }
         }
@@ -182,7 +183,7 @@ fn sliders_ui(settings: &mut Settings, notice: &mut Option<String>, lessons: &Le
 }
 
 /// Name, slider, typed value with unit, lock, reset.
-fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
+fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it.",
@@ -245,7 +246,7 @@ fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, range: RangeI
     );
 
     if let Some(sentence) = refused.into_inner() {
-        *notice = Some(sentence);
+        notices.say(sentence);
     }
     let mut locked = settings.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_beside(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
@@ -272,7 +273,7 @@ fn slider_ui(settings: &mut Settings, notice: &mut Option<String>, range: RangeI
 }
 
 /// The lower bound under the slider, the upper one under the value.
-fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, parameter: Parameter) {
+fn bounds_ui(settings: &mut Settings, notices: &mut Notices, ui: &mut Ui, parameter: Parameter) {
     let (low, high) = settings.bounds_of(parameter);
     let own = settings.has_own_bounds(parameter);
     let color = if own { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
@@ -310,10 +311,10 @@ fn bounds_ui(settings: &mut Settings, notice: &mut Option<String>, ui: &mut Ui, 
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
     {
-        *notice = Some(tr!("The bounds stay as they are: {}.", error));
+        notices.say(tr!("The bounds stay as they are: {}.", error));
     }
     if let Some(sentence) = refused.into_inner() {
-        *notice = Some(sentence);
+        notices.say(sentence);
     }
     ui.label("");
     let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_beside(ui, tr!("back to the slider's range"));

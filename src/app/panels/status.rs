@@ -1,10 +1,18 @@
-//! The line under the plots, and sentences above them.
+//! The line under the plots, and sentences over them.
 
 use crate::app::command::Command;
+use crate::app::notices::Notices;
 use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words;
+use egui::accesskit::Live;
+use egui::{Label, RichText};
+use std::time::Duration;
 use tr::tr;
+
+/// Widest and highest that sentences get.
+const WIDTH: f32 = 640.0;
+const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
@@ -45,23 +53,52 @@ pub fn delta_e_text(delta_e: Option<f64>) -> String {
     delta_e.map_or_else(|| tr!("ΔE not defined"), |value| format!("ΔE = {value:.4e}"))
 }
 
-/// What went wrong, until it is dismissed.
-pub fn notice_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Some(notice) = &explorer.notice else { return };
-    let color = theme::warning(ui.visuals().dark_mode);
-    egui::Frame::new().stroke(egui::Stroke::new(1.0, color)).inner_margin(6).corner_radius(4).show(ui, |ui| {
-        ui.horizontal(|ui| {
-            if ui.button(tr!("Dismiss")).clicked() {
-                explorer.commands.push(Command::DismissNotice);
+/// What there is to say, over the foot of the plots: they stay where they are.
+pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
+    let Explorer { notices, commands, derived, .. } = explorer;
+    let now = ui.input(|input| input.time);
+    if let Some(seconds) = notices.rest(now) {
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
+    }
+    let fault = derived.fault().map(|fault| tr!("There is no curve: {}", fault));
+    if notices.is_empty() && fault.is_none() {
+        return;
+    }
+    let width = WIDTH.min(room.width() - 40.0);
+    let area = egui::Area::new(egui::Id::unique("notices")).order(egui::Order::Middle).pivot(egui::Align2::CENTER_BOTTOM);
+    area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room).show(ui.ctx(), |ui| {
+        let warning = theme::warning(ui.visuals().dark_mode);
+        let is_brief = fault.is_none() && notices.iter().all(|notice| notice.is_brief);
+        let color = if is_brief { ui.visuals().widgets.noninteractive.fg_stroke.color } else { warning };
+        egui::Frame::popup(ui.style()).stroke(egui::Stroke::new(1.0, color)).show(ui, |ui| {
+            ui.set_width(width);
+            if let Some(fault) = fault {
+                ui.add(Label::new(RichText::new(fault).color(warning)).wrap());
             }
-            ui.add(egui::Label::new(notice.as_str()).wrap());
+            if !notices.is_empty() {
+                sentences_ui(notices, commands, ui);
+            }
         });
     });
 }
 
-/// Why there is no curve.
-pub fn fault_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    if let Some(fault) = explorer.derived.fault() {
-        ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("There is no curve: {}", fault));
-    }
+/// The sentences, and the button that sends them away.
+fn sentences_ui(notices: &Notices, commands: &mut Vec<Command>, ui: &mut egui::Ui) {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
+        if ui.button(tr!("Dismiss")).on_hover_text(tr!("Also with Escape")).clicked() {
+            commands.push(Command::DismissNotices);
+        }
+        ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
+            // The newest is in sight; several do not cover the window.
+            egui::ScrollArea::vertical().max_height(HEIGHT).stick_to_bottom(true).auto_shrink([false, true]).show(ui, |ui| {
+                for notice in notices.iter() {
+                    let label = ui.add(Label::new(RichText::new(&notice.text).color(notice.color(ui.visuals()))).wrap());
+                    // Read out without being asked for.
+                    ui.ctx().accesskit_node_builder(label.id, |node| {
+                        node.set_live(if notice.is_brief { Live::Polite } else { Live::Assertive });
+                    });
+                }
+            });
+        });
+    });
 }

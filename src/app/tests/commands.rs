@@ -42,7 +42,7 @@ fn every_command_can_be_carried_out() {
             explorer(&mut harness).commands.push(Command::CancelReport);
         }
         wait(&mut harness);
-        let notice = explorer(&mut harness).notice.take();
+        let notice = explorer(&mut harness).notices.take();
         assert_eq!(notice, None, "{command:?}");
     }
 }
@@ -70,7 +70,7 @@ fn commands_about_what_is_not_there_change_nothing() {
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         assert_eq!(
-            (explorer.notice.take(), &explorer.settings, &explorer.document.measurement.rows),
+            (explorer.notices.take(), &explorer.settings, &explorer.document.measurement.rows),
             (None, &settings, &rows),
             "{command:?}"
         );
@@ -195,7 +195,7 @@ fn parameters_are_copied_and_pasted_as_text() {
     assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
     harness.input_mut().events.push(egui::Event::Paste("what is this".to_owned()));
     harness.run();
-    assert!(explorer(&mut harness).notice.as_deref().expect("a notice").contains("is no set of parameters"));
+    assert!(explorer(&mut harness).notices.text().expect("a notice").contains("is no set of parameters"));
     assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
 }
 
@@ -207,7 +207,7 @@ fn what_is_impossible_is_not_ordered_by_its_keys() {
     assert_eq!(redo.status, Status::Impossible);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run();
-    assert!(explorer(&mut harness).notice.is_none());
+    assert!(explorer(&mut harness).notices.is_empty());
 }
 
 #[test]

@@ -58,13 +58,13 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
         explorer(&mut harness).commands.push(command);
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        let notice = explorer.notice.clone().expect("a notice");
+        let notice = explorer.notices.text().expect("a notice");
         assert!(notice.contains(expected), "{notice}");
         assert_eq!(explorer.document.measurement.rows, rows);
     }
     harness.get_by_label("Dismiss").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).notice, None);
+    assert_eq!(explorer(&mut harness).notices.text(), None);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn every_example_opens_and_says_that_it_is_simulated() {
         explorer(&mut harness).commands.push(Command::OpenExample(index));
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        assert_eq!((explorer.document.name.as_str(), &explorer.notice), (example.name, &None));
+        assert_eq!((explorer.document.name.as_str(), explorer.notices.text()), (example.name, None));
         assert!(explorer.document.description().contains("simulated"));
         assert!(explorer.derived.delta_e().is_some());
     }
@@ -108,7 +108,7 @@ fn a_second_notice_does_not_hide_the_first() {
     let mut harness = harness();
     explorer(&mut harness).say("first".to_owned());
     explorer(&mut harness).say("second".to_owned());
-    assert_eq!(explorer(&mut harness).notice.as_deref(), Some("first\nsecond"));
+    assert_eq!(explorer(&mut harness).notices.text().as_deref(), Some("first\nsecond"));
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_start_outside_the_sliders_is_no_obstacle() {
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.notice, None);
+    assert_eq!(explorer.notices.text(), None);
     assert!(explorer.last_fit.is_some());
 }
 

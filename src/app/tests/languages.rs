@@ -2,6 +2,7 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::{Command, items};
+use crate::app::help::{DOI, Help, PAPER};
 use crate::app::language::{Language, MISSED};
 use crate::app::panes::{PANES, Pane};
 use crate::app::window::Explorer;
@@ -46,12 +47,14 @@ fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
     texts
 }
 
-/// Words that are the same in both languages: names of quantities, people and units, keys of parameters and models, and two texts of the
-/// toolkit that only a screen reader sees.
+/// Words that are the same in both languages: names of quantities, people and units, keys of parameters, columns and models, of licences
+/// and this program, and two texts of the toolkit that only a screen reader sees.
 const SAME: &[&str] = &[
     "AICc",
+    "Apache",
     "BRDF",
     "Beckmann",
+    "CSV",
     "Close",
     "Ctrl",
     "DoLP",
@@ -60,15 +63,20 @@ const SAME: &[&str] = &[
     "Germer",
     "Hyde",
     "Lambert",
+    "MIT",
     "Minnaert",
     "Priest",
     "Resize panel",
     "Thilak",
+    "brdf",
     "cos",
+    "dolp",
     "dpolE",
+    "explorer",
     "rad",
     "sigma_v",
     "sigma",
+    "theta",
 ];
 
 /// Whether something in it is English: an entry of the literature, which has its year, is not translated.
@@ -86,6 +94,15 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
     for entry in &PANES {
         alone(&mut harness, entry.pane);
         english.extend(written(&harness).into_iter().filter(|text| is_english(text)));
+    }
+    for page in [Help::FirstSteps, Help::Words, Help::About] {
+        explorer(&mut harness).commands.push(Command::ShowHelp(page));
+        harness.run();
+        // The paper, which breaks over several lines, is called as it is called.
+        english
+            .extend(written(&harness).into_iter().filter(|text| is_english(text) && !text.contains(DOI) && !PAPER.contains(text.trim())));
+        explorer(&mut harness).commands.push(Command::CloseHelp);
+        harness.run();
     }
     let all = items(explorer(&mut harness));
     english.extend(all.iter().map(|item| item.text.to_string()).filter(|text| is_english(text)));

@@ -187,7 +187,7 @@ fn each_export_writes_its_file_and_says_so() {
     for (what, name) in exports {
         let path = folder.path().join(name);
         order(&mut harness, Command::Export(what, path.clone()));
-        let notice = explorer(&mut harness).notice.take().expect("a sentence");
+        let notice = explorer(&mut harness).notices.take().expect("a sentence");
         assert!(notice.contains("is saved to") && notice.contains(name), "{notice}");
         let bytes = std::fs::read(&path).expect("a file");
         match name.rsplit('.').next() {
@@ -213,7 +213,7 @@ fn a_typed_path_serves_where_there_is_no_dialog() {
     // A submenu opens under the pointer; a click would close it again.
     harness.get_by_label_contains("Export").hover();
     harness.run();
-    explorer(&mut harness).typed_export = path.display().to_string();
+    explorer(&mut harness).typed.export = path.display().to_string();
     harness.run();
     harness.get_by_label_contains("Curves as CSV").click();
     wait(&mut harness);
@@ -226,9 +226,9 @@ fn a_name_of_another_kind_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
     order(&mut harness, Command::Export(Outgoing::Plot(Pane::Dolp), folder.path().join("plot.pdf")));
-    assert!(explorer(&mut harness).notice.take().expect("a sentence").contains(".svg or .png"));
+    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains(".svg or .png"));
     order(&mut harness, Command::Export(Outgoing::Report, folder.path().join("r.html")));
-    assert!(explorer(&mut harness).notice.take().expect("a sentence").contains("no fit yet"));
+    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("no fit yet"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
 

@@ -25,7 +25,7 @@ fn every_step_of_every_lesson_is_shown() {
             wait(&mut harness);
             let heading = explorer(&mut harness).lessons.all[lesson].steps[step].heading.in_language("en").to_owned();
             assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
-            assert_eq!(explorer(&mut harness).notice, None, "{heading}");
+            assert_eq!(explorer(&mut harness).notices.text(), None, "{heading}");
             for name in explorer(&mut harness).lessons.all[lesson].steps[step].panes.clone() {
                 let pane = Pane::try_from(name.clone()).unwrap_or_else(|error| panic!("{heading}: {error}"));
                 assert!(explorer(&mut harness).panes.is_on_screen(pane), "{heading}: {name}");
@@ -70,7 +70,7 @@ fn a_damaged_lesson_is_named_and_the_window_goes_on() {
     let before = explorer(&mut harness).settings.clone();
     explorer(&mut harness).read_lessons(Some(folder.path()));
     harness.run();
-    let notice = explorer(&mut harness).notice.clone().expect("a sentence");
+    let notice = explorer(&mut harness).notices.text().expect("a sentence");
     for part in ["bad.txt is no lesson: line 3", "latin.txt is no lesson: "] {
         assert!(notice.contains(part), "{notice}");
     }

@@ -96,11 +96,11 @@ fn masks_are_saved_and_read_back() {
     assert_eq!(read.rows, explorer.document.measurement.rows);
     assert_eq!(read.metadata, explorer.document.measurement.metadata);
     assert_eq!(read.rows.iter().filter(|row| row.masked).count(), 2);
-    assert!(explorer.notice.as_deref().is_some_and(|notice| notice.contains("saved")));
+    assert!(explorer.notices.text().is_some_and(|notice| notice.contains("saved")));
 
     explorer.commands.push(Command::SaveMeasurement(folder.path().join("no such folder").join("x.csv")));
     wait(&mut harness);
-    assert!(self::explorer(&mut harness).notice.as_deref().is_some_and(|notice| notice.contains("cannot be written")));
+    assert!(self::explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("cannot be written")));
 }
 
 #[test]

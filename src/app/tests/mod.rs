@@ -2,9 +2,11 @@
 
 mod audit;
 mod commands;
+mod dialogs;
 mod files;
 mod fitting;
 mod fuzz;
+mod help;
 mod hemisphere;
 mod imports;
 mod landscape;
@@ -12,8 +14,10 @@ mod languages;
 mod leaving;
 mod lessons;
 mod masks;
+mod menus;
 mod metals;
 mod mueller;
+mod notices;
 mod options;
 mod panes;
 mod places;
@@ -23,6 +27,7 @@ mod scans;
 mod sessions;
 mod sliders;
 mod snapshots;
+mod typed;
 
 use super::state::{Settings, Stored, WindowSettings};
 use super::window::Explorer;

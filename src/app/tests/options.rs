@@ -56,7 +56,7 @@ fn bounds_that_are_none_are_refused_with_a_sentence() {
         harness.get_by_label(field).set_value_accesskit(value);
         harness.run();
         let explorer = explorer(&mut harness);
-        let notice = explorer.notice.take().expect("a sentence");
+        let notice = explorer.notices.take().expect("a sentence");
         assert!(notice.contains(expected), "{notice}");
         assert!(explorer.settings.bounds.is_empty());
     }
@@ -128,7 +128,7 @@ fn weights_without_standard_deviations_are_a_sentence() {
     explorer.settings.choices.weights = Weights::Sigma;
     explorer.commands.push(Command::StartFit);
     harness.run();
-    let notice = self::explorer(&mut harness).notice.clone().expect("a sentence");
+    let notice = self::explorer(&mut harness).notices.text().expect("a sentence");
     assert!(notice.contains("The fit cannot begin") && notice.contains("dolp_sigma"), "{notice}");
 }
 

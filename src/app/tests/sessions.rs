@@ -47,7 +47,7 @@ fn a_session_opens_with_everything_that_was_in_it() {
     let mut after = harness();
     order(&mut after, Command::OpenSession(path.clone()));
     let (before, after) = (explorer(&mut before), explorer(&mut after));
-    assert_eq!(after.notice, None);
+    assert_eq!(after.notices.text(), None);
     assert_eq!(after.settings, before.settings);
     assert_eq!(after.document.measurement.rows, before.document.measurement.rows);
     assert_eq!(after.document.measurement.metadata, before.document.measurement.metadata);
@@ -145,7 +145,7 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     let mut other = harness();
     order(&mut other, Command::OpenMeasurement(path));
     let explorer = explorer(&mut other);
-    assert_eq!(explorer.notice, None);
+    assert_eq!(explorer.notices.text(), None);
     assert_eq!((explorer.settings.parameters.n, explorer.settings.parameters.k), (0.0, 0.0));
     assert!(explorer.last_fit.is_some());
 }
@@ -213,7 +213,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         std::fs::write(&path, &text).expect("a writable folder");
         order(&mut harness, Command::OpenMeasurement(path));
         let explorer = explorer(&mut harness);
-        let notice = explorer.notice.take().expect("a sentence");
+        let notice = explorer.notices.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");
         assert_eq!((&explorer.settings, &explorer.document.measurement.rows), (&before, &rows));
     }
@@ -238,7 +238,7 @@ fn the_working_state_is_kept_and_comes_back() {
     explorer(&mut third).working_file = Some(path.clone());
     explorer(&mut third).resume();
     wait(&mut third);
-    let notice = explorer(&mut third).notice.take().expect("a sentence");
+    let notice = explorer(&mut third).notices.take().expect("a sentence");
     assert!(notice.contains("cannot be restored") && notice.contains("line 1"), "{notice}");
     assert!(folder.path().join("new folder/working.pbrdf.damaged.json").exists());
 }
@@ -252,7 +252,7 @@ fn a_full_disk_leaves_the_old_session() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }
     order(&mut harness, Command::Export(Outgoing::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
-    assert!(explorer(&mut harness).notice.take().expect("a sentence").contains("cannot be written"));
+    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("cannot be written"));
 }
 
 /// How often a saving process is killed.

@@ -1,0 +1,36 @@
+//! The question before a file is replaced.
+
+use crate::app::command::Command;
+use crate::app::window::Explorer;
+use egui::{Label, RichText, Ui};
+use tr::tr;
+
+/// Width of the dialog.
+const WIDTH: f32 = 420.0;
+
+pub fn replace_ui(explorer: &mut Explorer, ui: &mut Ui) {
+    let Explorer { replacing: Some(replacing), commands, .. } = explorer else { return };
+    let name = replacing.path.file_name().unwrap_or_default().to_string_lossy();
+    let response = egui::Modal::new(egui::Id::unique("replace")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH);
+        ui.add(Label::new(RichText::new(tr!("{} exists. Replace it?", name)).strong()).wrap());
+        ui.add(Label::new(RichText::new(replacing.path.display().to_string()).weak()).wrap());
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            if ui.button(tr!("Replace")).clicked() {
+                commands.push(Command::Replace);
+            }
+            let keep = ui.button(tr!("Keep")).on_hover_text(tr!("The file stays as it is, and nothing is written"));
+            if keep.clicked() {
+                commands.push(Command::KeepFile);
+            }
+            // Enter, with which the path was typed, must not answer by itself what cannot be taken back.
+            if ui.memory(|memory| memory.focused().is_none()) {
+                keep.request_focus();
+            }
+        });
+    });
+    if response.should_close() {
+        commands.push(Command::KeepFile);
+    }
+}

@@ -1,0 +1,62 @@
+//! Dialogs of the desktop, where there are some and where there are none.
+
+use crate::app::command::Command;
+use crate::app::dialogs::{Answer, NoDialog, Question, ask_desktop};
+use crate::app::leaving::Outgoing;
+use crate::app::panes::Pane;
+use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::{Command as Process, Stdio};
+
+/// Tells the process below what the desktop of its test is like.
+const DESKTOP: &str = "PBRDF_TEST_DESKTOP";
+
+/// The process that asks on that desktop.
+#[test]
+fn asker() {
+    let expected: Answer = match std::env::var(DESKTOP).as_deref() {
+        Ok("empty") => Err(NoDialog),
+        Ok("cancelled") => Ok(None),
+        Ok(path) => Ok(Some(path.into())),
+        Err(_) => return,
+    };
+    for question in [Question::Open, Question::Save("a.csv".to_owned()), Question::OpenSession] {
+        assert_eq!(ask_desktop(question), expected);
+    }
+}
+
+/// Asks in a process that has no portal and finds that in the place of zenity; whether all is as expected.
+#[cfg(target_os = "linux")]
+fn asked(expected: &str, zenity: Option<&str>) -> bool {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    if let Some(script) = zenity {
+        let path = folder.path().join("zenity");
+        std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("a writable folder");
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o700)).expect("a file of our own");
+    }
+    let status = Process::new(std::env::current_exe().expect("this test"))
+        .args(["app::tests::dialogs::asker", "--exact"])
+        .env(DESKTOP, expected)
+        .env("PATH", folder.path())
+        .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent/bus")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    status.expect("this test again").success()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled() {
+    assert!(asked("empty", None));
+    assert!(asked("cancelled", Some("exit 1")));
+    assert!(asked("/tmp/chosen.csv", Some("echo /tmp/chosen.csv")));
+}
+
+#[test]
+fn an_ending_that_the_desktop_did_not_see_is_asked_about() {
+    let export = |path: &str| Question::Export(Outgoing::Plot(Pane::Dolp), String::new()).command(path.into());
+    assert_eq!(export("/a/plot.png"), Command::Export(Outgoing::Plot(Pane::Dolp), "/a/plot.png".into()));
+    assert_eq!(export("/a/plot"), Command::ExportNew(Outgoing::Plot(Pane::Dolp), Path::new("/a/plot.svg").into()));
+}
