@@ -34,7 +34,7 @@ impl Derived {
     /// What is on screen whatever the panes are: ΔE, and why there is no curve.
     pub fn refresh_status(&mut self, settings: &Settings, document: &Document) {
         let Settings { parameters, model, .. } = *settings;
-        self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err().map(|error| format!("{error}.")));
+        self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err().map(|error| error.to_string()));
         // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
         let eq17 = settings.choices.eq17;
         self.problem.refresh((document.generation, model, eq17), |_| {

@@ -3,12 +3,15 @@
 //! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
 //! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
 //! `tr!("{} rows", count)`. A text that comes out of a table goes through [`translated`]: `translated(parameter.help())`.
+//! A sentence that the core made, an error say, goes through [`phrase`]; its forms stand in `zh_CN.core.po`, with named holes.
 //! Names of parameters, models and files are the same in all languages.
 
+use super::phrases::Phrases;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::HashMap;
+use std::sync::OnceLock;
 use tr::{Translator, tr};
 
 /// A language of the window.
@@ -46,22 +49,31 @@ impl Language {
 }
 
 const CHINESE: &str = include_str!("../../assets/locales/zh_CN.po");
+/// What the core says.
+const CORE: &str = include_str!("../../assets/locales/zh_CN.core.po");
 
 /// Texts in Chinese under those in English.
 struct Catalogue {
     chinese: HashMap<String, String>,
+    phrases: Phrases,
+}
+
+/// The catalogue, once it is made known.
+static CATALOGUE: OnceLock<Catalogue> = OnceLock::new();
+
+/// Entries of gettext's text form that have a translation; none where it is damaged, which a test rules out.
+fn entries(po: &str) -> Option<impl Iterator<Item = (String, String)>> {
+    let file = rspolib::pofile(po).ok()?;
+    Some(file.entries.into_iter().filter_map(|entry| Some((entry.msgid, entry.msgstr.filter(|text| !text.is_empty())?))))
 }
 
 impl Catalogue {
-    /// From gettext's text form; none where that is damaged, which a test rules out.
-    fn from_po(text: &str) -> Option<Self> {
-        let file = rspolib::pofile(text).ok()?;
-        let chinese = file.entries.into_iter().filter_map(|entry| Some((entry.msgid, entry.msgstr.filter(|text| !text.is_empty())?)));
-        Some(Self { chinese: chinese.collect() })
+    fn from_po(window: &str, core: &str) -> Option<Self> {
+        Some(Self { chinese: entries(window)?.collect(), phrases: Phrases::new(entries(core)?) })
     }
 }
 
-impl Translator for Catalogue {
+impl Translator for &'static Catalogue {
     fn translate<'a>(&'a self, text: &'a str, _context: Option<&'a str>) -> Cow<'a, str> {
         let translated = match current() {
             Language::English => None,
@@ -92,11 +104,39 @@ pub fn translated(text: &str) -> String {
     if text.is_empty() { String::new() } else { tr!(text) }
 }
 
+/// A sentence of the core in the language of the window, in English where that does not know it. It is looked for among all forms of
+/// sentences: not a thing to do for every label in every frame.
+pub fn phrase(text: &(impl std::fmt::Display + ?Sized)) -> String {
+    let text = text.to_string();
+    match (current(), CATALOGUE.get()) {
+        (Language::Chinese, Some(catalogue)) => {
+            let word = |word: &str| catalogue.chinese.get(word).map(String::as_str);
+            catalogue.phrases.translate(&text, &word).unwrap_or(text)
+        }
+        _ => text,
+    }
+}
+
+/// Whether there is an entry for sentences of that form.
+#[cfg(test)]
+pub fn has_phrase(form: &str) -> bool {
+    install();
+    CATALOGUE.get().is_some_and(|catalogue| catalogue.phrases.has(form))
+}
+
+/// Sentences of the core whose translation lacks a part.
+#[cfg(test)]
+pub fn torn_phrases() -> Vec<String> {
+    install();
+    CATALOGUE.get().map_or_else(Vec::new, |catalogue| catalogue.phrases.torn())
+}
+
 /// Makes the catalogue known.
 pub fn install() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
-        if let Some(catalogue) = Catalogue::from_po(CHINESE) {
+        if let Some(catalogue) = Catalogue::from_po(CHINESE, CORE) {
+            let catalogue: &'static Catalogue = CATALOGUE.get_or_init(|| catalogue);
             tr::set_translator!(catalogue);
         }
     });
@@ -155,7 +195,7 @@ mod switch {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHINESE, Catalogue, Language, install, set};
+    use super::{CHINESE, CORE, Catalogue, Language, install, set};
     use tr::tr;
 
     #[test]
@@ -170,7 +210,7 @@ mod tests {
 
     #[test]
     fn every_text_of_the_window_is_translated() {
-        let catalogue = Catalogue::from_po(CHINESE).expect("the catalogue is well-formed");
+        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
         let missing: Vec<String> = texts().into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
     }

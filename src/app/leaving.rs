@@ -12,7 +12,7 @@ use super::session::{Recipe, Session};
 use super::state::Settings;
 use super::views;
 use super::window::Explorer;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::export;
 use crate::write_file::write_file;
 use egui_plot::PlotPoint;
@@ -108,7 +108,7 @@ impl Outgoing {
             Self::Plot(pane) => {
                 let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to export."))?;
                 Ok(Box::new(move |path| {
-                    let kind = export::picture_kind(path).map_err(|reason| format!("{reason}."))?;
+                    let kind = export::picture_kind(path).map_err(|reason| tr!("{}.", phrase(&reason)))?;
                     export::write_picture(path, kind, &figure).map_err(|error| failure(path, &error))
                 }))
             }
@@ -120,7 +120,7 @@ impl Outgoing {
             }
             Self::Fitted => {
                 let fit = explorer.last_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
-                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| format!("{error}."))?;
+                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", phrase(&error)))?;
                 let (choices, measurement) = (*fit.problem.choices(), explorer.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.eq17, choices.dolp_only, out)))
             }
@@ -136,7 +136,7 @@ impl Outgoing {
 const NO_FIT: &str = "There is no fit yet.";
 
 fn failure(path: &Path, error: &std::io::Error) -> String {
-    tr!("{0} cannot be written: {1}.", path.display(), error)
+    tr!("{0} cannot be written: {1}.", path.display(), phrase(error))
 }
 
 fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + Send + 'static) -> Write {
@@ -144,7 +144,7 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
 }
 
 fn surface(explorer: &Explorer) -> Result<Pbrdf, String> {
-    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| tr!("There are no curves: {}.", error))
+    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| tr!("There are no curves: {}.", phrase(&error)))
 }
 
 fn report(explorer: &Explorer) -> Result<Write, String> {
@@ -153,7 +153,7 @@ fn report(explorer: &Explorer) -> Result<Write, String> {
     let (measurement, document) = (explorer.document.measurement.clone(), &explorer.document);
     let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
-        let kind = export::report_kind(path).map_err(|reason| format!("{reason}."))?;
+        let kind = export::report_kind(path).map_err(|reason| tr!("{}.", phrase(&reason)))?;
         let (program, date) = (export::program(), export::now());
         let document =
             FitDocument { measurement: &measurement, source: &source, problem: &problem, report: &report, program: &program, date: &date };
@@ -191,7 +191,7 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &P
 /// The plot of a pane as an image for the clipboard.
 pub fn image(explorer: &Explorer, pane: Pane) -> Result<egui::ColorImage, String> {
     let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to copy."))?;
-    let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", error))?;
+    let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", phrase(&error)))?;
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
 }
 

@@ -1,5 +1,6 @@
 //! The lessons: those that are bundled, those in the user's own folder, and where in one of them the user is.
 
+use super::language::phrase;
 use super::store;
 use pbrdf::model::{Lesson, Parameter, Step};
 use std::ops::RangeInclusive;
@@ -40,7 +41,7 @@ impl Lessons {
         let mut all: Vec<Lesson> = BUNDLED.iter().filter_map(|text| Lesson::from_text(text).ok()).collect();
         let mut faults = Vec::new();
         for path in own.map(text_files).unwrap_or_default() {
-            match std::fs::read_to_string(&path).map_err(|error| error.to_string()).and_then(|text| lesson(&text)) {
+            match std::fs::read_to_string(&path).map_err(|error| phrase(&error)).and_then(|text| lesson(&text)) {
                 Ok(lesson) => all.push(lesson),
                 Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
@@ -69,7 +70,7 @@ pub fn own_folder() -> Option<std::path::PathBuf> {
 }
 
 fn lesson(text: &str) -> Result<Lesson, String> {
-    Lesson::from_text(text).map_err(|error| error.to_string())
+    Lesson::from_text(text).map_err(|error| phrase(&error))
 }
 
 /// The text files of a folder that are small enough, in the order of their names.

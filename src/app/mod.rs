@@ -29,6 +29,7 @@ mod panels;
 mod panes;
 mod parameter_text;
 mod past_fits;
+mod phrases;
 mod plan;
 mod plots;
 mod problem;

@@ -1,5 +1,6 @@
 //! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
 
+use super::language::phrase;
 use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
 use tr::tr;
 
@@ -14,7 +15,7 @@ pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
         let start: String = text.trim().chars().take(40).collect();
         tr!("The pasted text {0} is no set of parameters such as n=2.07, k=2.9: {1}.", format!("{start:?}"), reason)
     };
-    let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&error.to_string()))?;
+    let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&phrase(&error)))?;
     if assignments.is_empty() {
         return Err(refuse(&tr!("it is empty")));
     }

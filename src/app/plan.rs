@@ -1,5 +1,6 @@
 //! Angles that might be measured, and what they would determine.
 
+use super::language::phrase;
 use super::state::Settings;
 use pbrdf::fit::{self, PlannedNoise};
 use pbrdf::measurement::{Columns, Measurement};
@@ -151,7 +152,7 @@ impl Prediction {
             free,
             eq17: settings.choices.eq17,
         };
-        let fit::Prediction { errors, undetermined, .. } = plan.predict().map_err(|error| format!("{error}."))?;
+        let fit::Prediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", phrase(&error)))?;
         Ok(Self { errors, open: undetermined.into_iter().map(|open| open.text).collect() })
     }
 

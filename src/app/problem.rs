@@ -1,5 +1,6 @@
 //! What a fit from the window is about: a measurement, the sliders, their bounds, the choices.
 
+use super::language::phrase;
 use super::state::Settings;
 use pbrdf::fit::{Bounds, Choices, Eq17, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
@@ -40,10 +41,10 @@ pub fn start_in_bounds(settings: &Settings, free: ParameterSet) -> (Parameters, 
 pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
     match error {
         ProblemError::MissingSigma { row, .. } => match measurement.lines.get(*row) {
-            Some(line) => tr!("line {0}: {1}", line, error),
-            None => tr!("row {0}: {1}", row + 1, error),
+            Some(line) => tr!("line {0}: {1}", line, phrase(error)),
+            None => tr!("row {0}: {1}", row + 1, phrase(error)),
         },
-        _ => error.to_string(),
+        _ => phrase(error),
     }
 }
 

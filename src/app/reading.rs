@@ -3,6 +3,7 @@
 //! Woollam ellipsometry has to be told the wavelength, a tensor of Mueller matrices the band and the angles, a foreign table which
 //! column is what. Nothing is guessed silently: where there is only one answer it is taken, else it is asked for.
 
+use super::language::phrase;
 use super::plan::Span;
 use pbrdf::measurement::{
     self, Ellipsometry, Mapping, Measurement, Progress, ReadError, ReadErrorKind, Table, Tensor, grid_geometries, is_tensor, is_woollam,
@@ -92,14 +93,14 @@ pub fn bytes_of(mut source: impl Read, length: Option<u64>, progress: Progress<'
 /// What those bytes hold; the error is a phrase.
 pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Arrived, String> {
     if is_woollam(&bytes) {
-        let ellipsometry = Arc::new(read_woollam(&bytes[..], progress).map_err(|error| error.to_string())?);
+        let ellipsometry = Arc::new(read_woollam(&bytes[..], progress).map_err(|error| phrase(&error))?);
         return match ellipsometry.wavelengths_nm()[..] {
             [only] => Foreign::Ellipsometry(ellipsometry).import(&Choice::Ellipsometry(only), progress).map(arrived),
             _ => Ok(Arrived::Foreign(Foreign::Ellipsometry(ellipsometry))),
         };
     }
     if is_tensor(&bytes) {
-        let tensor = tensor_from_bytes(bytes).map_err(|error| error.to_string())?;
+        let tensor = tensor_from_bytes(bytes).map_err(|error| phrase(&error))?;
         return Ok(Arrived::Foreign(Foreign::Tensor(Arc::new(tensor))));
     }
     match measurement::read(&bytes[..], progress) {
@@ -107,7 +108,7 @@ pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Arrived, String> {
         Err(error) if is_about_names(&error) => {
             ForeignTable::new(bytes, &error).map(|table| Arrived::Foreign(Foreign::Table(Arc::new(table))))
         }
-        Err(error) => Err(error.to_string()),
+        Err(error) => Err(phrase(&error)),
     }
 }
 
@@ -123,10 +124,10 @@ fn is_about_names(error: &ReadError) -> bool {
 impl ForeignTable {
     /// Needs three columns at least: two angles and something measured.
     fn new(bytes: Vec<u8>, error: &ReadError) -> Result<Self, String> {
-        let table = Table::new(head(&bytes)).map_err(|error| error.to_string())?;
+        let table = Table::new(head(&bytes)).map_err(|error| phrase(&error))?;
         let header = table.header().to_vec();
         if header.len() < 3 {
-            return Err(error.to_string());
+            return Err(phrase(error));
         }
         let mut rows = Vec::new();
         // What is wrong with a row is said when columns are chosen.
@@ -136,7 +137,7 @@ impl ForeignTable {
             }
             Ok(())
         });
-        Ok(Self { header, rows, reason: error.to_string(), bytes })
+        Ok(Self { header, rows, reason: phrase(error), bytes })
     }
 }
 
@@ -204,12 +205,12 @@ fn nearest(available: &[f64], wanted: f64) -> f64 {
 }
 
 fn mapped(bytes: &[u8], mapping: &Mapping, progress: Progress<'_>) -> Result<Imported, String> {
-    let measurement = read_mapped(bytes, mapping, progress).map_err(|error| error.to_string())?;
+    let measurement = read_mapped(bytes, mapping, progress).map_err(|error| phrase(&error))?;
     Ok(Imported { measurement, notices: Vec::new() })
 }
 
 fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported, String> {
-    let slice = ellipsometry.specular_dolp(Some(wavelength_nm)).map_err(|error| error.to_string())?;
+    let slice = ellipsometry.specular_dolp(Some(wavelength_nm)).map_err(|error| phrase(&error))?;
     let mut notices = Vec::new();
     if slice.wavelengths_nm != [wavelength_nm] {
         let taken: Vec<String> = slice.wavelengths_nm.iter().map(f64::to_string).collect();
@@ -229,8 +230,8 @@ fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported,
 
 fn sliced(tensor: &Tensor, slices: &Slices) -> Result<Imported, String> {
     let angles = |span: Span| span.angles().collect::<Vec<f64>>();
-    let geometries = grid_geometries(&angles(slices.theta_i), &angles(slices.theta_r), slices.dphi).map_err(|error| error.to_string())?;
-    let slice = tensor.slice(&geometries, Some(slices.wavelength_nm)).map_err(|error| error.to_string())?;
+    let geometries = grid_geometries(&angles(slices.theta_i), &angles(slices.theta_r), slices.dphi).map_err(|error| phrase(&error))?;
+    let slice = tensor.slice(&geometries, Some(slices.wavelength_nm)).map_err(|error| phrase(&error))?;
     if slice.measurement.rows.is_empty() {
         return Err(tr!("none of these directions has a value"));
     }

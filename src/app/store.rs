@@ -1,6 +1,6 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
-use super::language::Language;
+use super::language::{Language, phrase};
 use super::state::{Stored, WindowSettings};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,10 @@ pub fn load_from(path: &Path) -> (Stored, Option<String>) {
             return (Stored { window, ..Stored::default() }, None);
         }
         Err(error) => {
-            return (Stored::default(), Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", error)));
+            return (
+                Stored::default(),
+                Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", phrase(&error))),
+            );
         }
         Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
             Ok(settings) => match settings.fault() {
@@ -44,9 +47,12 @@ pub fn load_from(path: &Path) -> (Stored, Option<String>) {
     let aside = path.with_extension("damaged.json");
     let kept = match std::fs::rename(path, &aside) {
         Ok(()) => tr!("it is kept as {}", aside.display()),
-        Err(error) => tr!("it could not be set aside ({})", error),
+        Err(error) => tr!("it could not be set aside ({})", phrase(&error)),
     };
-    (Stored::default(), Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), reason, kept)))
+    (
+        Stored::default(),
+        Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), phrase(&reason), kept)),
+    )
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.

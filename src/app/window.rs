@@ -9,6 +9,7 @@ use super::frame_times::FrameTimes;
 use super::help::Help;
 use super::history::History;
 use super::import::Import;
+use super::language::phrase;
 use super::latest_job::Background;
 use super::layout::Layout;
 use super::lessons::{self, Lessons};
@@ -161,7 +162,7 @@ impl Explorer {
         let example = &EXAMPLES[0];
         match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
-            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", error)),
+            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", phrase(&error))),
         }
         self.commands.extend(file.map(Command::OpenMeasurement));
     }
@@ -469,7 +470,7 @@ impl Explorer {
     /// The measurement to the clipboard, as its file would be.
     fn copy_table(&self, ctx: &egui::Context) -> Result<(), String> {
         let mut table = Vec::new();
-        pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| format!("{error}."))?;
+        pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| tr!("{}.", phrase(&error)))?;
         ctx.copy_text(String::from_utf8_lossy(&table).into_owned());
         Ok(())
     }
@@ -585,7 +586,7 @@ impl Explorer {
 
     fn start_fit(&mut self) -> Result<(), String> {
         let Settings { model, parameters, choices, starts, seed, .. } = self.settings;
-        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error))?;
+        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", phrase(&error)))?;
         let measurement = &self.document.measurement;
         match problem(&self.settings, measurement, model, self.free(), choices) {
             Ok(problem) => self.worker.start_fit(problem, &self.document, starts, seed),
@@ -629,7 +630,7 @@ impl Explorer {
         if let Some(path) = &self.settings_file
             && let Err(error) = store::save(path, &self.saved)
         {
-            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), error);
+            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), phrase(&error));
             self.settings_file = None;
             self.say(sentence);
         }

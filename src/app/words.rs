@@ -10,24 +10,6 @@ pub fn percent(parameter: Parameter, value: f64, error: f64) -> String {
     if percent.is_finite() && percent < 1e4 { format!("{percent:.*} %", usize::from(percent < 10.0)) } else { "—".to_owned() }
 }
 
-/// What data leave open, in the language of the window: the library says it in English, with the parameters in front.
-pub fn open_direction(text: &str) -> String {
-    let before = |end: &str| text.strip_suffix(end);
-    if let Some(name) = before(" has no effect on these data") {
-        tr!("{} has no effect on these data", name)
-    } else if let Some(names) = before(" together: only their ratios enter DoLP") {
-        tr!("{} together: only their ratios enter DoLP", names)
-    } else if let Some((one, other)) =
-        before(" trade off: these data fix a combination of them, not each").and_then(|names| names.split_once(" and "))
-    {
-        tr!("{0} and {1} trade off: these data fix a combination of them, not each", one, other)
-    } else if let Some(names) = before(" together: these data fix combinations of them, not each") {
-        tr!("{} together: these data fix combinations of them, not each", names)
-    } else {
-        text.to_owned()
-    }
-}
-
 /// What ΔE is.
 pub fn delta_e_help() -> String {
     tr!("ΔE = Σ (X − Xm)² / Σ Xm², Eq. (18): the squared distance between model X and measurement Xm over that of the measurement from 0; \
@@ -100,24 +82,9 @@ pub fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{open_direction, percent, short};
-    use crate::app::language::{self, Language};
+    use super::{percent, short};
     use pbrdf::fit::is_loose;
     use pbrdf::model::Parameter;
-
-    #[test]
-    fn what_stays_open_keeps_its_parameters_in_chinese() {
-        language::install();
-        language::set(Language::Chinese);
-        for (english, chinese) in [
-            ("q has no effect on these data", "q 对这些数据没有影响"),
-            ("n and k trade off: these data fix a combination of them, not each", "n 与 k 相互补偿：这些数据只确定其组合，而非各自的值"),
-            ("n, k, σ together: these data fix combinations of them, not each", "n, k, σ 一起：这些数据只确定其组合，而非各自的值"),
-            ("something else", "something else"),
-        ] {
-            assert_eq!(open_direction(english), chinese);
-        }
-    }
 
     #[test]
     fn errors_are_judged_by_the_size_of_what_they_belong_to() {

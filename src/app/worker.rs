@@ -6,6 +6,7 @@
 use super::dialogs::{Answer, Question};
 use super::document::{Document, Mask};
 use super::import::Origin;
+use super::language::phrase;
 use super::leaving::{Outgoing, Write};
 use super::reading::{self, Arrived, Choice, Foreign, Imported};
 use super::reports::{Made, Subject};
@@ -82,9 +83,9 @@ impl Opened {
     /// Reads a session; the error is a sentence.
     pub fn read(path: &Path) -> Result<Self, String> {
         let mut text = String::new();
-        let said = |reason: &dyn std::fmt::Display| format!("{}: {reason}.", path.display());
+        let said = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", path.display(), phrase(reason));
         let mut file = open_file(path).map_err(|reason| said(&reason))?;
-        file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", error)))?;
+        file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", phrase(&error))))?;
         let session = Session::read(&text).map_err(|error| said(&error))?;
         Ok(Self::new(session))
     }
@@ -220,7 +221,7 @@ impl Worker {
         };
         match std::thread::Builder::new().name(name.to_owned()).spawn(run) {
             Ok(_) => Ok(job),
-            Err(error) => Err(tr!("The job cannot be started: {}.", error)),
+            Err(error) => Err(tr!("The job cannot be started: {}.", phrase(&error))),
         }
     }
 
@@ -237,7 +238,7 @@ impl Worker {
     /// Writes an export, one at a time.
     pub fn export(&mut self, what: Outgoing, path: PathBuf, write: Write) -> Result<(), String> {
         if self.export.is_some() {
-            return Err("The export before this one is still being written.".to_owned());
+            return Err(tr!("The export before this one is still being written."));
         }
         let job = self.spawn("export", move |_: &Teller<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
         self.export = Some(job);
@@ -265,13 +266,13 @@ impl Worker {
     /// Writes a measurement in one move; one at a time, so that the last one asked for is the last one written.
     pub fn save(&mut self, path: PathBuf, measurement: Arc<Measurement>) -> Result<(), String> {
         if self.save.is_some() {
-            return Err("The measurement is still being saved.".to_owned());
+            return Err(tr!("The measurement is still being saved."));
         }
         let job = self.spawn("save measurement", move |_: &Teller<()>, _| {
             let written = write_file(&path, |out| measurement::write(&measurement, out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
-                Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), error)),
+                Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), phrase(&error))),
             })
         })?;
         self.save = Some(job);
@@ -282,7 +283,7 @@ impl Worker {
     pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         self.read(name, Some(path.clone()), move || {
-            let file = open_file(&path).map_err(|reason| format!("{}: {reason}.", path.display()))?;
+            let file = open_file(&path).map_err(|reason| tr!("{0}: {1}.", path.display(), phrase(&reason)))?;
             let length = file.metadata().ok().map(|data| data.len());
             Ok((path, file, length))
         })
@@ -308,7 +309,7 @@ impl Worker {
             let mut sha256 = None;
             let result = source().and_then(|(at, source, length)| {
                 let mut source = Hashing { source, hash: Sha256::new() };
-                let said = |reason: &dyn std::fmt::Display| format!("{}: {reason}.", at.display());
+                let said = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", at.display(), phrase(reason));
                 let bytes = reading::bytes_of(&mut source, length, &mut progress).map_err(|error| said(&error))?;
                 sha256 = Some(export::hexadecimal(&source.hash.finalize()));
                 reading::read(bytes, &mut progress).map_err(|reason| said(&reason))
@@ -492,7 +493,7 @@ impl Worker {
 pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
-    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), error))
+    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), phrase(&error)))
 }
 
 /// Tells how much is read, and stops when asked to.

@@ -9,7 +9,7 @@ use super::session::Again;
 use super::state::Settings;
 use super::window::{Explorer, SAVE_AFTER};
 use super::worker::{Opened, save_session};
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -116,8 +116,10 @@ impl Explorer {
             Err(sentence) if is_working => {
                 // The next autosave would write over it.
                 let aside = path.with_extension("damaged.json");
-                let kept = std::fs::rename(path, &aside)
-                    .map_or_else(|error| tr!("it could not be set aside ({})", error), |()| tr!("it is kept as {}", aside.display()));
+                let kept = std::fs::rename(path, &aside).map_or_else(
+                    |error| tr!("it could not be set aside ({})", phrase(&error)),
+                    |()| tr!("it is kept as {}", aside.display()),
+                );
                 self.say(tr!("The state of the last time cannot be restored; {0}. {1}", kept, sentence));
             }
             Err(sentence) => {

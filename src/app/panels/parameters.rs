@@ -1,7 +1,7 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
 use super::beside::Beside as _;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::lessons::Lessons;
 use crate::app::notices::Notices;
 use crate::app::state::Settings;
@@ -311,7 +311,7 @@ fn bounds_ui(settings: &mut Settings, notices: &mut Notices, ui: &mut Ui, parame
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
     {
-        notices.say(tr!("The bounds stay as they are: {}.", error));
+        notices.say(tr!("The bounds stay as they are: {}.", phrase(&error)));
     }
     if let Some(sentence) = refused.into_inner() {
         notices.say(sentence);

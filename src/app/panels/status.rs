@@ -1,6 +1,7 @@
 //! The line under the plots, and sentences over them.
 
 use crate::app::command::Command;
+use crate::app::language::phrase;
 use crate::app::notices::Notices;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -60,7 +61,7 @@ pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
     if let Some(seconds) = notices.rest(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
     }
-    let fault = derived.fault().map(|fault| tr!("There is no curve: {}", fault));
+    let fault = derived.fault().map(|fault| tr!("There is no curve: {}.", phrase(fault)));
     if notices.is_empty() && fault.is_none() {
         return;
     }

@@ -3,7 +3,7 @@
 use super::axis::{self, axis, decimal, logarithmic};
 use super::{Axes, Range, curve, plot};
 use crate::app::curves::{Pieces, pieces};
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::theme;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{TextStyle, Ui};
@@ -163,7 +163,7 @@ impl DrawnPanel {
                 let mut text = LayoutJob::default();
                 let font = TextStyle::Small.resolve(ui.style());
                 text.append("● ", 0.0, TextFormat::simple(font.clone(), theme::series(*color, dark)));
-                text.append(&translated(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
+                text.append(&phrase(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
                 // A name is not torn at the end of a line.
                 ui.add(egui::Label::new(text).extend());
             }
@@ -198,7 +198,7 @@ impl Item {
     fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool) {
         let color = theme::series(self.color, dark);
         let name = self.name.as_str();
-        let name = translated(name);
+        let name = phrase(name);
         match &self.kind {
             Kind::Line(pieces, style) => curve(plot, pieces, &name, color, *style, 1.5),
             Kind::Points(pieces) => {

@@ -124,7 +124,12 @@ fn what_stays_open_is_said_in_the_language_of_the_window() {
 #[test]
 fn the_fonts_have_every_letter() {
     let harness = chinese();
-    let texts = [include_str!("../../../assets/locales/zh_CN.po"), include_str!("../command.rs"), include_str!("../panes.rs")];
+    let texts = [
+        include_str!("../../../assets/locales/zh_CN.po"),
+        include_str!("../../../assets/locales/zh_CN.core.po"),
+        include_str!("../command.rs"),
+        include_str!("../panes.rs"),
+    ];
     let font = egui::FontId::proportional(14.0);
     let lacking: BTreeSet<char> = harness.ctx.fonts_mut(|fonts| {
         texts.iter().flat_map(|text| text.chars()).filter(|letter| !letter.is_ascii_control() && !fonts.has_glyph(&font, *letter)).collect()

@@ -20,6 +20,7 @@ mod mueller;
 mod notices;
 mod options;
 mod panes;
+mod phrases;
 mod places;
 mod planning;
 mod reports;

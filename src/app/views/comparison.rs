@@ -1,7 +1,7 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
 use crate::app::command::Command;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::panels::significant;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -163,7 +163,7 @@ fn verdicts(comparison: &[Rung]) -> Vec<String> {
     let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
         let contest = Contest::new(report(gauss)?, report(cauchy)?)?;
-        Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), contest.text()))
+        Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), phrase(&contest.text())))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

@@ -1,7 +1,7 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
 use super::report::{Heading, pages_ui, run_ui, table_ui};
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::reports::Subject;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -40,8 +40,13 @@ pub fn cost_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let cell = |row: usize, column: usize, ui: &mut Ui| {
         let (row, cells) = (&rows[row], &shown.cells[row]);
         match PLAIN.iter().find(|(here, _)| *here == column) {
-            Some((_, there)) => _ = ui.label(&cells[*there]).on_hover_text(&cells[*there]),
-            None if column == 0 => _ = ui.label(row.scene).on_hover_text(format!("{}, {}", row.distribution.key(), row.terms)),
+            Some((_, there)) => {
+                let text = phrase(&cells[*there]);
+                _ = ui.label(&text).on_hover_text(text);
+            }
+            None if column == 0 => {
+                _ = ui.label(phrase(row.scene)).on_hover_text(format!("{}, {}", row.distribution.key(), phrase(&row.terms)));
+            }
             None if column == 3 => bar_ui(row, ends, ui),
             None => {
                 let kernel = row.kernel;

@@ -1,7 +1,7 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
 
 use super::report::{Heading, pages_ui, run_ui, table_ui};
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::reports::Subject;
 use crate::app::window::Explorer;
 use crate::app::words::short;
@@ -36,7 +36,7 @@ pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
             let task = row.task.key();
             match column {
                 0 => ui.label(translated(task)),
-                1 => ui.label(row.short_method()).on_hover_text(&row.method),
+                1 => ui.label(phrase(&row.short_method())).on_hover_text(phrase(&row.method)),
                 2 => ui.label(match row.task {
                     TaskKind::Evaluate => format!("{} ns", short(row.time)),
                     TaskKind::Fit => format!("{} ms", short(row.time)),

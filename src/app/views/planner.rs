@@ -1,14 +1,14 @@
 //! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
 
 use crate::app::document::Document;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
 use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::window::Explorer;
-use crate::app::words::{open_direction, open_help, percent, short};
+use crate::app::words::{open_help, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Eq17, is_loose};
 use pbrdf::measurement::Columns;
@@ -260,7 +260,7 @@ fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &
     ui.add_space(4.0);
     ui.strong(tr!("{} there stays open:", translated(angles)));
     for text in &prediction.open {
-        ui.add(egui::Label::new(format!("• {}", open_direction(text))).wrap());
+        ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
     }
     if !loose.is_empty() {
         ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());

@@ -1,7 +1,7 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
 use crate::app::command::Command;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::reports::{Shown, Subject};
 use crate::app::window::Explorer;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
@@ -44,7 +44,9 @@ pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bo
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
     let text = RichText::new(format!("{part}{}, {}", report.machine, report.date)).weak().small();
-    ui.add(egui::Label::new(text).truncate()).on_hover_text(report.notes.join("\n\n"));
+    ui.add(egui::Label::new(text).truncate()).on_hover_ui(|ui| {
+        ui.label(report.notes.iter().map(phrase).collect::<Vec<_>>().join("\n\n"));
+    });
     if names.is_empty() {
         return true;
     }

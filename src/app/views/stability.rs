@@ -3,6 +3,7 @@
 
 use super::report::{Heading, pages_ui, run_ui, table_ui};
 use crate::app::command::Command;
+use crate::app::language::phrase;
 use crate::app::reports::Subject;
 use crate::app::theme;
 use crate::app::window::Explorer;
@@ -67,7 +68,7 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
                 Setting::Evaluation { .. } => tr!("Parameters, terms and angles of this case to the sliders"),
                 Setting::Fit { .. } => tr!("Opens the data of this fit, with the sliders where it begins"),
             };
-            let response = ui.link(&row.case).on_hover_text(help);
+            let response = ui.link(case_text(&row.case)).on_hover_text(help);
             if response.clicked() {
                 commands.push(Command::UseCase(index));
             }
@@ -82,8 +83,18 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
         }
         5 => ui.label(&cells[column]),
         // The digits of an evaluation stand in columns of their own.
-        _ => ui.label(if values.is_some() { "" } else { row.outcome.as_str() }),
+        _ if values.is_some() => ui.label(""),
+        _ => ui.label(phrase(&row.outcome)),
     };
+}
+
+/// A case in the language of the window: evaluations name the distribution behind them, fits what they are in front.
+fn case_text(case: &str) -> String {
+    match (case.strip_prefix("fit: "), case.rsplit_once(" (")) {
+        (Some(fit), _) => tr!("fit: {}", phrase(fit)),
+        (None, Some((case, distribution))) => format!("{} ({distribution}", phrase(case)),
+        (None, None) => phrase(case),
+    }
 }
 
 /// Digits that the textbook form has lost before it is marked.

@@ -1,6 +1,7 @@
 //! The ladder of models on the open measurement.
 
 use crate::app::command::Command;
+use crate::app::language::translated;
 use crate::app::words::{aicc_help, delta_e_help};
 use crate::app::worker::Rung;
 use egui::{Grid, Ui};
@@ -34,7 +35,7 @@ pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>,
         ui.end_row();
         for Rung { preset, result } in comparison {
             let Ok(report) = result else { continue };
-            ui.label(preset.key).on_hover_text(format!("{}\n{}\n{}", preset.name, preset.citation, report.stop_reason.text()));
+            ui.label(preset.key).on_hover_text([preset.name, preset.citation, report.stop_reason.text()].map(translated).join("\n"));
             ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
             ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
             ui.monospace(format!("{:.2}, {:.2}", report.parameters.n, report.parameters.k));

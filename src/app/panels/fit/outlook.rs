@@ -1,8 +1,9 @@
 //! What a fit from the sliders would determine, before it is made.
 
 use crate::app::derived::Outlook;
+use crate::app::language::phrase;
 use crate::app::panels::parameters::significant;
-use crate::app::words::{open_direction, open_help};
+use crate::app::words::open_help;
 use egui::{Grid, Ui};
 use tr::tr;
 
@@ -29,6 +30,6 @@ pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
         }
     });
     for direction in &outlook.open {
-        ui.add(egui::Label::new(format!("• {}", open_direction(&direction.text))).wrap());
+        ui.add(egui::Label::new(format!("• {}", phrase(&direction.text))).wrap());
     }
 }

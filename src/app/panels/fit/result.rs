@@ -1,7 +1,7 @@
 //! What a fit came to: values, standard errors, minima, correlations, and what stays open.
 
 use crate::app::command::Command;
-use crate::app::language::translated;
+use crate::app::language::{phrase, translated};
 use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
 use crate::app::past_fits::PastFit;
@@ -72,7 +72,7 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
     ui.add_space(6.0);
     ui.strong(tr!("The data leave open:")).on_hover_text(words::open_help());
     for direction in &report.undetermined {
-        ui.add(egui::Label::new(format!("• {}", words::open_direction(&direction.text))).wrap());
+        ui.add(egui::Label::new(format!("• {}", phrase(&direction.text))).wrap());
     }
     if !loose.is_empty() {
         ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());

@@ -1,0 +1,538 @@
+//! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
+
+use crate::app::language::{self, Language, phrase};
+use crate::app::session::{Session, SessionError};
+use crate::export::{picture_kind, report_kind};
+use crate::open_file::open_file;
+use pbrdf::fit::{BoundsError, Contest, PlanError, ProblemError, StopReason};
+use pbrdf::measurement::{
+    Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
+    WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
+};
+use pbrdf::model::{
+    AssignmentError, Domain, FINISHES, Lesson, LessonError, LessonErrorKind, PRESETS, Parameter, ParameterError, assignments_from_text,
+};
+use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
+use pbrdf::report::figure::PngError;
+use std::fmt::Display;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Words that are the same in Chinese: keys of files and options, names of quantities, units, formats, people and methods.
+const SAME: &[&str] = &[
+    "AICc",
+    "AVX2",
+    "AOI",
+    "BRDF",
+    "DoLP",
+    "GGX",
+    "Hyde",
+    "JSON",
+    "LM",
+    "Lambert",
+    "Levenberg",
+    "Marquardt",
+    "Minnaert",
+    "NUL",
+    "UTF",
+    "Unicode",
+    "about",
+    "brdf",
+    "brdf_sigma",
+    "c",
+    "csv",
+    "degrees",
+    "dolp",
+    "dolp_sigma",
+    "dolp_percent",
+    "dphi",
+    "dpi",
+    "example",
+    "elapsed_ms",
+    "field=column",
+    "fraction",
+    "html",
+    "ks",
+    "kd",
+    "kv",
+    "log",
+    "masked",
+    "max",
+    "md",
+    "mm",
+    "model",
+    "move",
+    "name=value",
+    "nm",
+    "no",
+    "panes",
+    "percent",
+    "phi_d",
+    "png",
+    "psi",
+    "high",
+    "account",
+    "minima",
+    "range",
+    "name=low",
+    "k_s",
+    "k_d",
+    "k_v",
+    "program",
+    "null",
+    "Header",
+    "aoi",
+    "depolarisation",
+    "inf",
+    "nan",
+    "sigma_psi",
+    "wavelength",
+    "Beckmann",
+    "Germer",
+    "Priest",
+    "Thilak",
+    "Torrance",
+    "Sparrow",
+    "Wang",
+    "Zhu",
+    "delta",
+    "rad",
+    "radians",
+    "set",
+    "settings",
+    "sigma",
+    "sigma_v",
+    "soft",
+    "sr",
+    "source",
+    "step",
+    "svg",
+    "table",
+    "measurement",
+    "tensor_file",
+    "theta_i",
+    "theta_r",
+    "theta_d",
+    "title",
+    "wavelength_nm",
+    "watch",
+    "why",
+    "yes",
+    "parameters",
+    "bounds",
+    "dpolE",
+    "Angstroms",
+    "ulp",
+    "L1",
+    "plan",
+    "wvls",
+    "f32",
+    "f64",
+    "u16",
+    "cos",
+];
+
+/// What is left of English in a text: words outside quotes that are no names.
+fn english(text: &str) -> Vec<String> {
+    let mut rest = String::new();
+    for (i, part) in text.split(['"', '`']).enumerate() {
+        if i % 2 == 0 {
+            rest.push_str(part);
+        }
+        rest.push(' ');
+    }
+    let words = rest.split(|letter: char| !(letter.is_ascii_alphanumeric() || "_=".contains(letter)));
+    let is_english = |word: &&str| {
+        let letters = word.chars().filter(char::is_ascii_alphabetic).count();
+        letters > 1 && !SAME.contains(word) && !word.starts_with("1e") && word.chars().all(|c| c.is_ascii_alphabetic() || c == '_')
+    };
+    words.filter(is_english).map(str::to_owned).collect()
+}
+
+fn chinese() {
+    language::install();
+    language::set(Language::Chinese);
+}
+
+/// Texts of the core that stay in English, wholly or in part.
+fn untranslated(texts: impl IntoIterator<Item = String>) -> Vec<String> {
+    chinese();
+    let left = |text: String| {
+        let said = phrase(&text);
+        let words = english(&said);
+        (!words.is_empty()).then(|| format!("{text}\n  {said}\n  {words:?}"))
+    };
+    texts.into_iter().filter_map(left).collect()
+}
+
+fn says<E: Display>(errors: impl IntoIterator<Item = E>) -> Vec<String> {
+    errors.into_iter().map(|error| error.to_string()).collect()
+}
+
+/// The sources of library and window with their names.
+fn sources(folder: &str, all: &mut Vec<(String, String)>) {
+    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).expect("a folder of sources") {
+        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
+        let path = format!("{folder}/{name}");
+        if name == "cli" || name == "tests" {
+            continue;
+        } else if name.ends_with(".rs") {
+            all.push((path.clone(), std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("a source file")));
+        } else {
+            sources(&path, all);
+        }
+    }
+}
+
+/// The literal at the beginning of a piece of source, as it is at run time.
+fn literal(source: &str) -> Option<String> {
+    let mut text = String::new();
+    let mut letters = source.trim_start().strip_prefix('"')?.chars();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' => return Some(text),
+            '\\' => match letters.next()? {
+                '\n' => letters = letters.as_str().trim_start().chars(),
+                other => text.push(other),
+            },
+            other => text.push(other),
+        }
+    }
+    None
+}
+
+/// Literals that follow those words somewhere in a source.
+fn literals_after(source: &str, words: &str) -> Vec<String> {
+    source.match_indices(words).filter_map(|(at, _)| literal(&source[at + words.len()..])).collect()
+}
+
+/// Two forms in one: with the place in a file's tree, and without.
+const BOTH_FORMS: [(&str, [&str; 2]); 1] = [(
+    "line {line}, column {column}{at}: {reason}",
+    ["line {line}, column {column}: {reason}", "line {line}, column {column}, {at}: {reason}"],
+)];
+
+#[test]
+fn every_form_of_an_error_is_in_the_catalogue() {
+    let mut all = Vec::new();
+    sources("src", &mut all);
+    let mut forms: Vec<String> = all.iter().flat_map(|(_, source)| literals_after(source, "#[error(")).collect();
+    assert!(forms.len() > 80, "{}", forms.len());
+    forms.retain(|form| form.replace(":?}", "}").split(['{', '}']).step_by(2).any(|own| !own.is_empty()));
+    for (both, single) in BOTH_FORMS {
+        forms.retain(|form| form != both);
+        forms.extend(single.map(str::to_owned));
+    }
+    let missing: Vec<String> = forms.into_iter().filter(|form| !language::has_phrase(&form.replace(":?}", "}"))).collect();
+    assert!(missing.is_empty(), "not in assets/locales/zh_CN.core.po: {missing:#?}");
+}
+
+#[test]
+fn errors_of_tables_are_said_in_chinese() {
+    let text = || "x".to_owned();
+    let kinds = || {
+        use ReadErrorKind as E;
+        vec![
+            E::Empty,
+            E::HeaderOnly,
+            E::NoHeader { found: text() },
+            E::MissingColumn { name: "theta_i", similar: None },
+            E::MissingColumn { name: "theta_i", similar: Some("Theta_I".to_owned()) },
+            E::NoQuantity,
+            E::RepeatedColumn { first: 1 },
+            E::RowLength { found: 2, expected: 3 },
+            E::EmptyCell { expected: "0 or 1" },
+            E::NoData,
+            E::SigmaWithoutValue,
+            E::NotANumber { found: text(), expected: "0 or 1" },
+            E::OutOfRange { found: text(), expected: "0 or 1".to_owned() },
+            E::NegativeThetaR { found: "-3".to_owned(), dphi: 90.0 },
+            E::EmptyText,
+            E::Unexpected { found: text(), expected: "0 or 1" },
+            E::Numbers { found: 5, expected: "4, or 6 with standard deviations" },
+            E::NoPsi,
+            E::UnknownColumn { field: "dolp", found: "\"x\"".to_owned(), names: "dolp, brdf".to_owned() },
+            E::UnknownColumn { field: "dolp", found: "number 7".to_owned(), names: "dolp, brdf".to_owned() },
+            E::NotMapped { field: "theta_i" },
+            E::NotMapped { field: "dolp or brdf" },
+            E::Nul,
+            E::Utf16,
+            E::UnclosedQuote,
+            E::Cancelled,
+        ]
+    };
+    let column = |name: &str| Some(Column { number: 2, name: name.to_owned() });
+    let at = |line| move |kind| ReadError { line, column: None, kind };
+    let mut texts = says(kinds().into_iter().map(at(None)));
+    texts.extend(says(kinds().into_iter().map(at(Some(3)))));
+    texts.extend(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column(""), kind }.to_string()));
+    texts.extend(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column("dolp"), kind }.to_string()));
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+/// Tables and other files that are each damaged in a way of their own.
+fn damaged_files() -> Vec<String> {
+    let mut going_on = |_: f64| ControlFlow::Continue(());
+    let mut texts = Vec::new();
+    for cells in
+        ["x,0,0.5,1,0", "90,0,0.5,1,0", "10,95,0.5,1,0", "10,0,2,1,0", "10,0,0.5,-1,0", "10,0,0.5,1,2", ",0,0.5,1,0", "10,nan,0.5,1,0"]
+    {
+        let table = format!("theta_i,theta_r,dolp,brdf,masked\n{cells}\n");
+        texts.push(read(table.as_bytes(), &mut going_on).expect_err(cells).to_string());
+    }
+    for cells in ["10,0,inf,50,1", "10,0,180,120,1", "10,0,180,50,0", "10,0,180,50,x"] {
+        let table = format!("theta_i,theta_r,dphi,dolp_percent,dolp_sigma\n{cells}\n");
+        texts.push(read(table.as_bytes(), &mut going_on).expect_err(cells).to_string());
+    }
+    let column = |field, number, unit| MappedColumn { field, column: ColumnChoice::Number(number), unit };
+    let mapping = Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Usual), column(Field::ThetaR, 9, Unit::Usual)] };
+    texts.push(read_mapped(&b"a,b,c\n1,2,3\n"[..], &mapping, &mut going_on).expect_err("no ninth column").to_string());
+    for rows in [
+        "nm\n0 55 43 160",
+        "nm\n650 95 43 160",
+        "nm\n650 55 99 160",
+        "nm\n650 55 43 x",
+        "nm\n650 55 43 160 -1 1",
+        "nm\ndpolE 650 55 x",
+        "nm\n650 55 43",
+        "nm\ndpolE 650 55",
+        "nm\n?",
+        "sample\n1 2 3 4",
+        " ",
+        "nm\n",
+    ] {
+        texts.push(read_woollam(rows.as_bytes(), &mut going_on).expect_err(rows).to_string());
+    }
+    texts
+}
+
+#[test]
+fn what_is_expected_of_damaged_files_is_said_in_chinese() {
+    let left = untranslated(damaged_files());
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn errors_of_tensors_mappings_and_wavelengths_are_said_in_chinese() {
+    use TensorErrorKind as E;
+    let kinds = || {
+        vec![
+            E::NoTensor,
+            E::Version(2, 1),
+            E::Truncated { expected: 12, found: 7 },
+            E::TooMany { what: "the length of a name", found: 99, most: 64 },
+            E::TooMany { what: "the number of dimensions", found: 99, most: 8 },
+            E::TooMany { what: "the number of fields", found: 99, most: 64 },
+            E::TooMany { what: "the number of angles", found: 99, most: 64 },
+            E::Missing,
+            E::Type { found: 4, expected: "10 (f32)" },
+            E::Shape { found: "3 × 4".to_owned(), expected: "1 × the number of angles".to_owned() },
+            E::Shape { found: "3 × 4".to_owned(), expected: "the number of wavelengths".to_owned() },
+            E::Shape { found: "3 × 4".to_owned(), expected: "3 × 5".to_owned() },
+            E::Grid { index: 3, found: -1.5, expected: "angles in radians, within ±π" },
+            E::Grid { index: 3, found: 0.0, expected: "wavelengths in nm" },
+        ]
+    };
+    let mut texts = Vec::new();
+    for (byte, field) in [(None, None), (Some(12), None), (None, Some("wvls")), (Some(12), Some("wvls"))] {
+        texts.extend(kinds().into_iter().map(|kind| TensorError { byte, field: field.map(str::to_owned), kind }.to_string()));
+    }
+    texts.push(tensor_from_bytes(b"tensor_file\0\x01\0\xff\0\0\0".to_vec()).expect_err("too many fields").to_string());
+    texts.extend(says([MappingError::Form("x".to_owned()), MappingError::Field("x".to_owned()), MappingError::Repeated("dolp")]));
+    texts.extend(
+        ["theta_i=1:percent", "brdf=1:percent", "dolp=1:radians"].map(|text| Mapping::from_text(text).expect_err(text).to_string()),
+    );
+    let many: Vec<f64> = (400..=420).map(f64::from).collect();
+    for available_nm in [Vec::new(), vec![450.0, 650.0], many] {
+        texts.push(WavelengthError::NotChosen { count: available_nm.len(), available_nm: available_nm.clone() }.to_string());
+        texts.push(WavelengthError::Outside { wanted_nm: 900.0, available_nm }.to_string());
+    }
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
+    let mut texts = Vec::new();
+    for text in ["hello", "m=3", "n=abc", "k=-2", "q=1", "c=inf", "sigma=0", "n=1, n=2"] {
+        texts.push(assignments_from_text(text).expect_err(text).to_string());
+        texts.push(Lesson::from_text(&format!("title: a\nstep: b\nset: {text}")).expect_err(text).to_string());
+    }
+    let (n, low, high) = (Parameter::N, 0.5, 1.5);
+    texts.extend(says([AssignmentError::Outside { parameter: n, value: -1.0, expected: Domain::Finite }]));
+    texts.extend(says([ParameterError::NoIndex, ParameterError::Outside { parameter: n, value: -1.0 }]));
+    texts.extend(says([BoundsError::Order { parameter: n, low, high }, BoundsError::Domain { parameter: n, value: -1.0 }]));
+    let problems = [
+        ProblemError::MissingSigma { row: 3, quantity: "dolp" },
+        ProblemError::NothingToPredict,
+        ProblemError::StartOutsideBounds { parameter: n, value: 3.0, low, high },
+    ];
+    texts.extend(says(problems.iter()));
+    texts.push(PlanError::Parameters(ParameterError::NoIndex).to_string());
+    texts.push(PlanError::Problem(ProblemError::NothingToPredict).to_string());
+    texts.extend(says([RefractiveIndexError::N(-1.0), RefractiveIndexError::K(-1.0), RefractiveIndexError::Zero]));
+    texts.extend(says([
+        GeometryError::ThetaI(95.0),
+        GeometryError::ThetaR(95.0),
+        GeometryError::SignedThetaR(95.0),
+        GeometryError::Dphi(f64::INFINITY),
+    ]));
+    for text in [
+        "hello",
+        "  indented",
+        "title: a\nstep: b\nmodel: phong",
+        "title: a\nstep: b\ntheta_i: 90",
+        "title: a\nstep: b\ndphi: inf",
+        "title: a\nstep: b\nlog: maybe",
+        "title: a\nstep: b\nwatch: c\nwatch: d",
+        "title: a\nstep: b\nlog.zh: yes",
+        "title: a\nstep: b\nwhy:",
+        "title: a\nwhy: b",
+        "title: a\nstep: b\nwhat: b",
+        "title: a",
+        "step: a",
+    ] {
+        texts.push(Lesson::from_text(text).expect_err(text).to_string());
+    }
+    for range in ["k", "k=3..0", "m=0..1", "k=a..b"] {
+        texts.push(Lesson::from_text(&format!("title: a\nstep: b\nrange: {range}")).expect_err(range).to_string());
+    }
+    texts.push(LessonError { line: 1, kind: LessonErrorKind::NoStep }.to_string());
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn errors_of_metals_and_pictures_are_said_in_chinese() {
+    let text = || "x".to_owned();
+    let mut texts = says([OutsideRange { wavelength_nm: 2000.0, range_nm: (200.0, 1000.0) }]);
+    let kinds = vec![
+        MetalsErrorKind::Header { found: text() },
+        MetalsErrorKind::Parts { found: 2, expected: 4 },
+        MetalsErrorKind::StrayHead { found: text() },
+        MetalsErrorKind::Repeated { found: text() },
+        MetalsErrorKind::Cells { found: 3 },
+        MetalsErrorKind::UnknownSource { found: text() },
+        MetalsErrorKind::Number { column: "wavelength_nm", found: text() },
+        MetalsErrorKind::Wavelength { found: 400.0, before: 500.0 },
+        MetalsErrorKind::NoSamples(text()),
+        MetalsErrorKind::Empty,
+    ];
+    texts.extend(kinds.into_iter().map(|kind| MetalsError { line: 3, kind }.to_string()));
+    texts.push(PngError::Size { width_mm: 1e9, height_mm: 10.0, dpi: 300.0 }.to_string());
+    texts
+        .extend(says([picture_kind(Path::new("1.bmp")).expect_err("no picture"), report_kind(Path::new("1.pdf")).expect_err("no report")]));
+    texts.push(open_file(Path::new("/")).expect_err("a directory"));
+    texts.push(open_file(Path::new("/there is none")).expect_err("no file"));
+    texts.extend(says([std::fs::read("/there is none").expect_err("no file")]));
+    let left = untranslated(texts.into_iter().map(|text| text.replace("1.bmp", "").replace("1.pdf", "")));
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn damaged_sessions_are_refused_in_chinese() {
+    let head = "\"format\":\"pbrdf-session\",\"version\":";
+    let mut texts = Vec::new();
+    for text in [
+        String::new(),
+        "{".to_owned(),
+        "{\"a\"".to_owned(),
+        "[".to_owned(),
+        "[1 2]".to_owned(),
+        "x".to_owned(),
+        "{} {}".to_owned(),
+        "3".to_owned(),
+        "{\"format\":3}".to_owned(),
+        "{\"format\":\"x".to_owned(),
+        "{\"a\":1,}".to_owned(),
+        "{1:2}".to_owned(),
+        "{}".to_owned(),
+        format!("{{{head}2}}"),
+        format!("{{{head}1}}"),
+        format!("{{{head}true}}"),
+        format!("{{{head}-1}}"),
+        format!("{{{head}1,\"program\":null}}"),
+        format!("{{{head}1,\"settings\":{{\"theta_i\":\"x\"}}}}"),
+    ] {
+        texts.push(Session::read(&text).expect_err(&text).to_string());
+    }
+    texts.push(SessionError::Settings("parameters: n = -1 is not allowed: expected a finite number ≥ 0".to_owned()).to_string());
+    texts.push(SessionError::Settings("theta_i, dphi: theta_i = 95 is outside 0 ≤ θi < 90 degrees".to_owned()).to_string());
+    let faults = literals_after(include_str!("../fit_account.rs"), "Some(");
+    texts.extend(faults.into_iter().filter(|fault| fault.starts_with("account")));
+    texts.push(SessionError::Fit { number: 2, reason: ProblemError::NothingToPredict.to_string() }.to_string());
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn the_verdict_of_gauss_against_cauchy_is_said_in_chinese() {
+    let mut texts = Vec::new();
+    for aicc_gain in [None, Some(-20.0), Some(-5.0), Some(-3.0), Some(-1.0), Some(1.0), Some(3.0), Some(5.0), Some(20.0)] {
+        for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0), (0.0, 1.0)] {
+            for is_delta_e in [true, false] {
+                texts.push(Contest { gauss, cauchy, aicc_gain, is_delta_e }.text());
+            }
+        }
+    }
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+    let contest = Contest { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
+    assert_eq!(phrase(&contest.text()), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
+}
+
+#[test]
+fn what_stays_open_keeps_its_parameters_in_chinese() {
+    chinese();
+    for (english, chinese) in [
+        ("q has no effect on these data", "q 对这些数据没有影响"),
+        ("n and k trade off: these data fix a combination of them, not each", "n 与 k 相互补偿：这些数据只确定其组合，而非各自的值"),
+        ("n, k, σ together: these data fix combinations of them, not each", "n, k, σ 一起：这些数据只确定其组合，而非各自的值"),
+        ("something else", "something else"),
+    ] {
+        assert_eq!(phrase(english), chinese);
+    }
+}
+
+#[test]
+fn names_of_models_finishes_metals_and_ends_of_fits_are_there_in_chinese() {
+    let mut texts: Vec<String> = PRESETS.iter().map(|preset| preset.name.to_owned()).collect();
+    texts.extend(FINISHES.iter().map(|finish| finish.name.to_owned()));
+    texts.extend(metals().expect("the bundled table").iter().map(|metal| metal.name.clone()));
+    use StopReason as S;
+    let ends =
+        [S::Converged, S::ResidualsZero, S::NoImprovement, S::EvaluationLimit, S::Cancelled, S::Underdetermined, S::NoData, S::Numerical];
+    texts.extend(ends.map(|end| end.text().to_owned()));
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
+    let gallery = include_str!("../../../assets/reference/stability_gallery.csv");
+    let mut texts: Vec<String> = gallery.lines().filter_map(literal).collect();
+    assert!(texts.len() > 40, "{}", texts.len());
+    let fits = include_str!("../../report/stiff_fits.rs");
+    texts.extend(literals_after(fits.split("impl Bar").next().unwrap_or_default(), "Self::new("));
+    texts.push("converged, ΔE 1.2e-30, 2 directions open".to_owned());
+    let cost = include_str!("../../report/cost.rs");
+    texts.extend(["name: ", "left_out: ", "gauss = "].iter().flat_map(|key| literals_after(cost, key)));
+    texts.extend(literals_after(include_str!("../../report/error_vs_time.rs"), "Method { name: "));
+    for kind in ["analytic Jacobian, scaled", "finite-difference Jacobian, unscaled"] {
+        for starts in ["one start", "5 starts"] {
+            texts.push(format!("Levenberg–Marquardt, {kind}, {starts}"));
+            texts.push(format!("LM, {}, {starts}", kind.replace(" Jacobian", "").replace("finite-difference", "differences")));
+        }
+    }
+    texts.extend(["this program, one start", "this program, many starts", "this program, 5 starts"].map(str::to_owned));
+    assert!(texts.len() > 100, "{}", texts.len());
+    let left = untranslated(texts);
+    assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+#[test]
+fn every_part_of_a_phrase_is_in_its_translation() {
+    let torn = language::torn_phrases();
+    assert!(torn.is_empty(), "{torn:#?}");
+}
