@@ -8,7 +8,7 @@ use pbrdf::model::Wording;
 use tr::tr;
 
 /// Height of the panel before the user changes it.
-const HEIGHT: f32 = 150.0;
+const HEIGHT: f32 = 172.0;
 
 /// The panel, while a lesson is open.
 pub fn lesson_panel(explorer: &mut Explorer, ui: &mut Ui) {
@@ -21,31 +21,17 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { lessons, commands, .. } = explorer;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
     let code = language::current().code();
+    let count = lesson.steps.len();
     ui.horizontal(|ui| {
-        // The title last: it takes what room the buttons leave.
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
-                commands.push(Command::CloseLesson);
-            }
-            let last = lesson.steps.len() - 1;
-            let (name, command) =
-                if index < last { (tr!("Next step"), Command::ShowStep(number, index + 1)) } else { (tr!("Done"), Command::CloseLesson) };
-            if ui.button(name).clicked() {
-                commands.push(command);
-            }
-            if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
-                commands.push(Command::ShowStep(number, index));
-            }
-            if ui.add_enabled(index > 0, egui::Button::new(tr!("Previous step"))).clicked() {
-                commands.push(Command::ShowStep(number, index - 1));
-            }
-            ui.weak(format!("{}/{}", index + 1, last + 1));
+            ui.weak(format!("{}/{count}", index + 1));
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 let title = format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code));
                 ui.add(Label::new(RichText::new(title).strong()).truncate());
             });
         });
     });
+    buttons_ui(number, index, count, commands, ui);
     ui.horizontal(|ui| {
         ui.weak(tr!("Your own work comes back when you close the lesson."));
         let help = tr!("Close the lesson and go on from here; your work of before is given up");
@@ -63,6 +49,26 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 part_ui(&heading, text, code, ui);
             }
         });
+    });
+}
+
+/// Forth, back, and out.
+fn buttons_ui(lesson: usize, step: usize, count: usize, commands: &mut Vec<Command>, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
+            commands.push(Command::ShowStep(lesson, step - 1));
+        }
+        if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
+            commands.push(Command::ShowStep(lesson, step));
+        }
+        let (name, command) =
+            if step + 1 < count { (tr!("Next step"), Command::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Command::CloseLesson) };
+        if ui.button(name).clicked() {
+            commands.push(command);
+        }
+        if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
+            commands.push(Command::CloseLesson);
+        }
     });
 }
 

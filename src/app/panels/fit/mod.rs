@@ -85,14 +85,13 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
     });
 }
 
-/// Offers stated standard deviations as weights, where they are there and not used.
+/// Offers stated standard deviations as weights, where they are there.
 fn sigmas_ui(settings: &mut Settings, derived: &Derived, ui: &mut Ui) {
-    let has_values = derived.values().is_some_and(|values| values > 0);
-    if settings.choices.weights == Weights::None && has_values && derived.states_sigmas() {
-        let help =
-            tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ². The options take it back.");
-        if ui.link(tr!("The file states standard deviations: use them as weights")).on_hover_text(help).clicked() {
-            settings.choices.weights = Weights::Sigma;
+    if derived.states_sigmas() && derived.values().is_some_and(|values| values > 0) {
+        let mut used = settings.choices.weights == Weights::Sigma;
+        let help = tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ²; without, ΔE is minimised.");
+        if ui.checkbox(&mut used, tr!("The file states standard deviations: use them as weights")).on_hover_text(help).changed() {
+            settings.choices.weights = if used { Weights::Sigma } else { Weights::None };
         }
     }
 }
