@@ -89,7 +89,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
 fn sigmas_ui(settings: &mut Settings, derived: &Derived, ui: &mut Ui) {
     if derived.states_sigmas() && derived.values().is_some_and(|values| values > 0) {
         let mut used = settings.choices.weights == Weights::Sigma;
-        let help = tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ²; without, ΔE is minimised.");
+        let help =
+            tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ²; without, ΔE is minimised.");
         if ui.checkbox(&mut used, tr!("The file states standard deviations: use them as weights")).on_hover_text(help).changed() {
             settings.choices.weights = if used { Weights::Sigma } else { Weights::None };
         }
