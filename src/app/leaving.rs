@@ -12,7 +12,7 @@ use super::session::{Recipe, Session};
 use super::state::Settings;
 use super::views;
 use super::window::Explorer;
-use crate::app::language::{phrase, translated};
+use crate::app::language::{self, Language, phrase, translated};
 use crate::export;
 use crate::write_file::write_file;
 use egui_plot::PlotPoint;
@@ -157,7 +157,11 @@ fn report(explorer: &Explorer) -> Result<Write, String> {
         let (program, date) = (export::program(), export::now());
         let document =
             FitDocument { measurement: &measurement, source: &source, problem: &problem, report: &report, program: &program, date: &date };
-        export::write_report(path, kind, &document.document()).map_err(|error| failure(path, &error))
+        let document = match language::current() {
+            Language::English => document.document(),
+            Language::Chinese => document.document().worded("zh-CN", &|text| phrase(text)),
+        };
+        export::write_report(path, kind, &document).map_err(|error| failure(path, &error))
     }))
 }
 
@@ -195,8 +199,12 @@ pub fn image(explorer: &Explorer, pane: Pane) -> Result<egui::ColorImage, String
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
 }
 
-/// The figure of a pane, of the same curves and points that are drawn.
+/// The figure of a pane, of the same curves and points that are drawn, in the language of the window.
 pub fn figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
+    Some(plain_figure(explorer, pane)?.worded(&|text| phrase(text)))
+}
+
+fn plain_figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
     match pane {
         Pane::Dolp => dolp(explorer),
         Pane::Lobes => lobes(explorer),

@@ -1,6 +1,7 @@
 //! Colours and sizes, in one place.
 
 use egui::Color32;
+use pbrdf::report::figure::CJK;
 
 /// Okabe and Ito's colours, told apart by colour-blind eyes, darkened or lightened for the background.
 const SERIES_ON_LIGHT: [(u8, u8, u8); 12] = [
@@ -98,9 +99,7 @@ pub fn install(ctx: &egui::Context) {
 /// The default fonts, and behind them what they lack: arrows, marks, mathematical signs and Chinese.
 fn fonts() -> egui::FontDefinitions {
     let mut fonts = egui::FontDefinitions::default();
-    for (name, data) in
-        [("symbols", &include_bytes!("../../assets/fonts/symbols.ttf")[..]), ("cjk", &include_bytes!("../../assets/fonts/cjk.ttf")[..])]
-    {
+    for (name, data) in [("symbols", &include_bytes!("../../assets/fonts/symbols.ttf")[..]), ("cjk", CJK)] {
         fonts.font_data.insert(name.to_owned(), std::sync::Arc::new(egui::FontData::from_static(data)));
         for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
             fonts.families.entry(family).or_default().push(name.to_owned());

@@ -19,6 +19,8 @@ pub enum Block {
         /// What stands in them.
         rows: Vec<Vec<String>>,
     },
+    /// What stands in the data's own file, key and value: in no language of ours.
+    Quoted(Vec<(String, String)>),
     /// A figure with words under it.
     Picture {
         /// Part of the name of its file, where it has one: letters and dashes.
@@ -35,6 +37,8 @@ pub enum Block {
 pub struct Document {
     /// Its title.
     pub title: String,
+    /// Code of its language where that is not English.
+    pub language: Option<&'static str>,
     /// Its parts.
     pub blocks: Vec<Block>,
 }
@@ -50,8 +54,9 @@ impl Document {
     #[must_use]
     pub fn html(&self) -> String {
         let title = escape(&self.title);
+        let language = self.language.unwrap_or("en");
         let mut out = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+            "<!DOCTYPE html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
              <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
              <h1>{title}</h1>\n"
@@ -66,6 +71,7 @@ impl Document {
                     writeln!(out, "<ul>\n{items}</ul>")
                 }
                 Block::Table { head, rows } => writeln!(out, "{}", html_table(head, rows)),
+                Block::Quoted(pairs) => writeln!(out, "{}", html_table(&[], &rows_of(pairs))),
                 Block::Picture { caption, figure, .. } => {
                     writeln!(out, "<figure>\n{}<figcaption>{}</figcaption>\n</figure>", figure.svg(), escape(caption))
                 }
@@ -90,12 +96,30 @@ impl Document {
                     write!(out, "{items}")
                 }
                 Block::Table { head, rows } => write!(out, "{}", markdown_table(head, rows)),
+                Block::Quoted(pairs) => write!(out, "{}", markdown_table(&[], &rows_of(pairs))),
                 Block::Picture { name, caption, .. } => {
                     writeln!(out, "![{}](<{}>)\n\n*{}*", plain(caption), address(&file_of(name)), plain(caption))
                 }
             };
         }
         out
+    }
+
+    /// In another language: every text of ours put through that function.
+    #[must_use]
+    pub fn worded(&self, language: &'static str, word: &dyn Fn(&str) -> String) -> Self {
+        let all = |texts: &[String]| texts.iter().map(|text| word(text)).collect::<Vec<_>>();
+        let block = |block: &Block| match block {
+            Block::Heading(text) => Block::Heading(word(text)),
+            Block::Paragraph(text) => Block::Paragraph(word(text)),
+            Block::List(items) => Block::List(all(items)),
+            Block::Table { head, rows } => Block::Table { head: all(head), rows: rows.iter().map(|row| all(row)).collect() },
+            Block::Quoted(pairs) => Block::Quoted(pairs.clone()),
+            Block::Picture { name, caption, figure } => {
+                Block::Picture { name, caption: word(caption), figure: Box::new(figure.worded(word)) }
+            }
+        };
+        Self { title: word(&self.title), language: Some(language), blocks: self.blocks.iter().map(block).collect() }
     }
 
     /// The figures with their names.
@@ -105,6 +129,10 @@ impl Document {
             _ => None,
         })
     }
+}
+
+fn rows_of(pairs: &[(String, String)]) -> Vec<Vec<String>> {
+    pairs.iter().map(|(key, value)| vec![key.clone(), value.clone()]).collect()
 }
 
 fn html_table(head: &[String], rows: &[Vec<String>]) -> String {
@@ -187,6 +215,7 @@ mod tests {
         let text = || HOSTILE.to_owned();
         Document {
             title: text(),
+            language: None,
             blocks: vec![
                 Block::Heading(text()),
                 Block::Paragraph(text()),

@@ -95,7 +95,7 @@ impl FitDocument<'_> {
         blocks.push(heading("Program"));
         let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
         blocks.push(Block::Paragraph(format!("{}{date}.", self.program)));
-        Document { title: format!("Fit of {}", self.source.name), blocks }
+        Document { title: format!("Fit of {}", self.source.name), language: None, blocks }
     }
 
     /// One figure of data, fit and residuals: DoLP and, where it was measured and is predicted, the BRDF below it.
@@ -283,8 +283,11 @@ impl FitDocument<'_> {
         rows.push(("measured", measured.into_iter().flatten().collect::<Vec<_>>().join(", ")));
         let angles: Vec<String> = measurement.incidence_angles().iter().take(20).map(|angle| format!("{angle}°")).collect();
         rows.push(("angles of incidence", angles.join(", ")));
-        rows.extend(measurement.metadata.iter().map(|(key, value)| (key.as_str(), value.clone())));
-        vec![heading("Data"), pairs(rows)]
+        let mut blocks = vec![heading("Data"), pairs(rows)];
+        if !measurement.metadata.is_empty() {
+            blocks.push(Block::Quoted(measurement.metadata.clone()));
+        }
+        blocks
     }
 
     fn model(&self) -> Vec<Block> {

@@ -1,6 +1,9 @@
 //! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
 
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
 use crate::app::language::{self, Language, phrase};
+use crate::app::leaving::Outgoing;
 use crate::app::session::{Session, SessionError};
 use crate::export::{picture_kind, report_kind};
 use crate::open_file::open_file;
@@ -10,7 +13,8 @@ use pbrdf::measurement::{
     WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
 };
 use pbrdf::model::{
-    AssignmentError, Domain, FINISHES, Lesson, LessonError, LessonErrorKind, PRESETS, Parameter, ParameterError, assignments_from_text,
+    AssignmentError, Domain, FINISHES, Lesson, LessonError, LessonErrorKind, PRESETS, Parameter, ParameterError, Preset,
+    assignments_from_text,
 };
 use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
 use pbrdf::report::figure::PngError;
@@ -21,119 +25,103 @@ use std::path::Path;
 /// Words that are the same in Chinese: keys of files and options, names of quantities, units, formats, people and methods.
 const SAME: &[&str] = &[
     "AICc",
-    "AVX2",
     "AOI",
+    "AVX2",
+    "Angstroms",
     "BRDF",
+    "Beckmann",
     "DoLP",
     "GGX",
+    "Germer",
+    "Header",
     "Hyde",
     "JSON",
-    "LM",
     "Lambert",
     "Levenberg",
     "Marquardt",
     "Minnaert",
     "NUL",
+    "Priest",
+    "Sparrow",
+    "Thilak",
+    "Torrance",
     "UTF",
     "Unicode",
+    "Wang",
+    "Zhu",
     "about",
+    "account",
+    "aoi",
+    "bounds",
     "brdf",
     "brdf_sigma",
-    "c",
+    "cos",
     "csv",
     "degrees",
+    "delta",
+    "depolarisation",
     "dolp",
-    "dolp_sigma",
     "dolp_percent",
+    "dolp_sigma",
     "dphi",
     "dpi",
-    "example",
+    "dpolE",
     "elapsed_ms",
+    "example",
     "field=column",
     "fraction",
+    "high",
     "html",
-    "ks",
-    "kd",
-    "kv",
+    "inf",
     "log",
     "masked",
     "max",
-    "md",
-    "mm",
+    "measurement",
+    "minima",
     "model",
     "move",
+    "name=low",
     "name=value",
-    "nm",
-    "no",
+    "nan",
+    "null",
     "panes",
+    "parameters",
     "percent",
     "phi_d",
+    "plan",
     "png",
-    "psi",
-    "high",
-    "account",
-    "minima",
-    "range",
-    "name=low",
-    "k_s",
-    "k_d",
-    "k_v",
     "program",
-    "null",
-    "Header",
-    "aoi",
-    "depolarisation",
-    "inf",
-    "nan",
-    "sigma_psi",
-    "wavelength",
-    "Beckmann",
-    "Germer",
-    "Priest",
-    "Thilak",
-    "Torrance",
-    "Sparrow",
-    "Wang",
-    "Zhu",
-    "delta",
+    "psi",
     "rad",
     "radians",
+    "range",
     "set",
     "settings",
     "sigma",
+    "sin",
+    "sigma_psi",
     "sigma_v",
     "soft",
-    "sr",
     "source",
     "step",
     "svg",
     "table",
-    "measurement",
     "tensor_file",
+    "theta_d",
     "theta_i",
     "theta_r",
-    "theta_d",
     "title",
-    "wavelength_nm",
-    "watch",
-    "why",
-    "yes",
-    "parameters",
-    "bounds",
-    "dpolE",
-    "Angstroms",
     "ulp",
-    "L1",
-    "plan",
+    "watch",
+    "wavelength",
+    "wavelength_nm",
+    "why",
     "wvls",
-    "f32",
-    "f64",
-    "u16",
-    "cos",
+    "yes",
 ];
 
-/// What is left of English in a text: words outside quotes that are no names.
-fn english(text: &str) -> Vec<String> {
+/// What is left of English in a text: words outside quotes that are no names and longer than symbols.
+pub(super) fn english(text: &str) -> Vec<String> {
     let mut rest = String::new();
     for (i, part) in text.split(['"', '`']).enumerate() {
         if i % 2 == 0 {
@@ -144,7 +132,7 @@ fn english(text: &str) -> Vec<String> {
     let words = rest.split(|letter: char| !(letter.is_ascii_alphanumeric() || "_=".contains(letter)));
     let is_english = |word: &&str| {
         let letters = word.chars().filter(char::is_ascii_alphabetic).count();
-        letters > 1 && !SAME.contains(word) && !word.starts_with("1e") && word.chars().all(|c| c.is_ascii_alphabetic() || c == '_')
+        letters > 2 && !SAME.contains(word) && !word.starts_with("1e") && word.chars().all(|c| c.is_ascii_alphabetic() || c == '_')
     };
     words.filter(is_english).map(str::to_owned).collect()
 }
@@ -529,6 +517,42 @@ fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
     assert!(texts.len() > 100, "{}", texts.len());
     let left = untranslated(texts);
     assert!(left.is_empty(), "{}", left.join("\n"));
+}
+
+/// The texts of an HTML file outside its figures, with those of its figures as they are read out.
+fn texts_of(html: &str) -> Vec<String> {
+    let body = &html[html.find("<body>").expect("a body")..html.find("</html>").expect("an end")];
+    let document = roxmltree::Document::parse(body).expect("XML");
+    let said = |node: roxmltree::Node<'_, '_>| node.text().or(node.attribute("aria-label")).map(str::to_owned);
+    document.descendants().filter_map(said).collect()
+}
+
+#[test]
+fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    let folder = tempfile::tempdir().expect("a folder");
+    for (example, model) in [(0, "hyde"), (1, "cauchy"), (1, "three-component")] {
+        explorer(&mut harness).commands.push(Command::OpenExample(example));
+        wait(&mut harness);
+        explorer(&mut harness).settings.model = Preset::from_key(model).expect("a model").model;
+        explorer(&mut harness).commands.push(Command::StartFit);
+        wait(&mut harness);
+        let path = folder.path().join("report.html");
+        Outgoing::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
+        let html = std::fs::read_to_string(&path).expect("the file");
+        assert!(html.contains("lang=\"zh-CN\"") && html.contains("数据未能确定的量"));
+        let document = &explorer(&mut harness).document;
+        // What stands in the data's file, its name, and literature stay as they are.
+        let quoted = |text: &str| {
+            document.measurement.metadata.iter().any(|(key, value)| key == text || value == text)
+                || PRESETS.iter().any(|preset| preset.citation == text)
+                || text.starts_with("pbrdf-explorer")
+        };
+        let texts = texts_of(&html).into_iter().map(|text| text.replace(&document.name, "")).filter(|text| !quoted(text));
+        let left: Vec<String> = texts.filter(|text| !english(text).is_empty()).collect();
+        assert!(left.is_empty(), "{model}: {left:#?}");
+    }
 }
 
 #[test]

@@ -3,8 +3,10 @@
 //! Fonts are outlines of our own and the renderer runs on the processor, so that pictures hardly differ from machine to machine.
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
+use super::phrases::english;
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
+use crate::app::language::Language;
 use crate::app::leaving::{PLOTS, figure};
 use crate::app::panes::Pane;
 use crate::app::reports::Subject;
@@ -120,23 +122,45 @@ fn report(subject: Subject) -> Event {
     Event::Reported { made: Box::new(made), is_part: false }
 }
 
+/// The figures of all plots.
+fn figures(harness: &mut Harness<'static, Option<Explorer>>) -> Vec<(Pane, Figure)> {
+    for subject in Subject::ALL {
+        explorer(harness).receive(report(subject));
+    }
+    let mut shown = |pane: Pane| {
+        if !explorer(harness).panes.is_on_screen(pane) {
+            order(harness, Command::TogglePane(pane));
+        }
+        wait(harness);
+        (pane, figure(explorer(harness), pane).expect("a plot"))
+    };
+    PLOTS.into_iter().map(&mut shown).collect()
+}
+
 #[test]
 fn every_exported_plot_looks_as_it_did() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
-    let mut harness = fitted();
-    for subject in Subject::ALL {
-        explorer(&mut harness).receive(report(subject));
-    }
-    let mut wrong = Vec::new();
-    for pane in PLOTS {
-        if !explorer(&mut harness).panes.is_on_screen(pane) {
-            order(&mut harness, Command::TogglePane(pane));
-        }
-        wait(&mut harness);
-        let figure = figure(explorer(&mut harness), pane).expect("a plot");
-        wrong.extend(compare(&folder(), pane.entry().key, &figure, update));
-    }
+    let figures = figures(&mut fitted());
+    let wrong: Vec<String> = figures.iter().filter_map(|(pane, figure)| compare(&folder(), pane.entry().key, figure, update)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_exported_plot_is_in_chinese_where_the_window_is() {
+    let mut harness = fitted();
+    order(&mut harness, Command::SetLanguage(Language::Chinese));
+    let mut left = Vec::new();
+    for (pane, figure) in figures(&mut harness) {
+        let svg = figure.svg();
+        assert!(!svg.contains("<text"), "{pane:?}: a letter that the fonts lack");
+        let svg = roxmltree::Document::parse(&svg).expect("XML");
+        let words = svg.descendants().filter_map(|node| node.attribute("aria-label"));
+        // Names of files stay, and sources of tabulated metals, which end with their year.
+        let is_name = |word: &str| word.contains(".csv") || word.ends_with(|last: char| last.is_ascii_digit());
+        let words = words.map(|word| word.split("：").last().unwrap_or(word)).filter(|word| !is_name(word));
+        left.extend(words.filter(|word| !english(word).is_empty()).map(|word| format!("{pane:?}: {word}")));
+    }
+    assert!(left.is_empty(), "{}", left.join("\n"));
 }
 
 #[test]

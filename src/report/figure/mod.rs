@@ -13,11 +13,13 @@ mod shapes;
 mod svg;
 mod text;
 mod ticks;
+mod worded;
 
 #[cfg(feature = "figures")]
 pub use png::{Image, PngError};
 
 pub(super) use canvas::escape;
+pub use text::CJK;
 
 pub use super::palette::{ColorMap, Rgb, SERIES};
 

@@ -1,17 +1,19 @@
 //! Text as outlines: a figure looks the same wherever it is opened, whatever fonts are there.
 //!
-//! The font is a subset of DejaVu Sans (`assets/fonts`). Characters that it lacks are left to the viewer's own fonts in an SVG and are
-//! empty boxes in a PNG.
+//! The font is a subset of DejaVu Sans, and for Chinese one of Droid Sans Fallback, the same that the window has (`assets/fonts`). Characters
+//! that both lack are left to the viewer's own fonts in an SVG and are empty boxes in a PNG.
 
 use std::fmt::Write as _;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 static FONT: &[u8] = include_bytes!("../../../assets/fonts/figure.ttf");
+/// Chinese characters.
+pub static CJK: &[u8] = include_bytes!("../../../assets/fonts/cjk.ttf");
 
-/// The font, ready to measure and to draw.
+/// The fonts as one, ready to measure and to draw.
 pub struct Font {
-    /// None only if the bundled file were damaged: then there is no text.
-    face: Option<Face<'static>>,
+    /// Asked in this order. Empty only if the bundled files were damaged: then there is no text.
+    faces: Vec<Face<'static>>,
 }
 
 /// Width of a character where there is no font to ask, as a fraction of the size.
@@ -19,25 +21,23 @@ const GUESSED_WIDTH: f64 = 0.6;
 
 impl Font {
     pub fn new() -> Self {
-        Self { face: Face::parse(FONT, 0).ok() }
+        Self { faces: [FONT, CJK].into_iter().filter_map(|font| Face::parse(font, 0).ok()).collect() }
     }
 
-    fn glyph(&self, letter: char) -> GlyphId {
-        self.face.as_ref().and_then(|face| face.glyph_index(letter)).unwrap_or(GlyphId(0))
-    }
-
-    fn units(&self) -> f64 {
-        self.face.as_ref().map_or(1.0, |face| f64::from(face.units_per_em()))
+    /// The first font that has it; else the empty box of the first.
+    fn glyph(&self, letter: char) -> Option<(&Face<'static>, GlyphId)> {
+        let found = self.faces.iter().find_map(|face| Some((face, face.glyph_index(letter)?)));
+        found.or_else(|| self.faces.first().map(|face| (face, GlyphId(0))))
     }
 
     /// Whether it has every character.
     pub fn covers(&self, text: &str) -> bool {
-        text.chars().all(|letter| self.face.as_ref().is_some_and(|face| face.glyph_index(letter).is_some()))
+        text.chars().all(|letter| self.faces.iter().any(|face| face.glyph_index(letter).is_some()))
     }
 
     fn advance(&self, letter: char) -> f64 {
-        let units = self.face.as_ref().and_then(|face| face.glyph_hor_advance(self.glyph(letter)));
-        units.map_or(GUESSED_WIDTH, |units| f64::from(units) / self.units())
+        let share = |(face, glyph): (&Face<'_>, GlyphId)| Some(f64::from(face.glyph_hor_advance(glyph)?) / f64::from(face.units_per_em()));
+        self.glyph(letter).and_then(share).unwrap_or(GUESSED_WIDTH)
     }
 
     /// Width of a text of that size.
@@ -47,12 +47,12 @@ impl Font {
 
     /// The text as the data of an SVG path, its baseline beginning at that point.
     pub fn outline(&self, text: &str, size: f64, x: f64, y: f64) -> String {
-        let scale = size / self.units();
-        let mut pen = Pen { data: String::new(), x, y, scale };
+        let mut pen = Pen { data: String::new(), x, y, scale: 1.0 };
         for letter in text.chars() {
-            if let Some(face) = &self.face {
+            if let Some((face, glyph)) = self.glyph(letter) {
+                pen.scale = size / f64::from(face.units_per_em());
                 // Blanks have no outline.
-                let _ = face.outline_glyph(self.glyph(letter), &mut pen);
+                let _ = face.outline_glyph(glyph, &mut pen);
             }
             pen.x += size * self.advance(letter);
         }
@@ -124,7 +124,7 @@ mod tests {
         for parameter in Parameter::ALL {
             assert!(font.covers(parameter.symbol()) && font.covers(parameter.name()), "{parameter:?}");
         }
-        assert!(!font.covers("钢"));
+        assert!(font.covers("钢的 DoLP：θr = 30°") && !font.covers("강"));
     }
 
     #[test]

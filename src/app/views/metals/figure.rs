@@ -1,6 +1,7 @@
 //! n and k of a metal against the wavelength for print.
 
 use super::{PARTS, chosen};
+use crate::app::language::translated;
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
 use crate::app::window::Explorer;
 use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
@@ -26,6 +27,6 @@ pub fn metals_figure(explorer: &Explorer) -> Option<Figure> {
             ..Panel::default()
         }
     });
-    let title = format!("{} ({})", metal.name, metal.key);
+    let title = format!("{} ({})", translated(metal.name.as_str()), metal.key);
     Some(Figure { title, panels: panels.collect(), width_mm: 160.0, height_mm: 170.0, ..Figure::default() })
 }
