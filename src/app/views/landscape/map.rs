@@ -5,10 +5,10 @@ use super::drawn::Drawn;
 use super::legend::legend_ui;
 use super::marks::{marks_in, sliders_in};
 use crate::app::plots::axis::{axis, decimal};
-use crate::app::plots::{BAR_ROOM, plot};
+use crate::app::plots::{BAR_ROOM, line, plot};
 use crate::app::window::Explorer;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
-use egui_plot::{AxisHints, HoverPosition, Line, PlotBounds, PlotImage, PlotPoint, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
 use pbrdf::fit::Axis;
 use pbrdf::model::Parameter;
 
@@ -70,7 +70,7 @@ fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a Drawn, texture: &TextureHandle
     plot.image(PlotImage::new("", texture.id(), center, size).allow_hover(false));
     for (color, pieces) in drawn.contours.iter().filter(|_| with_contours) {
         for piece in pieces {
-            plot.line(Line::new("", PlotPoints::Borrowed(piece)).color(*color).width(1.0).allow_hover(false));
+            plot.line(line("", piece).color(*color).width(1.0).allow_hover(false));
         }
     }
 }

@@ -4,9 +4,10 @@ use super::axes::coordinate;
 use crate::app::document::Document;
 use crate::app::language::translated;
 use crate::app::past_fits::{PastFit, PastFits};
+use crate::app::plots::line;
 use crate::app::state::{OverTwo, Settings};
 use egui::{Align2, Color32, Rect, RichText};
-use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui_plot::{MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
 use pbrdf::optics;
 use tr::tr;
@@ -201,7 +202,7 @@ fn way_in<'a>(plot: &mut PlotUi<'a>, way: &'a Noted, age: usize) {
     let color = way_color(age);
     for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, color)] {
         for edge in way.points.windows(2) {
-            plot.line(Line::new("", PlotPoints::Borrowed(edge)).color(color).width(width).allow_hover(false));
+            plot.line(line("", edge).color(color).width(width).allow_hover(false));
         }
     }
     plot.points(Points::new(way_name(age), PlotPoints::Borrowed(&way.points)).color(color).radius(2.0));
