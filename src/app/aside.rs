@@ -59,7 +59,7 @@ impl Explorer {
         }
     }
 
-    /// Keeps the user's own work, and goes on with the same data and panes and with settings that every lesson finds alike.
+    /// Keeps the user's own work, and goes on with the same data and panes, no fit shown, and with settings that every lesson finds alike.
     fn set_aside(&mut self) -> Result<(), String> {
         if self.worker.load.is_some() || self.worker.session.is_some() {
             return Err(tr!("A file is still being read: begin the lesson when it is there."));
@@ -74,7 +74,7 @@ impl Explorer {
         self.aside = Some(Box::new(Aside {
             settings: std::mem::replace(&mut self.settings, Settings::for_measurement(&self.document.measurement)),
             document: self.document.clone(),
-            last_fit: self.last_fit.clone(),
+            last_fit: self.last_fit.take(),
             past_fits: self.past_fits.clone(),
             panes: std::mem::replace(&mut self.panes, copy),
             comparison: std::mem::take(&mut self.comparison),

@@ -248,13 +248,15 @@ fn a_session_opened_in_a_lesson_ends_it() {
 
 #[test]
 fn a_lesson_begins_with_the_defaults_whatever_was_set() {
-    let mut harness = harness();
+    let mut harness = worked_in();
+    assert!(explorer(&mut harness).last_fit.is_some());
     let settings = &mut explorer(&mut harness).settings;
     (settings.refit_live, settings.show_limit, settings.parameters.sigma) = (true, false, 2.0);
     harness.run();
     order(&mut harness, Command::ShowStep(0, 0));
     let settings = &explorer(&mut harness).settings;
     assert_eq!((settings.refit_live, settings.show_limit, settings.parameters.sigma), (false, true, Parameters::default().sigma));
+    assert!(explorer(&mut harness).last_fit.is_none(), "no curve of a fit among those of the lesson");
 }
 
 #[test]
