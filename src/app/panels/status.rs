@@ -66,8 +66,11 @@ pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
         return;
     }
     let width = WIDTH.min(room.width() - 40.0);
-    let area = egui::Area::new(egui::Id::unique("notices")).order(egui::Order::Middle).pivot(egui::Align2::CENTER_BOTTOM);
-    area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room).show(ui.ctx(), |ui| {
+    let id = egui::Id::unique("notices");
+    let before = egui::AreaState::load(ui.ctx(), id).and_then(|state| state.size);
+    let area = egui::Area::new(id).order(egui::Order::Middle).pivot(egui::Align2::CENTER_BOTTOM);
+    let area = area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room);
+    let shown = area.show(ui.ctx(), |ui| {
         let warning = theme::warning(ui.visuals().dark_mode);
         let is_brief = fault.is_none() && notices.iter().all(|notice| notice.is_brief);
         let color = if is_brief { ui.visuals().widgets.noninteractive.fg_stroke.color } else { warning };
@@ -81,6 +84,10 @@ pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
             }
         });
     });
+    if before.is_some_and(|size| size != shown.response.rect.size()) {
+        // It was drawn where its size of before puts it.
+        ui.ctx().request_repaint();
+    }
 }
 
 /// The sentences, and the button that sends them away.

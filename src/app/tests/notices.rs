@@ -43,6 +43,25 @@ fn sentences_do_not_move_the_plots_and_several_do_not_cover_them() {
 }
 
 #[test]
+fn what_is_left_sinks_to_the_place_of_what_went() {
+    let mut harness = harness();
+    explorer(&mut harness).say("It failed.".to_owned());
+    harness.run();
+    let place = |harness: &Window| harness.get_by_label("It failed.").rect();
+    let alone = place(&harness);
+    explorer(&mut harness).notices.say_briefly("It is done.".to_owned());
+    harness.run();
+    while explorer(&mut harness).notices.iter().count() > 1 {
+        harness.step();
+    }
+    // Nothing else wakes the window then: it has to be asked for.
+    let root = &harness.output().viewport_output[&egui::ViewportId::ROOT];
+    assert!(root.repaint_delay.is_zero() || place(&harness) == alone, "{:?}", root.repaint_delay);
+    harness.run();
+    assert_eq!(place(&harness), alone);
+}
+
+#[test]
 fn a_missing_curve_does_not_move_the_plots_either() {
     let mut harness = harness();
     let before = plot(&harness);
