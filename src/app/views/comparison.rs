@@ -49,7 +49,7 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 /// Between columns.
-const SPACING: [f32; 2] = [10.0, 4.0];
+const SPACING: [f32; 2] = [9.0, 4.0];
 
 fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
@@ -122,6 +122,9 @@ fn parameters_ui(comparison: &[Rung], ui: &mut Ui) {
     });
 }
 
+/// Letters of parameters: nine columns fit into a narrow pane.
+const LETTERS: f32 = 11.0;
+
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     let standing = match estimate.standing() {
         Standing::Fixed => tr!("fixed"),
@@ -132,8 +135,8 @@ fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
-        ui.label(RichText::new(significant(estimate.value)).monospace().small());
-        ui.label(RichText::new(standing).monospace().small()).on_hover_text(words::standing_help(estimate.standing()));
+        ui.label(RichText::new(significant(estimate.value)).size(LETTERS));
+        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(words::standing_help(estimate.standing()));
     });
 }
 

@@ -250,7 +250,8 @@ fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
-            view.masking_axes.apply(plot, Some(Range { low: -90.0, high: 90.0 }), Some(Range { low: 0.0, high: 1.05 }));
+            // The mark at 0 keeps off that at −90°.
+            view.masking_axes.apply(plot, Some(Range { low: -90.0, high: 90.0 }), Some(Range { low: -0.1, high: 1.1 }));
             // Without masking, the model has G = 1 everywhere.
             let color = if settings.model.masking { theme::foreground(dark) } else { theme::muted(dark) };
             curve(plot, masking, &tr!("masking–shadowing G"), color, None, 2.0);

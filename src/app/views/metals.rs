@@ -60,7 +60,10 @@ pub fn metals_refresh(explorer: &mut Explorer) {
     });
     let (low, high) = metal.range_nm();
     let high = if wavelength_nm > SHORT { high.max(wavelength_nm) } else { SHORT };
-    view.wavelengths.follow(Range { low: low.min(Tabulated::SHORTEST_NM), high }, *dragging);
+    let low = low.min(Tabulated::SHORTEST_NM);
+    // Marks at the ends have room for their numbers.
+    let air = 0.04 * (high - low);
+    view.wavelengths.follow(Range { low: low - air, high: high + air }, *dragging);
     let seen = || metal.sources.iter().flat_map(Source::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
     for ((parameter, part), range) in PARTS.into_iter().zip(&mut view.ranges) {
         let top = seen().map(|sample| part(sample.index)).fold(settings.parameters[parameter].min(20.0), f64::max);
@@ -218,8 +221,6 @@ fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Optio
 
 /// Least height of the plots: where there is less room, the pane scrolls.
 const HEIGHT: f32 = 130.0;
-/// Beside a plot, for the half of the last mark that stands out.
-const BESIDE: f32 = 24.0;
 
 /// n and k against the wavelength, side by side.
 fn lines_ui(explorer: &mut Explorer, metal: &Metal, ui: &mut Ui) {
@@ -257,7 +258,6 @@ fn part_ui(
     // Narrower than where plots stand one above the other.
     let narrow = y.clone().min_thickness(44.0);
     let response = plot(parameter.key(), ui, height, x, y)
-        .width((ui.available_width() - BESIDE).max(60.0))
         .custom_y_axes(vec![narrow])
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {

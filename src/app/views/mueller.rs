@@ -254,10 +254,10 @@ impl Multiples {
         let middle = f64::midpoint(self.x.low, self.x.high);
         for column in 0..4 {
             let cell = self.cell(3, column);
-            // Between narrow cells the ends of two axes would run into each other.
+            // Both ends of neighbours would run into each other, and in narrow cells all three marks.
             let wide = cell.width() > 100.0;
             for (theta_r, anchor, is_drawn) in [
-                (self.x.low, Align2::LEFT_TOP, wide || column == 0),
+                (self.x.low, Align2::LEFT_TOP, column == 0),
                 (middle, Align2::CENTER_TOP, wide || (1..3).contains(&column)),
                 (self.x.high, Align2::RIGHT_TOP, wide || column == 3),
             ] {

@@ -65,6 +65,9 @@ fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
     drawn(document).map(of_one).collect()
 }
 
+/// Below this height marks stand closer, so that there is more than that at 0.
+const LOW: f32 = 100.0;
+
 pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let Explorer { derived, views, .. } = explorer;
     let view = &mut views.dolp.residuals;
@@ -74,7 +77,7 @@ pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let x = axis(AxisHints::new_x(), ui, "", decimal);
     let y = axis(AxisHints::new_y(), ui, &tr!("model − meas."), decimal);
     let response = plot("residuals", ui, height, x, y)
-        .y_grid_spacer(|input| axis::marks(&input, 2.2, 0.0))
+        .y_grid_spacer(move |input| axis::marks(&input, if height < LOW { 2.2 } else { 3.5 }, 0.0))
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(tr!("{0}\nθr = {1}°\nresidual = {2}", plot_name, format!("{:.2}", position.x), format!("{:.2e}", position.y)))

@@ -36,9 +36,10 @@ pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>,
         for Rung { preset, result } in comparison {
             let Ok(report) = result else { continue };
             ui.label(preset.key).on_hover_text([preset.name, preset.citation, report.stop_reason.text()].map(translated).join("\n"));
-            ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
-            ui.monospace(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
-            ui.monospace(format!("{:.2}, {:.2}", report.parameters.n, report.parameters.k));
+            // Narrower than letters of one width, which would widen the panel.
+            ui.label(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}")));
+            ui.label(report.aicc.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}")));
+            ui.label(format!("{:.2}, {:.2}", report.parameters.n, report.parameters.k));
             ui.end_row();
         }
     });
