@@ -13,13 +13,13 @@ use tr::tr;
 const PAGES: [&str; 6] = ["Table", "Evaluation", "Along one fit", "Performance profile", "Ladder", "Along the ladder"];
 
 const HEADINGS: [Heading; 7] = [
-    Heading { text: "task", help: "Evaluations of the model, or fits", width: 58.0, is_number: false },
-    Heading { text: "method", help: "How it is done", width: 230.0, is_number: false },
-    Heading { text: "time", help: "Of a point or of a fit, median of the repetitions", width: 80.0, is_number: true },
-    Heading { text: "± %", help: "Half the distance between the quartiles over the median", width: 48.0, is_number: true },
-    Heading { text: "worst error", help: "Relative; 1 means not a single digit", width: 80.0, is_number: true },
-    Heading { text: "median error", help: "Relative", width: 84.0, is_number: true },
-    Heading { text: "success", help: "Share of fits that reached the best objective known", width: 60.0, is_number: true },
+    Heading { text: "task", help: "Evaluations of the model, or fits", width: 50.0, is_number: false },
+    Heading { text: "method", help: "How it is done", width: 193.0, is_number: false },
+    Heading { text: "time", help: "Of a point or of a fit, median of the repetitions", width: 62.0, is_number: true },
+    Heading { text: "± %", help: "Half the distance between the quartiles over the median", width: 34.0, is_number: true },
+    Heading { text: "worst error", help: "Relative; 1 means not a single digit", width: 72.0, is_number: true },
+    Heading { text: "median error", help: "Relative", width: 80.0, is_number: true },
+    Heading { text: "success", help: "Share of fits that reached the best objective known", width: 48.0, is_number: true },
 ];
 
 pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {

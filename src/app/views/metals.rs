@@ -259,6 +259,7 @@ fn part_ui(
     let narrow = y.clone().min_thickness(44.0);
     let response = plot(parameter.key(), ui, height, x, y)
         .custom_y_axes(vec![narrow])
+        .x_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
