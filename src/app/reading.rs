@@ -5,10 +5,12 @@
 
 use super::language::phrase;
 use super::plan::Span;
+use crate::export;
 use pbrdf::measurement::{
     self, Ellipsometry, Mapping, Measurement, Progress, ReadError, ReadErrorKind, Table, Tensor, grid_geometries, is_tensor, is_woollam,
     read_mapped, read_woollam, tensor_from_bytes,
 };
+use sha2::{Digest as _, Sha256};
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -72,6 +74,31 @@ const HEAD: usize = 1 << 16;
 const OFFERED: f64 = 650.0;
 /// Bytes between two reports of progress.
 const CHUNK: usize = 1 << 20;
+
+/// A reader that takes the hash of what goes through it.
+pub struct Hashing<R> {
+    source: R,
+    hash: Sha256,
+}
+
+impl<R> Hashing<R> {
+    pub fn new(source: R) -> Self {
+        Self { source, hash: Sha256::new() }
+    }
+
+    /// SHA-256 of what went through, hexadecimal.
+    pub fn finish(self) -> String {
+        export::hexadecimal(&self.hash.finalize())
+    }
+}
+
+impl<R: Read> Read for Hashing<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let read = self.source.read(buffer)?;
+        self.hash.update(&buffer[..read]);
+        Ok(read)
+    }
+}
 
 /// All bytes of a source of that length; `progress` may stop it.
 pub fn bytes_of(mut source: impl Read, length: Option<u64>, progress: Progress<'_>) -> Result<Vec<u8>, ReadError> {

@@ -8,17 +8,15 @@ use super::document::{Document, Mask};
 use super::import::Origin;
 use super::language::phrase;
 use super::leaving::{Outgoing, Write};
-use super::reading::{self, Arrived, Choice, Foreign, Imported};
+use super::reading::{self, Arrived, Choice, Foreign, Hashing, Imported};
 use super::reports::{Made, Subject};
 use super::session::{Again, Recipe, Session};
-use crate::export;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
 use pbrdf::model::{Parameter, Preset};
 use pbrdf::report::Surroundings;
-use sha2::{Digest as _, Sha256};
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -95,20 +93,6 @@ impl Opened {
         let again = |recipe: &Recipe| recipe.again(session.measurement.as_ref()?);
         let fits = session.fits.iter().filter_map(again).collect();
         Self { session, fits }
-    }
-}
-
-/// A reader that takes the hash of what goes through it.
-struct Hashing<R> {
-    source: R,
-    hash: Sha256,
-}
-
-impl<R: Read> Read for Hashing<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let read = self.source.read(buffer)?;
-        self.hash.update(&buffer[..read]);
-        Ok(read)
     }
 }
 
@@ -308,10 +292,10 @@ impl Worker {
             let mut progress = while_reading(teller, stop);
             let mut sha256 = None;
             let result = source().and_then(|(at, source, length)| {
-                let mut source = Hashing { source, hash: Sha256::new() };
+                let mut source = Hashing::new(source);
                 let said = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", at.display(), phrase(reason));
                 let bytes = reading::bytes_of(&mut source, length, &mut progress).map_err(|error| said(&error))?;
-                sha256 = Some(export::hexadecimal(&source.hash.finalize()));
+                sha256 = Some(source.finish());
                 reading::read(bytes, &mut progress).map_err(|reason| said(&reason))
             });
             let sha256 = sha256.filter(|_| path.is_some());
