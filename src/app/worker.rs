@@ -197,7 +197,12 @@ impl Worker {
         let job = Job { number, stop: Arc::default(), progress: Arc::new(Mutex::new(None)) };
         let teller = Teller { ctx: self.ctx.clone(), progress: job.progress.clone(), last: Mutex::new(Instant::now()) };
         let (stop, sender) = (job.stop.clone(), self.sender.clone());
+        #[cfg(test)]
+        let language = super::language::current();
         let run = move || {
+            // Each thread of a test has a language of its own.
+            #[cfg(test)]
+            super::language::set(language);
             let event = body(&teller, &stop);
             // The window may be gone.
             let _ = sender.send((number, event));

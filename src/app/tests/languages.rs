@@ -1,14 +1,17 @@
 //! Both languages: no text of the window is left in English, and every control has a name.
 
+use super::imports::tensor;
 use super::{explorer, harness, wait};
 use crate::app::command::{Command, items};
 use crate::app::help::{DOI, Help, PAPER};
 use crate::app::language::{Language, MISSED};
 use crate::app::panes::{PANES, Pane};
 use crate::app::window::Explorer;
+use egui::Key;
 use egui::accesskit::{Action, Role};
 use egui_kittest::Harness;
-use egui_kittest::kittest::NodeT as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use std::collections::BTreeSet;
 
 /// The window in Chinese after a fit and a comparison of models, so that every view has something to show.
@@ -50,6 +53,7 @@ fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
 /// Words that are the same in both languages: names of quantities, people and units, keys of parameters, columns and models, of licences
 /// and this program, and two texts of the toolkit that only a screen reader sees.
 const SAME: &[&str] = &[
+    "arctan",
     "AICc",
     "Apache",
     "BRDF",
@@ -67,6 +71,8 @@ const SAME: &[&str] = &[
     "Minnaert",
     "Priest",
     "Resize panel",
+    "Scroll tabs left",
+    "Scroll tabs right",
     "Thilak",
     "brdf",
     "cos",
@@ -77,14 +83,42 @@ const SAME: &[&str] = &[
     "sigma_v",
     "sigma",
     "theta",
+    "tan",
+    "sin",
+    "exp",
+    "Trowbridge",
+    "Reitz",
+    "SVG",
+    "PNG",
+    "tensor_file",
+    "metadata",
+    "txt",
+    "pbsdf",
+    "json",
+    "dat",
+    "csv",
+    "Woollam",
+    "Torrance",
+    "Sparrow",
+    "Shift",
+    "Mueller",
+    "Marquardt",
+    "Markdown",
+    "Levenberg",
+    "HTML",
 ];
 
 /// Whether something in it is English: an entry of the literature, which has its year, is not translated.
 fn is_english(text: &str) -> bool {
-    let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit)) || text.ends_with('…');
+    let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit));
+    // One that is cut before its year begins with initials.
+    let is_cut = text.ends_with('…') && text.as_bytes().get(1) == Some(&b'.');
+    if PRESETS.iter().any(|preset| preset.key == text) {
+        return false;
+    }
     let rest = SAME.iter().fold(text.to_owned(), |rest, same| rest.replace(same, ""));
     let mut words = rest.split(|letter: char| !letter.is_ascii_alphabetic());
-    !has_year && words.any(|word| word.len() > 2)
+    !has_year && !is_cut && words.any(|word| word.len() > 2)
 }
 
 #[test]
@@ -105,15 +139,116 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
         harness.run();
     }
     let all = items(explorer(&mut harness));
-    english.extend(all.iter().map(|item| item.text.to_string()).filter(|text| is_english(text)));
+    let said = all.iter().flat_map(|item| [&item.text, &item.tooltip]);
+    english.extend(said.map(ToString::to_string).filter(|text| is_english(text)));
     assert!(english.is_empty(), "in English: {english:#?}");
     let missed = MISSED.with_borrow(Clone::clone);
     assert!(missed.is_empty(), "not in assets/locales/zh_CN.po: {missed:#?}");
 }
 
+/// What is in English on the screen, with the place.
+fn left(harness: &Harness<'static, Option<Explorer>>, place: &str) -> Vec<String> {
+    written(harness).into_iter().filter(|text| is_english(text)).map(|text| format!("{place}: {text}")).collect()
+}
+
+fn assert_chinese(english: &[String]) {
+    assert!(english.is_empty(), "{english:#?}");
+    let missed = MISSED.with_borrow(Clone::clone);
+    assert!(missed.is_empty(), "not in assets/locales/zh_CN.po: {missed:#?}");
+}
+
+fn click(harness: &mut Harness<'static, Option<Explorer>>, label: &str) {
+    harness.query_all_by_label(label).last().unwrap_or_else(|| panic!("there is no {label}")).click();
+    harness.run();
+}
+
+fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+    explorer(harness).commands.push(command);
+    wait(harness);
+}
+
+#[test]
+fn menus_palette_and_lessons_are_in_chinese() {
+    let mut harness = chinese();
+    let mut english = Vec::new();
+    for menu in ["文件", "编辑", "拟合", "视图", "课程", "帮助"] {
+        // The first of that name is the title in the bar.
+        harness.query_all_by_label(menu).next().expect("a menu").click();
+        harness.run();
+        english.extend(left(&harness, menu));
+        harness.key_press(Key::Escape);
+        harness.run();
+    }
+    order(&mut harness, Command::OpenPalette);
+    english.extend(left(&harness, "palette"));
+    harness.key_press(Key::Escape);
+    harness.run();
+    for lesson in 0..explorer(&mut harness).lessons.all.len() {
+        for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
+            order(&mut harness, Command::ShowStep(lesson, step));
+            english.extend(left(&harness, "lesson"));
+        }
+    }
+    assert_chinese(&english);
+}
+
+#[test]
+fn what_unfolds_is_in_chinese() {
+    let mut harness = chinese();
+    let mut english = Vec::new();
+    order(&mut harness, Command::CompareModels);
+    for folded in ["选项", "这些数据能确定什么", "相关系数", "剖面与自助法", "拟合历史（1）"] {
+        click(&mut harness, folded);
+        wait(&mut harness);
+        english.extend(left(&harness, folded));
+    }
+    alone(&mut harness, Pane::Models);
+    click(&mut harness, "各起点及其终点");
+    english.extend(left(&harness, "models"));
+    alone(&mut harness, Pane::Data);
+    let series: Vec<String> = written(&harness).into_iter().filter(|text| text.starts_with("系列")).collect();
+    for folded in &series {
+        click(&mut harness, folded);
+        english.extend(left(&harness, folded));
+    }
+    assert_chinese(&english);
+}
+
+/// Files that ask for a choice, or are refused.
+fn foreign() -> Vec<(&'static str, Vec<u8>)> {
+    vec![
+        ("1.dat", b"nm\n600\t55\t43\t150\n650\t55\t43.5\t151\n".to_vec()),
+        ("2.pbsdf", tensor()),
+        ("3.csv", b"1;2 [deg];3 (rad);4 %;5\n6;30;0,5;12,5;7\n".to_vec()),
+        ("4.csv", b"1,2,3\n30,20,12\n".map(|byte| if byte == b'1' { b'a' } else { byte }).to_vec()),
+        ("5.csv", b"theta_i,theta_r,dolp\n95,0,0.5\n".to_vec()),
+        ("6.csv", Vec::new()),
+        ("7.pbsdf", b"tensor_file\0\x01\0\xff\0\0\0".to_vec()),
+        ("8.txt", b"nm\n?\n".to_vec()),
+    ]
+}
+
+#[test]
+fn questions_and_refusals_are_in_chinese() {
+    let mut harness = harness();
+    order(&mut harness, Command::SetLanguage(Language::Chinese));
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut english = Vec::new();
+    for (name, contents) in foreign() {
+        let path = folder.path().join(name);
+        std::fs::write(&path, contents).expect("a file");
+        order(&mut harness, Command::OpenMeasurement(path));
+        // The name of the file stands in the texts.
+        let all = written(&harness).into_iter().map(|text| text.replace(&folder.path().display().to_string(), ""));
+        english.extend(all.filter(|text| is_english(text)).map(|text| format!("{name}: {text}")));
+        harness.key_press(Key::Escape);
+        harness.run();
+    }
+    assert_chinese(&english);
+}
+
 #[test]
 fn what_stays_open_is_said_in_the_language_of_the_window() {
-    use pbrdf::model::{Parameter, ParameterSet};
     let mut harness = chinese();
     let free = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
     explorer(&mut harness).settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);

@@ -43,7 +43,7 @@ pub fn run_ui(explorer: &mut Explorer, subject: Subject, (button, about): (&str,
 pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
-    let text = RichText::new(format!("{part}{}, {}", report.machine, report.date)).weak().small();
+    let text = RichText::new(format!("{part}{}, {}", phrase(&report.machine), report.date)).weak().small();
     ui.add(egui::Label::new(text).truncate()).on_hover_ui(|ui| {
         ui.label(report.notes.iter().map(phrase).collect::<Vec<_>>().join("\n\n"));
     });

@@ -184,6 +184,8 @@ const LETTER: egui::Vec2 = egui::vec2(7.2, 16.0);
 fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
     let mut taken: Vec<Rect> = Vec::new();
     for (point, name) in names {
+        // Chemical symbols are the same in all languages; names of alloys are not.
+        let name = if name.len() > 2 { translated(name) } else { (*name).to_owned() };
         #[expect(clippy::cast_precision_loss, reason = "a few letters")]
         let size = egui::vec2((name.len() + 2) as f32 * LETTER.x, LETTER.y);
         let at = plot.screen_from_plot(*point);
