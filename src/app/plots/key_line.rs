@@ -1,7 +1,9 @@
-//! What the lines of a plot mean, in a line above it: nothing is hidden there, and a broken line is told from a whole one.
+//! What the lines of a plot mean, in a line above it, where it covers no curve, and a broken line is told from a whole one.
 
-use egui::{Align2, Color32, FontId, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::LineStyle;
+use std::collections::BTreeSet;
+use tr::tr;
 
 /// A name with the look of its line.
 pub struct KeyEntry {
@@ -19,25 +21,56 @@ const BETWEEN: f32 = 10.0;
 /// Length of a gap over that of a dash, as the plots have it.
 const GAP_OVER_DASH: f32 = 0.618;
 
+impl KeyEntry {
+    /// Room for the sample and the name.
+    fn allocate(&self, sense: Sense, ui: &mut Ui) -> egui::Response {
+        let galley = ui.painter().layout_no_wrap(self.name.clone(), FontId::proportional(LETTERS), Color32::PLACEHOLDER);
+        ui.allocate_exact_size(vec2(SAMPLE + GAP, 0.0) + galley.size(), sense).1
+    }
+
+    fn paint(&self, rect: Rect, strength: f32, ui: &Ui) {
+        let ends = [rect.left_center(), rect.left_center() + vec2(SAMPLE, 0.0)];
+        let color = self.color.gamma_multiply(strength);
+        let stroke = Stroke::new(self.width, color);
+        let shapes = match self.style {
+            LineStyle::Solid => vec![Shape::line_segment(ends, stroke)],
+            LineStyle::Dashed { length } => Shape::dashed_line(&ends, stroke, length, GAP_OVER_DASH * length),
+            LineStyle::Dotted { spacing } => Shape::dotted_line(&ends, color, spacing, self.width),
+        };
+        ui.painter().extend(shapes);
+        let ink = ui.visuals().text_color().gamma_multiply(strength);
+        ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, &self.name, FontId::proportional(LETTERS), ink);
+    }
+}
+
 /// Names with samples of their lines; none is torn at the end of a line.
 pub fn key_line_ui(entries: &[KeyEntry], ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
-        for KeyEntry { name, color, style, width } in entries {
-            let ink = ui.visuals().text_color();
-            let galley = ui.painter().layout_no_wrap(name.clone(), FontId::proportional(LETTERS), ink);
-            let (rect, response) = ui.allocate_exact_size(vec2(SAMPLE + GAP, 0.0) + galley.size(), Sense::hover());
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
-            let ends = [rect.left_center(), rect.left_center() + vec2(SAMPLE, 0.0)];
-            let stroke = Stroke::new(*width, *color);
-            let shapes = match *style {
-                LineStyle::Solid => vec![Shape::line_segment(ends, stroke)],
-                LineStyle::Dashed { length } => Shape::dashed_line(&ends, stroke, length, GAP_OVER_DASH * length),
-                LineStyle::Dotted { spacing } => Shape::dotted_line(&ends, *color, spacing, *width),
-            };
-            ui.painter().extend(shapes);
-            let text = Align2::RIGHT_CENTER.anchor_size(rect.right_center(), galley.size());
-            ui.painter().galley(text.min, galley, ink);
+        for entry in entries {
+            let response = entry.allocate(Sense::hover(), ui);
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &entry.name));
+            entry.paint(response.rect, 1.0, ui);
+        }
+    });
+}
+
+/// How faint the entry of a line is that is not drawn.
+const HIDDEN: f32 = 0.35;
+
+/// The same, where a click on a name takes its lines out of the plot or puts them back.
+pub fn switching_key_line_ui(entries: &[KeyEntry], hidden: &mut BTreeSet<String>, ui: &mut Ui) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
+        for entry in entries {
+            let response = entry.allocate(Sense::click(), ui).on_hover_cursor(CursorIcon::PointingHand);
+            if response.clicked() && !hidden.remove(&entry.name) {
+                hidden.insert(entry.name.clone());
+            }
+            let is_shown = !hidden.contains(&entry.name);
+            response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shown, &entry.name));
+            entry.paint(response.rect, if is_shown { 1.0 } else { HIDDEN }, ui);
+            response.on_hover_text(if is_shown { tr!("A click hides it") } else { tr!("A click shows it") });
         }
     });
 }

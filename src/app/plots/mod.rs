@@ -14,7 +14,7 @@ mod ribbon;
 pub use color_scale::{BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar, ink_on};
 pub use drawing::Drawing;
 pub use error_bars::ErrorBars;
-pub use key_line::{KeyEntry, key_line_ui};
+pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui};
 pub use marks::marks_in;
 pub use picking::{MASK_HINT, clicked_mask};
 pub use range::{Following, Range, round_up};

@@ -1,15 +1,18 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
 use crate::app::band::{BandKey, Ribbons, band_key, brdf_bands};
-use crate::app::curves::{BrdfScale, DECADES, axis_values};
+use crate::app::curves::{BrdfScale, Curves, DECADES, MarkSet, Pieces, axis_values};
 use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
-use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, filled, legend, marks_in, plot, ribbons_in, round_up};
+use crate::app::plots::{
+    Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, filled, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
+};
 use crate::app::theme;
 use crate::app::window::Explorer;
-use egui::Ui;
-use egui_plot::{AxisHints, HoverPosition};
+use egui::{Color32, Ui};
+use egui_plot::{AxisHints, HoverPosition, LineStyle};
+use std::collections::BTreeSet;
 use tr::tr;
 
 /// What the pane keeps.
@@ -19,6 +22,8 @@ pub struct LobesView {
     range: Following,
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Ribbons>>,
+    /// Names of the curves that are not drawn.
+    hidden: BTreeSet<String>,
 }
 
 impl LobesView {
@@ -68,6 +73,37 @@ pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
+/// A curve at the sliders' own θi.
+struct Term<'a> {
+    pieces: &'a Pieces,
+    name: String,
+    color: Color32,
+    width: f32,
+}
+
+/// Width of the line of a term, and of that of all together.
+const PART: f32 = 1.5;
+const TOTAL: f32 = 2.5;
+
+/// The terms that the model has, and last their sum.
+fn terms(own: &Curves, dark: bool) -> Vec<Term<'_>> {
+    let terms = [
+        Term { pieces: &own.specular, name: tr!("specular"), color: theme::specular(dark), width: PART },
+        Term { pieces: &own.diffuse, name: tr!("diffuse"), color: theme::diffuse(dark), width: PART },
+        Term { pieces: &own.volume, name: tr!("volume"), color: theme::volume(dark), width: PART },
+        Term { pieces: &own.total, name: tr!("total"), color: theme::foreground(dark), width: TOTAL },
+    ];
+    terms.into_iter().filter(|term| !term.pieces.is_empty()).collect()
+}
+
+/// The measured series, then the terms.
+fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<KeyEntry> {
+    let entry = |name: &str, color, width| KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width };
+    let measured = marks.series.iter().enumerate().filter(|(_, marks)| marks.brdf.is_there());
+    let measured = measured.map(|(i, marks)| entry(&marks.name, theme::series(i, dark), PART));
+    measured.chain(terms.iter().map(|term| entry(&term.name, term.color, term.width))).collect()
+}
+
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
@@ -80,9 +116,10 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let times_cosine = settings.shown.times_cosine;
     let quantity = if times_cosine { "BRDF × cos θr" } else { "BRDF" };
     let y = axis(AxisHints::new_y(), ui, &format!("{quantity} / (1/sr)"), if log { power_of_ten } else { decimal });
+    let terms = terms(&curves.own, dark);
+    switching_key_line_ui(&key_entries(marks, &terms, dark), &mut view.hidden, ui);
     let response = plot("lobes", ui, ui.available_height(), x, y)
         .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
-        .legend(legend())
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let brdf = if log { libm::exp10(position.y) } else { position.y };
@@ -93,7 +130,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .show(ui, |plot| {
             view.axes.apply(plot, Some(key.x()), view.range.get());
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
-                if marks.brdf.is_there() {
+                if marks.brdf.is_there() && !view.hidden.contains(&marks.name) {
                     let color = theme::series(i, dark);
                     if let Some(ribbons) = view.band.get().and_then(|bands| bands.get(i)) {
                         ribbons_in(plot, ribbons, color);
@@ -103,18 +140,13 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 }
             }
             let floor = if log { view.range.get().map_or(0.0, |range| range.low) } else { 0.0 };
-            for (pieces, name, color) in [
-                (&curves.own.specular, tr!("specular"), theme::specular(dark)),
-                (&curves.own.diffuse, tr!("diffuse"), theme::diffuse(dark)),
-                (&curves.own.volume, tr!("volume"), theme::volume(dark)),
-            ] {
-                if settings.shown.filled {
-                    filled(plot, pieces, &name, color, floor);
+            for Term { pieces, name, color, width } in terms.iter().filter(|term| !view.hidden.contains(&term.name)) {
+                if settings.shown.filled && *width < TOTAL {
+                    filled(plot, pieces, name, *color, floor);
                 } else {
-                    curve(plot, pieces, &name, color, None, 1.5);
+                    curve(plot, pieces, name, *color, None, *width);
                 }
             }
-            curve(plot, &curves.own.total, &tr!("total"), theme::foreground(dark), None, 2.5);
         });
     view.axes.listen(&response, &tr!("Plot: BRDF against θr"), ui);
     commands.extend(clicked_mask(
