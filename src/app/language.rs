@@ -196,6 +196,8 @@ mod switch {
 #[cfg(test)]
 mod tests {
     use super::{CHINESE, CORE, Catalogue, Language, install, set};
+    use crate::app::tests::sources::{literals_after, sources};
+    use std::collections::BTreeSet;
     use tr::tr;
 
     #[test]
@@ -211,16 +213,16 @@ mod tests {
     #[test]
     fn every_text_of_the_window_is_translated() {
         let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
-        let missing: Vec<String> = texts().into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
+        let of = |source: &str| TEXTS.iter().flat_map(|words| literals_after(source, words)).collect::<Vec<_>>();
+        let texts: BTreeSet<String> = of_window().iter().flat_map(|(_, source)| of(source)).filter(|text| !text.is_empty()).collect();
+        let missing: Vec<String> = texts.into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
     }
 
     #[test]
     fn no_control_has_a_bare_text() {
         let mut bare = Vec::new();
-        for (name, source) in sources() {
-            // What tests say nobody reads.
-            let source = source.split("mod tests {").next().unwrap_or_default();
+        for (name, source) in of_window() {
             for call in CALLS {
                 for (at, _) in source.match_indices(call) {
                     let text = source[at + call.len()..].split('"').next().unwrap_or_default();
@@ -255,58 +257,30 @@ mod tests {
         ".say_briefly(\"",
     ];
 
-    /// The sources of the window with their names, without this file and the tests.
-    fn sources() -> Vec<(String, String)> {
-        let mut sources = Vec::new();
-        let mut folders = vec![std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app")];
-        while let Some(folder) = folders.pop() {
-            for entry in std::fs::read_dir(folder).expect("a folder of sources") {
-                let path = entry.expect("an entry").path();
-                if path.is_dir() && !path.ends_with("tests") {
-                    folders.push(path);
-                } else if path.is_file() && !path.ends_with("language.rs") {
-                    sources.push((path.display().to_string(), std::fs::read_to_string(&path).expect("a source file")));
-                }
-            }
-        }
-        sources
+    /// The sources of the window, without this file.
+    fn of_window() -> Vec<(String, String)> {
+        sources("src/app").into_iter().filter(|(path, _)| !path.ends_with("language.rs")).collect()
     }
 
-    /// The literals inside `tr!("…")` in the sources of the window.
-    fn texts() -> Vec<String> {
-        let mut texts = Vec::new();
-        for (_, source) in sources() {
-            literals(&source, &mut texts);
-        }
-        texts.sort();
-        texts.dedup();
-        texts
-    }
+    /// Behind what stands a text of the window: in the program, or in a table out of which it goes through `translated`.
+    const TEXTS: [&str; 5] = ["tr!(", "translated(", "text: ", "help: ", "tooltip: "];
 
-    fn literals(source: &str, texts: &mut Vec<String>) {
-        for (at, name) in source.match_indices("tr!(") {
-            // include_str! ends in the same letters.
-            if source[..at].ends_with('s') {
-                continue;
-            }
-            let after = &source[at + name.len()..];
-            let Some(literal) = after.trim_start().strip_prefix('"') else { continue };
-            let mut text = String::new();
-            let mut letters = literal.chars();
-            while let Some(letter) = letters.next() {
-                match letter {
-                    '"' => break,
-                    '\\' => match letters.next() {
-                        Some('n') => text.push('\n'),
-                        // A line that goes on: blanks at the beginning of the next one do not count.
-                        Some('\n') => letters = letters.as_str().trim_start().chars(),
-                        Some(other) => text.push(other),
-                        None => break,
-                    },
-                    other => text.push(other),
-                }
-            }
-            texts.push(text);
+    /// Behind what a text may stand that goes out through `phrase`.
+    const PHRASES: [&str; 4] = ["format!(", "Some(", "Err(", "Ok("];
+
+    #[test]
+    fn no_sentence_is_put_together_without_a_translation() {
+        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
+        let is_word = |word: &str| word.len() > 2 && word.chars().all(|letter| letter.is_ascii_alphabetic());
+        // Two words beside each other are no symbol and no key.
+        let is_sentence = |text: &String| text.split(' ').zip(text.split(' ').skip(1)).any(|(one, other)| is_word(one) && is_word(other));
+        let is_known = |text: &String| catalogue.phrases.has(text) || catalogue.chinese.contains_key(text);
+        let mut missing = Vec::new();
+        // What main says has no window around it.
+        for (path, source) in of_window().into_iter().filter(|(path, _)| path != "src/app/mod.rs") {
+            let said = PHRASES.iter().flat_map(|words| literals_after(&source, words));
+            missing.extend(said.filter(|text| is_sentence(text) && !is_known(text)).map(|text| format!("{path}: {text}")));
         }
+        assert!(missing.is_empty(), "without tr!, and not in assets/locales/zh_CN.core.po: {missing:#?}");
     }
 }

@@ -28,6 +28,7 @@ mod scans;
 mod sessions;
 mod sliders;
 mod snapshots;
+pub mod sources;
 mod typed;
 
 use super::state::{Settings, Stored, WindowSettings};

@@ -1,5 +1,6 @@
 //! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
 
+use super::sources::{literal, literals_after, sources};
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::language::{self, Language, phrase};
@@ -157,43 +158,6 @@ fn says<E: Display>(errors: impl IntoIterator<Item = E>) -> Vec<String> {
     errors.into_iter().map(|error| error.to_string()).collect()
 }
 
-/// The sources of library and window with their names.
-fn sources(folder: &str, all: &mut Vec<(String, String)>) {
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).expect("a folder of sources") {
-        let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        let path = format!("{folder}/{name}");
-        if name == "cli" || name == "tests" {
-            continue;
-        } else if name.ends_with(".rs") {
-            all.push((path.clone(), std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("a source file")));
-        } else {
-            sources(&path, all);
-        }
-    }
-}
-
-/// The literal at the beginning of a piece of source, as it is at run time.
-fn literal(source: &str) -> Option<String> {
-    let mut text = String::new();
-    let mut letters = source.trim_start().strip_prefix('"')?.chars();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' => return Some(text),
-            '\\' => match letters.next()? {
-                '\n' => letters = letters.as_str().trim_start().chars(),
-                other => text.push(other),
-            },
-            other => text.push(other),
-        }
-    }
-    None
-}
-
-/// Literals that follow those words somewhere in a source.
-fn literals_after(source: &str, words: &str) -> Vec<String> {
-    source.match_indices(words).filter_map(|(at, _)| literal(&source[at + words.len()..])).collect()
-}
-
 /// Two forms in one: with the place in a file's tree, and without.
 const BOTH_FORMS: [(&str, [&str; 2]); 1] = [(
     "line {line}, column {column}{at}: {reason}",
@@ -202,8 +166,7 @@ const BOTH_FORMS: [(&str, [&str; 2]); 1] = [(
 
 #[test]
 fn every_form_of_an_error_is_in_the_catalogue() {
-    let mut all = Vec::new();
-    sources("src", &mut all);
+    let all = sources("src");
     let mut forms: Vec<String> = all.iter().flat_map(|(_, source)| literals_after(source, "#[error(")).collect();
     assert!(forms.len() > 80, "{}", forms.len());
     forms.retain(|form| form.replace(":?}", "}").split(['{', '}']).step_by(2).any(|own| !own.is_empty()));

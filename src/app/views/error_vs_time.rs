@@ -57,7 +57,7 @@ pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let count = drawing.panels.len().max(1);
     ui.columns(count, |columns| {
         for (i, (panel, ui)) in drawing.panels.iter_mut().zip(columns).enumerate() {
-            panel.ui(&format!("error against time {} {i}", shown.page), height, ui);
+            panel.ui(&format!("error_vs_time {} {i}", shown.page), height, ui);
         }
     });
 }
