@@ -39,6 +39,7 @@ mod scans;
 mod session;
 mod state;
 mod store;
+mod task;
 #[cfg(test)]
 mod tests;
 mod theme;

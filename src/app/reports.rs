@@ -137,6 +137,11 @@ impl Reports {
         }
     }
 
+    /// The one that was being made came to nothing.
+    pub fn give_up(&mut self) {
+        self.running = None;
+    }
+
     /// The figure in front of a report that was made.
     pub fn figure(&self, subject: Subject) -> Option<&Figure> {
         match subject {

@@ -22,6 +22,7 @@ use super::reading::Arrived;
 use super::reports::Reports;
 use super::scans::{Bootstrap, ProfileCurve, Scans};
 use super::state::{Settings, Stored, Theme, WindowSettings};
+use super::task::Task;
 use super::typed::{Replacing, Typed};
 use super::views::Views;
 use super::worker::{Event, Rung, Worker};
@@ -292,8 +293,13 @@ impl Explorer {
             Event::Compared(rungs) => self.comparison = rungs,
             Event::Reported { made, is_part } => {
                 self.reports.take(*made, is_part);
-                if let Err(sentence) = self.reports.go_on(&mut self.worker) {
-                    self.say(sentence);
+                self.go_on_with_reports();
+            }
+            Event::Broken(task) => {
+                self.say(task.broken());
+                if task == Task::Report {
+                    self.reports.give_up();
+                    self.go_on_with_reports();
                 }
             }
             Event::Profiled(profile) => {
@@ -312,6 +318,12 @@ impl Explorer {
                 let fit = self.past_fits.push(fit);
                 self.show_fit(Some(fit));
             }
+        }
+    }
+
+    fn go_on_with_reports(&mut self) {
+        if let Err(sentence) = self.reports.go_on(&mut self.worker) {
+            self.say(sentence);
         }
     }
 

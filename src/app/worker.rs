@@ -11,6 +11,7 @@ use super::leaving::{Outgoing, Write};
 use super::reading::{self, Arrived, Choice, Foreign, Hashing, Imported};
 use super::reports::{Made, Subject};
 use super::session::{Again, Recipe, Session};
+use super::task::Task;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
@@ -69,6 +70,8 @@ pub enum Event {
         replicates: usize,
         scatter: Vec<Scatter>,
     },
+    /// A job panicked: there is nothing else to hear of it.
+    Broken(Task),
 }
 
 /// A session with its fits made again, the newest first.
@@ -152,6 +155,24 @@ struct Teller<P> {
     last: Mutex<Instant>,
 }
 
+/// Sends what a job has come to and wakes the window, also when the job panics.
+struct Ending {
+    ctx: egui::Context,
+    sender: SyncSender<(u64, Event)>,
+    number: u64,
+    task: Task,
+    event: Option<Event>,
+}
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        let event = self.event.take().unwrap_or(Event::Broken(self.task));
+        // The window may be gone.
+        let _ = self.sender.send((self.number, event));
+        self.ctx.request_repaint();
+    }
+}
+
 impl<P> Teller<P> {
     fn tell(&self, progress: P) {
         if let (Ok(mut slot), Ok(mut last)) = (self.progress.lock(), self.last.lock()) {
@@ -186,29 +207,27 @@ impl Worker {
         }
     }
 
-    /// Begins a job on a thread of its own name; none if the machine refuses a thread.
+    /// Begins a job on a thread of its own; none if the machine refuses a thread.
     fn spawn<P: Send + 'static>(
         &mut self,
-        name: &str,
+        task: Task,
         body: impl FnOnce(&Teller<P>, &AtomicBool) -> Event + Send + 'static,
     ) -> Result<Job<P>, String> {
         self.jobs += 1;
         let number = self.jobs;
         let job = Job { number, stop: Arc::default(), progress: Arc::new(Mutex::new(None)) };
         let teller = Teller { ctx: self.ctx.clone(), progress: job.progress.clone(), last: Mutex::new(Instant::now()) };
-        let (stop, sender) = (job.stop.clone(), self.sender.clone());
+        let (ctx, sender, stop) = (self.ctx.clone(), self.sender.clone(), job.stop.clone());
         #[cfg(test)]
         let language = super::language::current();
         let run = move || {
             // Each thread of a test has a language of its own.
             #[cfg(test)]
             super::language::set(language);
-            let event = body(&teller, &stop);
-            // The window may be gone.
-            let _ = sender.send((number, event));
-            teller.ctx.request_repaint();
+            let mut ending = Ending { ctx, sender, number, task, event: None };
+            ending.event = Some(body(&teller, &stop));
         };
-        match std::thread::Builder::new().name(name.to_owned()).spawn(run) {
+        match std::thread::Builder::new().name(task.name().to_owned()).spawn(run) {
             Ok(_) => Ok(job),
             Err(error) => Err(tr!("The job cannot be started: {}.", phrase(&error))),
         }
@@ -218,7 +237,7 @@ impl Worker {
     pub fn ask(&mut self, question: Question) -> Result<(), String> {
         if self.dialog.is_none() {
             let ask = self.ask;
-            let job: Job<()> = self.spawn("dialog", move |_, _| Event::Answered(question.clone(), ask(question)))?;
+            let job: Job<()> = self.spawn(Task::Dialog, move |_, _| Event::Answered(question.clone(), ask(question)))?;
             self.dialog = Some(job.number);
         }
         Ok(())
@@ -229,14 +248,14 @@ impl Worker {
         if self.export.is_some() {
             return Err(tr!("The export before this one is still being written."));
         }
-        let job = self.spawn("export", move |_: &Teller<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
+        let job = self.spawn(Task::Export, move |_: &Teller<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
         self.export = Some(job);
         Ok(())
     }
 
     /// Writes the working state.
     pub fn autosave(&mut self, path: PathBuf, session: Session) -> Result<(), String> {
-        let job = self.spawn("autosave", move |_: &Teller<()>, _| Event::Autosaved(save_session(&path, &session)))?;
+        let job = self.spawn(Task::Autosave, move |_: &Teller<()>, _| Event::Autosaved(save_session(&path, &session)))?;
         self.autosave = Some(job);
         Ok(())
     }
@@ -244,7 +263,7 @@ impl Worker {
     /// Reads a session.
     pub fn open_session(&mut self, path: PathBuf) -> Result<(), String> {
         self.abandon_load();
-        let job = self.spawn("read session", move |_: &Teller<()>, _| {
+        let job = self.spawn(Task::ReadSession, move |_: &Teller<()>, _| {
             let result = Opened::read(&path).map(Box::new);
             Event::SessionRead { path, result }
         })?;
@@ -257,7 +276,7 @@ impl Worker {
         if self.save.is_some() {
             return Err(tr!("The measurement is still being saved."));
         }
-        let job = self.spawn("save measurement", move |_: &Teller<()>, _| {
+        let job = self.spawn(Task::Save, move |_: &Teller<()>, _| {
             let written = write_file(&path, |out| measurement::write(&measurement, out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
@@ -293,7 +312,7 @@ impl Worker {
         self.abandon_load();
         // A session that is still being read is not wanted any more.
         self.session = None;
-        let job = self.spawn("read measurement", move |teller: &Teller<f64>, stop| {
+        let job = self.spawn(Task::Read, move |teller: &Teller<f64>, stop| {
             let mut progress = while_reading(teller, stop);
             let mut sha256 = None;
             let result = source().and_then(|(at, source, length)| {
@@ -313,7 +332,7 @@ impl Worker {
     /// Reads a foreign file, which is in memory, as it was chosen.
     pub fn import(&mut self, foreign: Foreign, choice: Choice) -> Result<(), String> {
         self.abandon_load();
-        let job = self.spawn("import measurement", move |teller: &Teller<f64>, stop| {
+        let job = self.spawn(Task::Import, move |teller: &Teller<f64>, stop| {
             Event::Imported(foreign.import(&choice, &mut while_reading(teller, stop)))
         })?;
         self.load = Some(job);
@@ -333,7 +352,7 @@ impl Worker {
             job.cancel();
         }
         let (generation, mask) = (document.generation, document.mask().clone());
-        let job = self.spawn("fit", move |teller: &Teller<TracePoint>, stop| {
+        let job = self.spawn(Task::Fit, move |teller: &Teller<TracePoint>, stop| {
             let begun = Instant::now();
             let watch = Watch {
                 clock: &|| begun.elapsed().as_secs_f64() * 1e3,
@@ -349,7 +368,7 @@ impl Worker {
 
     /// Fits from the sliders alone, for a window that follows while they move.
     pub fn start_refit(&mut self, problem: Problem) -> Result<(), String> {
-        let job = self.spawn("refit", move |_: &Teller<()>, stop| {
+        let job = self.spawn(Task::Refit, move |_: &Teller<()>, stop| {
             let watch = Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
             Event::Refitted(Box::new(fit(&problem, Starts::One, 0, watch)))
         })?;
@@ -364,7 +383,7 @@ impl Worker {
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {
-        let job = self.spawn("compare models", move |teller: &Teller<&'static str>, stop| {
+        let job = self.spawn(Task::Compare, move |teller: &Teller<&'static str>, stop| {
             let mut rungs = Vec::new();
             for (preset, problem) in problems {
                 if stop.load(Ordering::Relaxed) {
@@ -384,28 +403,28 @@ impl Worker {
 
     /// Scans a parameter of a finished fit.
     pub fn start_profile(&mut self, problem: Problem, report: FitReport, parameter: Parameter) -> Result<(), String> {
-        self.scan("profile", move |watch| Event::Profiled(profile(&problem, &report, parameter, watch)))
+        self.scan(Task::Profile, move |watch| Event::Profiled(profile(&problem, &report, parameter, watch)))
     }
 
     /// Fits the data of a finished fit again with its residuals dealt out anew.
     pub fn start_bootstrap(&mut self, problem: Problem, report: FitReport, replicates: usize, seed: u64) -> Result<(), String> {
         let run = move |watch: Watch<'_>| Event::Scattered { replicates, scatter: bootstrap(&problem, &report, replicates, seed, watch) };
-        self.scan("bootstrap", run)
+        self.scan(Task::Bootstrap, run)
     }
 
-    fn scan(&mut self, name: &str, run: impl FnOnce(Watch<'_>) -> Event + Send + 'static) -> Result<(), String> {
+    fn scan(&mut self, task: Task, run: impl FnOnce(Watch<'_>) -> Event + Send + 'static) -> Result<(), String> {
         if let Some(job) = self.scan.take() {
             job.cancel();
         }
         let job =
-            self.spawn(name, move |_: &Teller<()>, stop| run(Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY }))?;
+            self.spawn(task, move |_: &Teller<()>, stop| run(Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY }))?;
         self.scan = Some(job);
         Ok(())
     }
 
     /// Makes a report; the caller keeps its job.
     pub fn start_report(&mut self, subject: Subject) -> Result<Job<f64>, String> {
-        self.spawn("report", move |teller: &Teller<f64>, stop| {
+        self.spawn(Task::Report, move |teller: &Teller<f64>, stop| {
             let begun = Instant::now();
             let surroundings = Surroundings {
                 clock: &|| begun.elapsed().as_secs_f64() * 1e3,
@@ -454,12 +473,40 @@ impl Worker {
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
                 Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
                 Event::Fitted { .. } => self.fit.take_if(|job| job.number == number).is_some(),
+                Event::Broken(task) => self.is_missed(task, number),
             };
             if matters {
                 return Some(event);
             }
         }
         None
+    }
+
+    /// Whether somebody waits for the job of that number, which will not answer; nobody does any more.
+    fn is_missed(&mut self, task: Task, number: u64) -> bool {
+        fn is_missed<P>(slot: &mut Option<Job<P>>, number: u64) -> bool {
+            slot.take_if(|job| job.number == number).is_some()
+        }
+        match task {
+            Task::Dialog => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+            Task::Read | Task::Import => is_missed(&mut self.load, number),
+            Task::ReadSession => is_missed(&mut self.session, number),
+            Task::Save => is_missed(&mut self.save, number),
+            Task::Export => is_missed(&mut self.export, number),
+            Task::Autosave => is_missed(&mut self.autosave, number),
+            Task::Fit => is_missed(&mut self.fit, number),
+            Task::Refit => is_missed(&mut self.refit, number),
+            Task::Compare => is_missed(&mut self.comparison, number),
+            Task::Profile | Task::Bootstrap => is_missed(&mut self.scan, number),
+            // Kept by who asked for it.
+            Task::Report => true,
+        }
+    }
+
+    /// Begins a job that panics.
+    #[cfg(test)]
+    pub fn start_broken<P: Send + 'static>(&mut self, task: Task) -> Job<P> {
+        self.spawn(task, |_: &Teller<P>, _| std::panic::panic_any("on purpose")).expect("a thread")
     }
 
     /// Whether a job is on its way.

@@ -1,6 +1,7 @@
 //! The window, driven headlessly by the names of its controls.
 
 mod audit;
+mod broken;
 mod commands;
 mod dialogs;
 mod files;

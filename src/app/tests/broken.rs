@@ -1,0 +1,79 @@
+//! Jobs that panic: nothing waits for them, and the window says so.
+
+use super::{PATIENCE, explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::dialogs::Question;
+use crate::app::leaving::Outgoing;
+use crate::app::reports::Subject;
+use crate::app::task::Task;
+use crate::app::window::Explorer;
+use std::time::Instant;
+
+/// Begins a job of that kind in its place.
+type Begin = fn(&mut Explorer, Task);
+
+const JOBS: [(Task, Begin); 12] = [
+    (Task::Read, |e, task| e.worker.load = Some(e.worker.start_broken(task))),
+    (Task::Import, |e, task| e.worker.load = Some(e.worker.start_broken(task))),
+    (Task::ReadSession, |e, task| e.worker.session = Some(e.worker.start_broken(task))),
+    (Task::Save, |e, task| e.worker.save = Some(e.worker.start_broken(task))),
+    (Task::Export, |e, task| e.worker.export = Some(e.worker.start_broken(task))),
+    (Task::Autosave, |e, task| e.worker.autosave = Some(e.worker.start_broken(task))),
+    (Task::Fit, |e, task| e.worker.fit = Some(e.worker.start_broken(task))),
+    (Task::Refit, |e, task| e.worker.refit = Some(e.worker.start_broken(task))),
+    (Task::Compare, |e, task| e.worker.comparison = Some(e.worker.start_broken(task))),
+    (Task::Profile, |e, task| e.worker.scan = Some(e.worker.start_broken(task))),
+    (Task::Bootstrap, |e, task| e.worker.scan = Some(e.worker.start_broken(task))),
+    (Task::Report, |e, task| e.reports.running = Some((Subject::Cost, e.worker.start_broken(task)))),
+];
+
+#[test]
+fn a_job_that_panics_is_over_and_told_of() {
+    let mut harness = harness();
+    for (task, begin) in JOBS {
+        begin(explorer(&mut harness), task);
+        // Ends when no job is on its way.
+        wait(&mut harness);
+        assert_eq!(explorer(&mut harness).notices.take(), Some(task.broken()), "{task:?}");
+    }
+    // What was replaced meanwhile is nobody's matter.
+    explorer(&mut harness).worker.fit = Some(explorer(&mut harness).worker.start_broken(Task::Fit));
+    explorer(&mut harness).worker.abandon();
+    explorer(&mut harness).worker.scan = Some(explorer(&mut harness).worker.start_broken(Task::Profile));
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).notices.take(), Some(Task::Profile.broken()));
+}
+
+#[test]
+fn what_panicked_can_be_begun_again() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("curves.csv");
+    let mut harness = harness();
+    let explorer_of = explorer(&mut harness);
+    explorer_of.worker.export(Outgoing::Curves, path.clone(), Box::new(|_| std::panic::panic_any("on purpose"))).expect("a job");
+    explorer_of.worker.ask = |_| std::panic::panic_any("on purpose");
+    explorer_of.worker.ask(Question::Open).expect("a job");
+    wait(&mut harness);
+    let said = explorer(&mut harness).notices.take().expect("two sentences");
+    assert!(said.contains(&Task::Export.broken()) && said.contains(&Task::Dialog.broken()), "{said}");
+    explorer(&mut harness).worker.ask = |_| Ok(Some("/no/such/file.csv".into()));
+    explorer(&mut harness).commands.extend([Command::Export(Outgoing::Curves, path.clone()), Command::ChooseMeasurement]);
+    wait(&mut harness);
+    assert!(path.exists() && explorer(&mut harness).notices.take().is_some_and(|said| said.contains("/no/such/file.csv")));
+}
+
+#[test]
+fn a_report_that_waits_comes_after_one_that_panics() {
+    let mut harness = harness();
+    let e = explorer(&mut harness);
+    e.reports.running = Some((Subject::Cost, e.worker.start_broken(Task::Report)));
+    e.commands.push(Command::MakeReport(Subject::Stability));
+    let begun = Instant::now();
+    while explorer(&mut harness).reports.progress().is_none_or(|(subject, _)| subject == Subject::Cost) {
+        assert!(begun.elapsed() < PATIENCE, "the second report does not begin");
+        harness.step();
+    }
+    explorer(&mut harness).commands.push(Command::CancelReport);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).reports.cost.is_none() && explorer(&mut harness).reports.stability.is_some());
+}
