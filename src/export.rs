@@ -47,6 +47,11 @@ pub fn report_kind(path: &Path) -> Result<ReportKind, String> {
     }
 }
 
+/// Refuses a file name that says another kind of file; the error is a phrase.
+pub fn expect_ending(path: &Path, ending: &str) -> Result<(), String> {
+    if extension(path) == ending { Ok(()) } else { Err(format!("{}: expected a name that ends in .{ending}", path.display())) }
+}
+
 /// Writes a figure.
 pub fn write_picture(path: &Path, kind: PictureKind, figure: &Figure) -> io::Result<()> {
     let bytes = match kind {
@@ -105,7 +110,7 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{PictureKind, ReportKind, picture_kind, report_kind, sha256};
+    use super::{PictureKind, ReportKind, expect_ending, picture_kind, report_kind, sha256};
     use std::path::Path;
 
     #[test]
@@ -115,6 +120,8 @@ mod tests {
         assert!(picture_kind(Path::new("svg")).unwrap_err().contains(".svg or .png"));
         assert_eq!(report_kind(Path::new("b.md")), Ok(ReportKind::Markdown));
         assert!(report_kind(Path::new("b.pdf")).is_err());
+        assert_eq!(expect_ending(Path::new("a/b.CSV"), "csv"), Ok(()));
+        assert!(expect_ending(Path::new("b.csv.svg"), "csv").unwrap_err().contains("ends in .csv"));
     }
 
     #[test]

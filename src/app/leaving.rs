@@ -102,6 +102,17 @@ impl Outgoing {
         }
     }
 
+    /// Refuses a path that ends like another kind of file; the error is a sentence.
+    pub fn check(self, path: &Path) -> Result<(), String> {
+        let fits = match self {
+            Self::Plot(_) => export::picture_kind(path).map(drop),
+            Self::Curves | Self::Fitted => export::expect_ending(path, "csv"),
+            Self::Report => export::report_kind(path).map(drop),
+            Self::Session => export::expect_ending(path, "json"),
+        };
+        fits.map_err(|reason| tr!("{}.", phrase(&reason)))
+    }
+
     /// What is needed to write it, taken from the window as it is now; the error is a sentence.
     pub fn taken_from(self, explorer: &Explorer) -> Result<Write, String> {
         match self {

@@ -21,9 +21,11 @@ pub struct Replacing {
     pub command: Command,
 }
 
-/// The path in a box, if there is one.
+/// The path in a box, if there is one; `~/` is the folder of the user, as in a shell.
 pub fn path_in(text: &str) -> Option<PathBuf> {
-    Some(text.trim()).filter(|text| !text.is_empty()).map(PathBuf::from)
+    let text = Some(text.trim()).filter(|text| !text.is_empty())?;
+    let own = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
+    Some(own.unwrap_or_else(|| PathBuf::from(text)))
 }
 
 impl Typed {
@@ -56,7 +58,10 @@ impl Explorer {
     pub(super) fn write_typed(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         let (path, command) = match command {
             Command::SaveNew(path) => (path.clone(), Command::SaveMeasurement(path)),
-            Command::ExportNew(what, path) => (path.clone(), Command::Export(what, path)),
+            Command::ExportNew(what, path) => {
+                what.check(&path)?;
+                (path.clone(), Command::Export(what, path))
+            }
             answer => {
                 let asked = self.replacing.take().filter(|_| answer == Command::Replace);
                 return asked.map_or(Ok(()), |asked| self.carry_out(ctx, asked.command));
@@ -72,7 +77,7 @@ impl Explorer {
 
 #[cfg(test)]
 mod tests {
-    use super::{Command, Outgoing, Typed};
+    use super::{Command, Outgoing, Typed, path_in};
     use std::path::Path;
 
     #[test]
@@ -85,6 +90,18 @@ mod tests {
             assert_eq!(command(name), Some(Command::SaveNew(name.into())));
         }
         assert_eq!(command(" "), None);
+    }
+
+    #[test]
+    fn a_tilde_is_the_folder_of_the_user() {
+        let home = std::env::home_dir().expect("whoever runs tests has a folder");
+        assert_eq!(path_in(" ~/data/a.csv"), Some(home.join("data/a.csv")));
+        for text in ["/a/~/b", "~b.csv", "a~/b"] {
+            assert_eq!(path_in(text), Some(text.into()));
+        }
+        let mut typed = Typed { open: "~/a.csv".to_owned(), ..Typed::default() };
+        typed.served(&home.join("a.csv"));
+        assert_eq!(typed.open, "");
     }
 
     #[test]

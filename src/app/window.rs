@@ -12,6 +12,7 @@ use super::import::Import;
 use super::language::phrase;
 use super::latest_job::Background;
 use super::layout::Layout;
+use super::leaving::Outgoing;
 use super::lessons::{self, Lessons};
 use super::notices::Notices;
 use super::palette::{Palette, palette_ui};
@@ -295,13 +296,7 @@ impl Explorer {
                 self.reports.take(*made, is_part);
                 self.go_on_with_reports();
             }
-            Event::Broken(task) => {
-                self.say(task.broken());
-                if task == Task::Report {
-                    self.reports.give_up();
-                    self.go_on_with_reports();
-                }
-            }
+            Event::Broken(task) => self.broken(task),
             Event::Profiled(profile) => {
                 let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
                 self.scans.profile = self.last_fit.as_ref().map(curve);
@@ -318,6 +313,15 @@ impl Explorer {
                 let fit = self.past_fits.push(fit);
                 self.show_fit(Some(fit));
             }
+        }
+    }
+
+    /// A job panicked.
+    fn broken(&mut self, task: Task) {
+        self.say(task.broken());
+        if task == Task::Report {
+            self.reports.give_up();
+            self.go_on_with_reports();
         }
     }
 
@@ -381,10 +385,7 @@ impl Explorer {
             Command::OpenMeasurement(path) => self.worker.open(path)?,
             Command::OpenSession(path) => self.worker.open_session(path)?,
             Command::SaveSession => self.save_session(ctx)?,
-            Command::Export(what, path) => {
-                let write = what.taken_from(self)?;
-                self.worker.export(what, path, write)?;
-            }
+            Command::Export(what, path) => self.export(what, path)?,
             Command::CopyPlot(pane) => ctx.copy_image(leaving::image(self, pane)?),
             Command::CopyTable => self.copy_table(ctx)?,
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
@@ -451,6 +452,12 @@ impl Explorer {
             Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
         }
         Ok(())
+    }
+
+    fn export(&mut self, what: Outgoing, path: PathBuf) -> Result<(), String> {
+        what.check(&path)?;
+        let write = what.taken_from(self)?;
+        self.worker.export(what, path, write)
     }
 
     fn open_example(&mut self, index: usize) -> Result<(), String> {

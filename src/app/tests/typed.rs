@@ -3,6 +3,7 @@
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
 use crate::app::leaving::Outgoing;
+use crate::app::panes::Pane;
 use crate::app::window::Explorer;
 use egui::Key;
 use egui::accesskit::Role;
@@ -147,4 +148,37 @@ fn a_path_that_could_not_be_opened_stays_to_be_mended() {
         (explorer(&mut harness).document.name.clone(), explorer(&mut harness).typed.open.clone()),
         ("mine.csv".to_owned(), String::new())
     );
+}
+
+#[test]
+fn a_path_that_ends_like_another_kind_of_file_is_refused_before_anything_is_asked_or_written() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    let all = [
+        (Outgoing::Curves, "plot.svg", ".csv"),
+        (Outgoing::Fitted, "report.html", ".csv"),
+        (Outgoing::Session, "mine.csv", ".json"),
+        (Outgoing::Report, "mine.csv", ".html or .md"),
+        (Outgoing::Plot(Pane::Dolp), "mine.csv", ".svg or .png"),
+    ];
+    for (what, name, ending) in all {
+        for is_there in [true, false] {
+            let path = folder.path().join(name);
+            if is_there {
+                std::fs::write(&path, "precious").expect("a writable folder");
+            } else {
+                std::fs::remove_file(&path).expect("a file of our own");
+            }
+            for command in [Command::ExportNew(what, path.clone()), Command::Export(what, path.clone())] {
+                explorer(&mut harness).commands.push(command);
+                wait(&mut harness);
+                let said = explorer(&mut harness).notices.take().expect("a sentence");
+                assert!(said.contains(&format!("expected a name that ends in {ending}")), "{said}");
+                assert!(explorer(&mut harness).replacing.is_none());
+                assert_eq!(std::fs::read_to_string(&path).ok().as_deref(), is_there.then_some("precious"));
+            }
+        }
+    }
 }
