@@ -52,7 +52,7 @@ fn an_html_report_is_whole_in_one_file() {
     // Metadata of the file are provenance.
     assert!(words.contains("simulated") && words.contains("seed"));
     // The paper's own angles do not pin n down.
-    assert!(words.contains("Hardly determined") && words.contains("n, k, σ"));
+    assert!(words.contains("a standard error above half of the value: n, k, σ"));
     let headings: Vec<&str> = body.descendants().filter(|node| node.has_tag_name("h2")).filter_map(|node| node.text()).collect();
     for heading in ["Figures", "Parameters", "What the data leave open", "Data", "Model and choices", "Goodness of fit", "Audit"] {
         assert!(headings.contains(&heading), "{heading} is missing among {headings:?}");

@@ -462,6 +462,7 @@ impl Behavior<Pane> for Shown<'_> {
             let name = tr!("Show in {}", translated(pane.entry().title));
             button
                 .on_hover_text(tr!("Switches for what is drawn in this pane"))
+                .on_hover_text(tr!("In the plot: drag to move, Ctrl+wheel to zoom, a double click shows all"))
                 .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         }
     }

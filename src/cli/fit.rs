@@ -103,11 +103,10 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     if report.dof == 0 && !report.determined.is_empty() {
         writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
     }
-    if !report.undetermined.is_empty() {
+    let open = report.open_in_words();
+    if !open.is_empty() {
         writeln!(out, "\nThe data leave open:")?;
-        for direction in &report.undetermined {
-            writeln!(out, "  {}", direction.text)?;
-        }
+        open.iter().try_for_each(|text| writeln!(out, "  {text}"))?;
     }
     Ok(())
 }

@@ -30,7 +30,7 @@ pub use choices::{BrdfResiduals, Choices, Eq17, Loss, Weights};
 pub use contest::{Contest, HeldGauss};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
-pub use outcome::{Edge, Estimate, FitReport, Minimum, Standing, fit, is_loose, size_of};
+pub use outcome::{Edge, Estimate, FitReport, Minimum, Standing, fit, is_loose, loose_in_words, size_of};
 pub use plan::{Plan, PlanError, PlannedNoise, Prediction};
 pub use problem::{Problem, ProblemError, free_by_default};
 pub use profile::{Profile, ProfilePoint, profile};

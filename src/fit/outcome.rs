@@ -83,6 +83,13 @@ pub fn size_of(parameter: Parameter, value: f64) -> f64 {
     }
 }
 
+/// Parameters with errors above half of their size in words, if there are any.
+#[must_use]
+pub fn loose_in_words(parameters: impl Iterator<Item = Parameter>) -> Option<String> {
+    let symbols: Vec<&str> = parameters.map(Parameter::symbol).collect();
+    (!symbols.is_empty()).then(|| format!("a standard error above half of the value: {}", symbols.join(", ")))
+}
+
 /// Whether an error is above half of that size: then the value says next to nothing.
 #[must_use]
 pub fn is_loose(parameter: Parameter, value: f64, error: f64) -> bool {
@@ -175,6 +182,13 @@ pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> Fi
 }
 
 impl FitReport {
+    /// What the data leave open, each in words: directions, and the parameters that are determined but hardly known.
+    #[must_use]
+    pub fn open_in_words(&self) -> Vec<String> {
+        let loose = self.estimates.iter().filter(|estimate| estimate.is_loose()).map(|estimate| estimate.parameter);
+        self.undetermined.iter().map(|direction| direction.text.clone()).chain(loose_in_words(loose)).collect()
+    }
+
     /// The report of a search that was made before, on a problem with the loss scales that it had then; none where it found nothing.
     #[must_use]
     pub fn again(problem: &Problem, search: Search, elapsed_ms: f64) -> Option<Self> {

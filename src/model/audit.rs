@@ -62,10 +62,10 @@ pub enum Check {
 pub struct Finding {
     /// What was looked at.
     pub check: Check,
-    /// The number: a relative defect, the largest reflectance, the largest DoLP − DoLP_s, the smallest eigenvalue over m00, the
-    /// integral of the distribution.
+    /// The number: a relative defect, the largest reflectance, the largest DoLP − DoLP_s, the smallest eigenvalue over m00, how far the
+    /// integral of the distribution is from 1.
     pub value: f64,
-    /// What it may be at most (of an eigenvalue: at least; of the integral: 1 up to this).
+    /// What it may be at most (of an eigenvalue: at least).
     pub bar: f64,
     /// Whether it is.
     pub pass: bool,
@@ -344,5 +344,6 @@ fn normalisation(model: Model, p: &Parameters) -> Finding {
                 * cos_alpha_cubed;
         }
     }
-    Finding { check: Check::Normalisation, value, bar: NORMALISED, pass: (value - 1.0).abs() <= NORMALISED, at: None }
+    let defect = (value - 1.0).abs();
+    Finding { check: Check::Normalisation, value: defect, bar: NORMALISED, pass: defect <= NORMALISED, at: None }
 }

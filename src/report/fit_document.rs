@@ -201,25 +201,21 @@ impl FitDocument<'_> {
     }
 
     fn open(&self) -> Vec<Block> {
+        let open = self.report.open_in_words();
         let mut blocks = vec![heading("What the data leave open")];
-        if self.report.undetermined.is_empty() {
+        if open.is_empty() {
             let text =
                 if self.report.determined.is_empty() { "No parameter was free." } else { "Nothing: every free parameter is determined." };
             blocks.push(Block::Paragraph(text.to_owned()));
         } else {
-            blocks.push(Block::List(self.report.undetermined.iter().map(|direction| direction.text.clone()).collect()));
+            blocks.push(Block::List(open));
+        }
+        if !self.report.undetermined.is_empty() {
             blocks.push(Block::Paragraph(
-                "Along such a direction the parameters may change together without changing what was measured: their values above are \
+                "Along an open direction the parameters may change together without changing what was measured: their values above are \
                  one choice among many and have no standard error."
                     .to_owned(),
             ));
-        }
-        let hardly: Vec<&str> = self.report.estimates.iter().filter(|estimate| estimate.is_loose()).map(|e| e.parameter.symbol()).collect();
-        if !hardly.is_empty() {
-            blocks.push(Block::Paragraph(format!(
-                "Hardly determined, with a standard error above half of the value: {}.",
-                hardly.join(", ")
-            )));
         }
         blocks
     }
@@ -313,7 +309,7 @@ impl FitDocument<'_> {
             let cells = [name_of(check).to_owned(), significant(value, 4), significant(bar, 2), verdict.to_owned(), place];
             cells.into_iter().chain([finding.why().to_owned()]).collect()
         };
-        let head = ["check", "number", "bar", "verdict", "where", "why"].map(str::to_owned).to_vec();
+        let head = ["check", "number", "limit", "verdict", "direction", "why"].map(str::to_owned).to_vec();
         vec![heading("Audit"), Block::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
     }
 
@@ -358,7 +354,7 @@ fn name_of(check: Check) -> &'static str {
         Check::Reflectance => "directional-hemispherical reflectance, largest",
         Check::FresnelLimit => "DoLP above the Fresnel limit, largest",
         Check::Admissibility => "eigenvalue of the coherency matrix over m00, smallest",
-        Check::Normalisation => "projected area of the facets",
+        Check::Normalisation => "projected area of the facets, distance from 1",
     }
 }
 

@@ -53,12 +53,11 @@ impl Axes {
     pub fn listen<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         self.seen = Some(*response.transform.bounds());
-        let scrolled =
-            response.response.hovered() && ui.input(|input| input.smooth_scroll_delta != egui::Vec2::ZERO || input.zoom_delta() != 1.0);
+        let zoomed = response.response.hovered() && ui.input(|input| input.zoom_delta() != 1.0);
         if response.response.double_clicked() {
             *self = Self::default();
             ui.ctx().request_repaint();
-        } else if response.response.dragged() || scrolled {
+        } else if response.response.dragged() || zoomed {
             self.by_hand = true;
         }
     }
@@ -75,6 +74,8 @@ pub fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints
         .grid_fade(0.0)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
+        // The wheel is for the page; with Ctrl it zooms.
+        .allow_scroll(false)
 }
 
 /// Where the names of curves stand: in the corner that lobes and DoLP seldom reach.
@@ -107,7 +108,7 @@ pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: 
 
 #[cfg(test)]
 mod tests {
-    use super::{Axes, Plot, Range, curve};
+    use super::{Axes, AxisHints, Plot, PlotBounds, Range, curve, plot};
     use egui::{Color32, Shape};
     use egui_kittest::Harness;
     use egui_plot::PlotPoint;
@@ -138,6 +139,26 @@ mod tests {
         harness.state_mut().plot = 2;
         harness.run();
         assert_eq!(harness.state().seen, [3.0, 3.0]);
+    }
+
+    #[test]
+    fn the_wheel_moves_no_plot_out_of_sight() {
+        let frame = |ui: &mut egui::Ui, seen: &mut Option<PlotBounds>| {
+            let axes = || [AxisHints::new_x(), AxisHints::new_y()];
+            let [x, y] = axes();
+            *seen = Some(*plot("plot", ui, 200.0, x, y).show(ui, |_| ()).transform.bounds());
+        };
+        let mut harness = Harness::builder().with_size(egui::vec2(300.0, 200.0)).build_ui_state(frame, None);
+        harness.run();
+        let before = *harness.state();
+        assert!(before.is_some());
+        harness.hover_at(egui::pos2(150.0, 100.0));
+        let unit = egui::MouseWheelUnit::Point;
+        let phase = egui::TouchPhase::Move;
+        let (source, modifiers) = (egui::MouseWheelSource::Unknown, egui::Modifiers::NONE);
+        harness.event(egui::Event::MouseWheel { unit, delta: egui::vec2(0.0, -50.0), phase, source, modifiers });
+        harness.run();
+        assert_eq!(*harness.state(), before);
     }
 
     #[test]

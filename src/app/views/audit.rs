@@ -212,10 +212,9 @@ fn check_name(check: Check) -> String {
     }
 }
 
-/// The number of a finding; of the distribution's integral its distance from 1.
+/// The number of a finding.
 fn number(finding: &Finding) -> String {
     match finding.check {
-        Check::Normalisation => short((finding.value - 1.0).abs()),
         Check::Reflectance if finding.value.is_finite() => format!("{:.4}", finding.value),
         // An eigenvalue of nothing but rounding and DoLP below its limit have signs.
         _ if finding.value.is_infinite() => "∞".to_owned(),

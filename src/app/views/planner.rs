@@ -10,7 +10,7 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words::{open_help, percent, short};
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::{Eq17, is_loose};
+use pbrdf::fit::{Eq17, is_loose, loose_in_words};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
@@ -249,20 +249,15 @@ fn error_row_ui(
 /// What stays open, in words.
 fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &mut Ui) {
     let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
-    let loose: Vec<&str> = loose
-        .filter(|(parameter, error)| is_loose(*parameter, parameters[*parameter], *error))
-        .map(|(parameter, _)| parameter.symbol())
-        .collect();
-    if prediction.open.is_empty() && loose.is_empty() {
+    let loose = loose.filter(|(parameter, error)| is_loose(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);
+    let open: Vec<String> = prediction.open.iter().cloned().chain(loose_in_words(loose)).collect();
+    if open.is_empty() {
         ui.add(egui::Label::new(tr!("{} nothing stays open.", translated(angles))).wrap());
         return;
     }
     ui.add_space(4.0);
     ui.strong(tr!("{} there stays open:", translated(angles)));
-    for text in &prediction.open {
+    for text in &open {
         ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
-    }
-    if !loose.is_empty() {
-        ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());
     }
 }

@@ -149,6 +149,7 @@ pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .show_grid(false)
         .auto_bounds([false, false])
         .allow_double_click_reset(false)
+        .allow_scroll(false)
         .cursor_color(Color32::TRANSPARENT)
         .label_formatter(move |hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => {

@@ -64,18 +64,14 @@ pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Ve
 
 /// What stays open, in words, the badly known included.
 fn open_ui(report: &FitReport, ui: &mut Ui) {
-    let loose: Vec<&str> =
-        report.estimates.iter().filter(|estimate| estimate.is_loose()).map(|estimate| estimate.parameter.symbol()).collect();
-    if report.undetermined.is_empty() && loose.is_empty() {
+    let open = report.open_in_words();
+    if open.is_empty() {
         return;
     }
     ui.add_space(6.0);
     ui.strong(tr!("The data leave open:")).on_hover_text(words::open_help());
-    for direction in &report.undetermined {
-        ui.add(egui::Label::new(format!("• {}", phrase(&direction.text))).wrap());
-    }
-    if !loose.is_empty() {
-        ui.add(egui::Label::new(tr!("• {}: known to no better than half its size", loose.join(", "))).wrap());
+    for text in &open {
+        ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
     }
 }
 
