@@ -10,6 +10,7 @@ pub struct KeyEntry {
     pub name: String,
     pub color: Color32,
     pub style: LineStyle,
+    /// In points of the screen.
     pub width: f32,
 }
 
@@ -58,16 +59,16 @@ pub fn key_line_ui(entries: &[KeyEntry], ui: &mut Ui) {
 /// How faint the entry of a line is that is not drawn.
 const HIDDEN: f32 = 0.35;
 
-/// The same, where a click on a name takes its lines out of the plot or puts them back.
-pub fn switching_key_line_ui(entries: &[KeyEntry], hidden: &mut BTreeSet<String>, ui: &mut Ui) {
+/// The same, where a click on a name takes its lines out of the plot or puts them back. Each line is known by a key.
+pub fn switching_key_line_ui<K: Ord + Copy>(entries: &[(K, KeyEntry)], hidden: &mut BTreeSet<K>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
-        for entry in entries {
+        for (key, entry) in entries {
             let response = entry.allocate(Sense::click(), ui).on_hover_cursor(CursorIcon::PointingHand);
-            if response.clicked() && !hidden.remove(&entry.name) {
-                hidden.insert(entry.name.clone());
+            if response.clicked() && !hidden.remove(key) {
+                hidden.insert(*key);
             }
-            let is_shown = !hidden.contains(&entry.name);
+            let is_shown = !hidden.contains(key);
             response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shown, &entry.name));
             entry.paint(response.rect, if is_shown { 1.0 } else { HIDDEN }, ui);
             response.on_hover_text(if is_shown { tr!("A click hides it") } else { tr!("A click shows it") });

@@ -12,12 +12,13 @@ const NEAR: f32 = 12.0;
 /// What hovering a point says of it.
 pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
 
-/// Ctrl+click on a measured point masks it or takes it back; with Shift it does so to its whole series.
+/// Ctrl+click on a measured point masks it or takes it back; with Shift it does so to its whole series. `marks` gives the points that
+/// are drawn of a series, by its number.
 pub fn clicked_mask<R>(
     response: &PlotResponse<R>,
     ui: &Ui,
     document: &Document,
-    marks: impl Fn(&Series) -> &[Mark],
+    marks: impl Fn(usize, &Series) -> &[Mark],
     coordinate: impl Fn(&Mark) -> Option<f64>,
 ) -> Option<Command> {
     let modifiers = ui.input(|input| input.modifiers);
@@ -26,7 +27,7 @@ pub fn clicked_mask<R>(
         let point = PlotPoint::new(mark.theta_r, coordinate(mark)?);
         Some(response.transform.position_from_point(&point).distance(at))
     };
-    let near = drawn(document).flat_map(|series| marks(series).iter().map(move |mark| (series, mark)));
+    let near = drawn(document).enumerate().flat_map(|(i, series)| marks(i, series).iter().map(move |mark| (series, mark)));
     let near = near.filter_map(|(series, mark)| Some((series, mark, distance(mark)?))).filter(|(.., distance)| *distance < NEAR);
     let (series, mark, _) = near.min_by(|a, b| a.2.total_cmp(&b.2))?;
     let rows = if modifiers.shift { series.rows.clone() } else { vec![mark.row] };

@@ -2,11 +2,13 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
+use crate::app::language::Language;
 use crate::app::panes::Pane;
+use crate::app::plots::Range;
 use crate::app::window::Explorer;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::measurement::{Measurement, Quantity, Row};
 use pbrdf::optics::Geometry;
 use std::ops::ControlFlow;
@@ -171,6 +173,55 @@ fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
     click_with(&mut harness, hit, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT);
     let series = masked(&mut harness);
     assert!(series.len() == 9 && series.contains(&one[0]), "{series:?}");
+}
+
+/// Where that point of the lobes is on the screen.
+fn place_in_lobes(harness: &mut Harness<'static, Option<Explorer>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
+    let rect = harness.get_by_label("Plot: BRDF against θr").rect();
+    let Explorer { derived, views, settings, .. } = explorer(harness);
+    let (x, y) = (derived.curves.key().expect("curves").x(), views.lobes.range().expect("curves"));
+    let value = if settings.log_brdf { libm::log10(brdf) } else { brdf };
+    let share = |range: Range, value: f64| (value - range.low) / (range.high - range.low);
+    #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+    let [across, up] = [share(x, theta_r), share(y, value)].map(|share| share as f32);
+    rect.left_bottom() + egui::vec2(across * rect.width(), -up * rect.height())
+}
+
+#[test]
+fn points_of_a_hidden_series_cannot_be_clicked() {
+    let mut harness = harness();
+    // Its names are those of the lobes, too.
+    explorer(&mut harness).commands.extend([Command::OpenExample(2), Command::ClosePane(Pane::Dolp)]);
+    wait(&mut harness);
+    let series = explorer(&mut harness).document.series[0].clone();
+    let mark = &series.brdf[series.brdf.len() / 2];
+    let at = place_in_lobes(&mut harness, mark.theta_r, mark.quantity.value);
+    let is_masked = |harness: &mut Harness<'static, Option<Explorer>>| {
+        let rows = masked(harness);
+        explorer(harness).commands.push(Command::Mask { rows: rows.clone(), masked: false });
+        harness.run();
+        rows.iter().any(|row| series.rows.contains(row))
+    };
+    click_with(&mut harness, at, egui::Modifiers::COMMAND);
+    assert!(is_masked(&mut harness), "{at:?}");
+    harness.get_by_role_and_label(Role::CheckBox, &series.name()).click();
+    harness.run();
+    click_with(&mut harness, at, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT);
+    assert!(!is_masked(&mut harness), "what is not drawn");
+}
+
+#[test]
+fn a_lobe_that_is_hidden_stays_so_in_another_language() {
+    let mut harness = harness();
+    let is_shown = |harness: &Harness<'static, Option<Explorer>>, name: &str| {
+        harness.get_by_role_and_label(Role::CheckBox, name).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    harness.get_by_role_and_label(Role::CheckBox, "total").click();
+    harness.run();
+    assert!(!is_shown(&harness, "total") && is_shown(&harness, "specular"));
+    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    harness.run_steps(3);
+    assert!(!is_shown(&harness, "总和") && is_shown(&harness, "镜面"));
 }
 
 #[test]

@@ -194,5 +194,5 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             }
         });
     view.axes.listen(&response, &tr!("Plot: DoLP against θr"), ui);
-    commands.extend(clicked_mask(&response, ui, document, |series| &series.dolp, |mark| Some(mark.quantity.value)));
+    commands.extend(clicked_mask(&response, ui, document, |_, series| &series.dolp, |mark| Some(mark.quantity.value)));
 }

@@ -22,8 +22,19 @@ pub struct LobesView {
     range: Following,
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Ribbons>>,
-    /// Names of the curves that are not drawn.
-    hidden: BTreeSet<String>,
+    /// The curves that are not drawn.
+    hidden: BTreeSet<Line>,
+}
+
+/// A curve of the pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Line {
+    /// A measured series by its number, with its points.
+    Series(usize),
+    Specular,
+    Diffuse,
+    Volume,
+    Total,
 }
 
 impl LobesView {
@@ -75,6 +86,7 @@ pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
 
 /// A curve at the sliders' own θi.
 struct Term<'a> {
+    line: Line,
     pieces: &'a Pieces,
     name: String,
     color: Color32,
@@ -88,20 +100,20 @@ const TOTAL: f32 = 2.5;
 /// The terms that the model has, and last their sum.
 fn terms(own: &Curves, dark: bool) -> Vec<Term<'_>> {
     let terms = [
-        Term { pieces: &own.specular, name: tr!("specular"), color: theme::specular(dark), width: PART },
-        Term { pieces: &own.diffuse, name: tr!("diffuse"), color: theme::diffuse(dark), width: PART },
-        Term { pieces: &own.volume, name: tr!("volume"), color: theme::volume(dark), width: PART },
-        Term { pieces: &own.total, name: tr!("total"), color: theme::foreground(dark), width: TOTAL },
+        Term { line: Line::Specular, pieces: &own.specular, name: tr!("specular"), color: theme::specular(dark), width: PART },
+        Term { line: Line::Diffuse, pieces: &own.diffuse, name: tr!("diffuse"), color: theme::diffuse(dark), width: PART },
+        Term { line: Line::Volume, pieces: &own.volume, name: tr!("volume"), color: theme::volume(dark), width: PART },
+        Term { line: Line::Total, pieces: &own.total, name: tr!("total"), color: theme::foreground(dark), width: TOTAL },
     ];
     terms.into_iter().filter(|term| !term.pieces.is_empty()).collect()
 }
 
 /// The measured series, then the terms.
-fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<KeyEntry> {
-    let entry = |name: &str, color, width| KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width };
+fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<(Line, KeyEntry)> {
+    let entry = |line, name: &str, color, width| (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width });
     let measured = marks.series.iter().enumerate().filter(|(_, marks)| marks.brdf.is_there());
-    let measured = measured.map(|(i, marks)| entry(&marks.name, theme::series(i, dark), PART));
-    measured.chain(terms.iter().map(|term| entry(&term.name, term.color, term.width))).collect()
+    let measured = measured.map(|(i, marks)| entry(Line::Series(i), &marks.name, theme::series(i, dark), PART));
+    measured.chain(terms.iter().map(|term| entry(term.line, &term.name, term.color, term.width))).collect()
 }
 
 pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -130,7 +142,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .show(ui, |plot| {
             view.axes.apply(plot, Some(key.x()), view.range.get());
             for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
-                if marks.brdf.is_there() && !view.hidden.contains(&marks.name) {
+                if marks.brdf.is_there() && !view.hidden.contains(&Line::Series(i)) {
                     let color = theme::series(i, dark);
                     if let Some(ribbons) = view.band.get().and_then(|bands| bands.get(i)) {
                         ribbons_in(plot, ribbons, color);
@@ -140,7 +152,7 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 }
             }
             let floor = if log { view.range.get().map_or(0.0, |range| range.low) } else { 0.0 };
-            for Term { pieces, name, color, width } in terms.iter().filter(|term| !view.hidden.contains(&term.name)) {
+            for Term { pieces, name, color, width, .. } in terms.iter().filter(|term| !view.hidden.contains(&term.line)) {
                 if settings.shown.filled && *width < TOTAL {
                     filled(plot, pieces, name, *color, floor);
                 } else {
@@ -153,7 +165,8 @@ pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         &response,
         ui,
         document,
-        |series| &series.brdf,
+        // What is not drawn cannot be meant.
+        |i, series| if view.hidden.contains(&Line::Series(i)) { &[] } else { &series.brdf },
         |mark| scale.coordinate(mark.theta_r, mark.quantity.value),
     ));
 }
