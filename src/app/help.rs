@@ -47,10 +47,10 @@ pub const WORDS: [(&str, &str); 13] = [
         "A value that the data do not determine, alone or together with others: it can change much and the misfit hardly grows. Then no error is printed for it.",
     ),
     ("at bound", "The fit ended at the edge of what it may choose: the best value may lie beyond, and no error can be stated."),
-    ("limit, bar", "What a number of a report or of the audit has to keep in order to pass."),
+    ("limit", "What a number of a report or of the audit has to keep in order to pass."),
     ("mask", "Takes a measured point out of the fit and of every statistic; it stays in the table and can be taken back."),
     ("ghost", "The faint dotted curve of the last fit, which stays in view while the sliders move on."),
-    ("cases, gallery", "The stiff and extreme cases on which the program tests its own values and fits."),
+    ("cases", "The stiff and extreme cases on which the program tests its own values and fits."),
     ("Fresnel limit", "DoLP of the bare mirror facets with this n and k: the dashed curve. The other lobes can only lower DoLP below it."),
     (
         "lobes",

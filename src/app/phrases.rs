@@ -3,7 +3,7 @@
 //!
 //! A template is written like the format string that made the text, with a name in each hole: `the row has {found} cells; expected {expected}`.
 //! What stands in a hole goes into the translation as it is, but for the holes named in [`NUMBERS`], which only a number fills, and those
-//! named in [`AGAIN`], which hold a phrase that is translated in its turn. Of several readings the one is meant that understands most of the
+//! named in [`AGAIN`], which hold a phrase that is translated in its turn, and for [`LIST`], which holds several. Of several readings the one is meant that understands most of the
 //! text.
 
 use std::collections::HashMap;
@@ -12,6 +12,8 @@ use std::collections::HashMap;
 const NUMBERS: [&str; 7] = ["line", "column", "byte", "number", "count", "low", "high"];
 /// Holes that hold a phrase themselves.
 const AGAIN: [&str; 7] = ["kind", "expected", "reason", "what", "one", "other", "rest"];
+/// A hole that holds phrases with semicolons between them.
+const LIST: &str = "list";
 /// How deep phrases stand inside phrases at most: an error in a kind in a place in a file.
 const DEPTH: usize = 6;
 
@@ -103,8 +105,11 @@ impl Phrases {
                 .iter()
                 .zip(parts)
                 .map(|((name, _), part)| {
-                    let again = if AGAIN.contains(&name.as_str()) { self.read(depth, part, word) } else { None };
-                    let (length, said) = again.unwrap_or_else(|| (0, part.to_owned()));
+                    let (length, said) = match name.as_str() {
+                        LIST => self.read_list(depth, part, word),
+                        name if AGAIN.contains(&name) => self.read_or_keep(depth, part, word),
+                        _ => (0, part.to_owned()),
+                    };
                     understood += length;
                     (name.as_str(), said)
                 })
@@ -113,6 +118,16 @@ impl Phrases {
         });
         // Of equals the first.
         readings.reduce(|best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    /// The same; what is not known stays as it is.
+    fn read_or_keep<'a>(&'a self, depth: usize, text: &str, word: &dyn Fn(&str) -> Option<&'a str>) -> (usize, String) {
+        self.read(depth, text, word).unwrap_or_else(|| (0, text.to_owned()))
+    }
+
+    fn read_list<'a>(&'a self, depth: usize, text: &str, word: &dyn Fn(&str) -> Option<&'a str>) -> (usize, String) {
+        let (lengths, said): (Vec<usize>, Vec<String>) = text.split("; ").map(|part| self.read_or_keep(depth, part, word)).unzip();
+        (lengths.into_iter().sum(), said.join("；"))
     }
 
     /// Whether there is an entry whose own text is this, whatever its holes are called.
@@ -158,6 +173,7 @@ mod tests {
             ("found {found}, expected {expected}", "读到 {found}，应为{expected}"),
             ("{one} wins over {other}", "{one}胜过{other}"),
             ("{name} is no {found}", "{name}不是{found}"),
+            ("among {list}.", "其中有{list}。"),
             ("Gauss", "高斯"),
             ("a number", "一个数"),
         ];
@@ -174,6 +190,10 @@ mod tests {
             ("line 3: found \"x\", expected a number", "第 3 行：读到 \"x\"，应为一个数"),
             ("line 3, column 2 (copper): found x, expected a number", "第 3 行第 2 列（copper）：读到 x，应为一个数"),
             ("line 3: n is no number", "第 3 行：n不是number"),
+            (
+                "among copper; x; line 3: a number; Gauss; copper; copper; copper; Gauss.",
+                "其中有铜；x；第 3 行：一个数；高斯；铜；铜；铜；高斯。",
+            ),
             ("found a number, expected copper", "读到 a number，应为铜"),
             ("Cauchy wins over Gauss", "Cauchy胜过高斯"),
         ] {

@@ -59,7 +59,7 @@ fn every_word_is_told_once() {
     }
     let all: String = WORDS.iter().map(|(word, _)| format!("{word} ")).collect();
     for asked in
-        ["DoLP", "ΔE", "θi", "θr", "Δφ", "open", "undetermined", "at bound", "bar", "mask", "ghost", "gallery", "Fresnel limit", "lobes"]
+        ["DoLP", "ΔE", "θi", "θr", "Δφ", "open", "undetermined", "at bound", "limit", "mask", "ghost", "cases", "Fresnel limit", "lobes"]
     {
         assert!(all.contains(asked), "{asked}");
     }

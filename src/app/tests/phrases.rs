@@ -3,12 +3,16 @@
 use super::sources::{literal, literals_after, sources};
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
+use crate::app::document::Document;
 use crate::app::language::{self, Language, phrase};
 use crate::app::leaving::Outgoing;
+use crate::app::past_fits::PastFit;
+use crate::app::reports::{Made, Subject};
 use crate::app::session::{Session, SessionError};
+use crate::app::window::Explorer;
 use crate::export::{picture_kind, report_kind};
 use crate::open_file::open_file;
-use pbrdf::fit::{BoundsError, Contest, PlanError, ProblemError, StopReason};
+use pbrdf::fit::{BoundsError, Contest, FitReport, PlanError, ProblemError, StopReason};
 use pbrdf::measurement::{
     Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
     WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
@@ -18,10 +22,13 @@ use pbrdf::model::{
     assignments_from_text,
 };
 use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
+use pbrdf::report::Surroundings;
 use pbrdf::report::figure::PngError;
 use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::rc::Rc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Words that are the same in Chinese: keys of files and options, names of quantities, units, formats, people and methods.
 const SAME: &[&str] = &[
@@ -53,10 +60,14 @@ const SAME: &[&str] = &[
     "about",
     "account",
     "aoi",
+    "benches",
     "bounds",
     "brdf",
     "brdf_sigma",
+    "callgrind",
+    "condition",
     "cos",
+    "cost",
     "csv",
     "degrees",
     "delta",
@@ -108,11 +119,13 @@ const SAME: &[&str] = &[
     "svg",
     "table",
     "tensor_file",
+    "textbook_error",
     "theta_d",
     "theta_i",
     "theta_r",
     "title",
     "ulp",
+    "valgrind",
     "watch",
     "wavelength",
     "wavelength_nm",
@@ -482,6 +495,26 @@ fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
     assert!(left.is_empty(), "{}", left.join("\n"));
 }
 
+#[test]
+fn notes_under_the_reports_are_said_in_chinese() {
+    let looks = AtomicU32::new(0);
+    let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
+    for subject in Subject::ALL {
+        // Evaluations alone, which have spreads, since fits take long.
+        let asked = AtomicU32::new(0);
+        let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 5;
+        let made = subject.make(Surroundings { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
+        let notes = match made {
+            Made::ErrorVsTime(report) => report.notes,
+            Made::Stability(report) => report.notes,
+            Made::Cost(report) => report.notes,
+        };
+        assert!(notes.len() > 1, "{subject:?}");
+        let left = untranslated(notes);
+        assert!(left.is_empty(), "{}", left.join("\n"));
+    }
+}
+
 /// The texts of an HTML file outside its figures, with those of its figures as they are read out.
 fn texts_of(html: &str) -> Vec<String> {
     let body = &html[html.find("<body>").expect("a body")..html.find("</html>").expect("an end")];
@@ -502,20 +535,37 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
         explorer(&mut harness).commands.push(Command::StartFit);
         wait(&mut harness);
         let path = folder.path().join("report.html");
-        Outgoing::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
-        let html = std::fs::read_to_string(&path).expect("the file");
-        assert!(html.contains("lang=\"zh-CN\"") && html.contains("数据未能确定的量"));
-        let document = &explorer(&mut harness).document;
-        // What stands in the data's file, its name, and literature stay as they are.
-        let quoted = |text: &str| {
-            document.measurement.metadata.iter().any(|(key, value)| key == text || value == text)
-                || PRESETS.iter().any(|preset| preset.citation == text)
-                || text.starts_with("pbrdf-explorer")
-        };
-        let texts = texts_of(&html).into_iter().map(|text| text.replace(&document.name, "")).filter(|text| !quoted(text));
-        let left: Vec<String> = texts.filter(|text| !english(text).is_empty()).collect();
+        let mut left = Vec::new();
+        // The second time it does not know how it came about, like one out of an old session.
+        for _ in 0..2 {
+            Outgoing::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
+            left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).document));
+            without_account(explorer(&mut harness));
+        }
         assert!(left.is_empty(), "{model}: {left:#?}");
     }
+}
+
+/// The fit that is shown without an account of how it came about.
+fn without_account(explorer: &mut Explorer) {
+    let fit = explorer.last_fit.as_ref().expect("a fit");
+    let report = FitReport { minima: Vec::new(), ..fit.report.clone() };
+    let PastFit { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
+    let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
+    explorer.last_fit = Some(Rc::new(PastFit { id, report, problem, before, document, number, generation, mask }));
+}
+
+/// What is English in the report of a fit.
+fn english_in(html: &str, document: &Document) -> Vec<String> {
+    assert!(html.contains("lang=\"zh-CN\"") && html.contains("数据未能确定的量"));
+    // What stands in the data's file, its name, and literature stay as they are.
+    let quoted = |text: &str| {
+        document.measurement.metadata.iter().any(|(key, value)| key == text || value == text)
+            || PRESETS.iter().any(|preset| preset.citation == text)
+            || text.starts_with("pbrdf-explorer")
+    };
+    let texts = texts_of(html).into_iter().map(|text| text.replace(&document.name, "")).filter(|text| !quoted(text));
+    texts.filter(|text| !english(text).is_empty()).collect()
 }
 
 #[test]
