@@ -230,3 +230,27 @@ fn stated_standard_deviations_are_offered_as_weights() {
     harness.run();
     assert!(harness.query_by_label(offer).is_some(), "and is masked now");
 }
+
+#[test]
+fn the_last_fit_stays_in_view_where_the_sliders_or_the_model_have_left_it() {
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::StartFit);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).views.dolp.ghosts(), 0, "the sliders are the fit's");
+    // The same values, without the diffuse and the volume lobe.
+    explorer(&mut harness).commands.push(Command::UseModel("specular"));
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).views.dolp.ghosts(), 3);
+    // A fit far above the curves of the sliders is on the axis too.
+    explorer(&mut harness).commands.push(Command::UseFit);
+    wait(&mut harness);
+    let high = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::window::Explorer>>| {
+        explorer(harness).views.dolp.range().expect("an axis").high
+    };
+    explorer(&mut harness).settings.show_limit = false;
+    wait(&mut harness);
+    let fitted = high(&mut harness);
+    explorer(&mut harness).settings.parameters.kd = 10.0;
+    wait(&mut harness);
+    assert!(high(&mut harness) >= fitted);
+}

@@ -41,6 +41,12 @@ impl DolpView {
     pub fn range(&self) -> Option<Range> {
         self.range.get()
     }
+
+    /// Along how many series the last fit is drawn beside the sliders' curves.
+    #[cfg(test)]
+    pub fn ghosts(&self) -> usize {
+        self.ghost.get().map_or(0, Vec::len)
+    }
 }
 
 pub fn dolp_refresh(explorer: &mut Explorer) {
@@ -51,8 +57,9 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
 
     let eq17 = settings.choices.eq17;
     let key_of = |parameters, model, eq17| (parameters, model, eq17, document.generation, key.backscatter);
-    let fitted = last_fit.as_ref().filter(|fit| fit.report.parameters != settings.parameters);
-    let ghost = fitted.map(|fit| key_of(fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
+    let of_sliders = key_of(settings.parameters, settings.model, eq17);
+    let fitted = last_fit.as_ref().map(|fit| key_of(fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
+    let ghost = fitted.filter(|key| *key != of_sliders);
     view.ghost.refresh(ghost, |key| along_series(key.as_ref(), document));
     let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model, eq17));
     view.overlay.refresh(other, |key| along_series(key.as_ref(), document));
@@ -68,7 +75,8 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
     let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
     let bars = marks.series.iter().flat_map(|marks| marks.dolp.bars.iter().map(|bar| bar.high));
     let points = marks.series.iter().flat_map(|marks| marks.dolp.used.iter().map(|point| point.y));
-    let top = values.chain(bars).chain(points).fold(0.0, f64::max);
+    let ghost = view.ghost.get().into_iter().flatten().flat_map(axis_values);
+    let top = values.chain(ghost).chain(bars).chain(points).fold(0.0, f64::max);
     let high = if settings.shown.share { 1.05 } else { round_up(top).min(1.05) };
     view.range.follow(Range { low: 0.0, high }, *dragging);
 }
