@@ -4,6 +4,7 @@ use super::{explorer, harness, harness_of, wait};
 use crate::app::command::Command;
 use crate::app::panes::{PANES, Pane};
 use crate::app::state::{Settings, Stored, WindowSettings};
+use crate::app::theme;
 use crate::app::window::Explorer;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -165,18 +166,21 @@ fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
     assert_eq!(explorer(&mut harness).views.landscape.seen(), Some(before));
 }
 
+/// Whether a curve of that colour is drawn, longer than its sample beside the name.
+fn is_drawn(harness: &Harness<'static, Option<Explorer>>, color: fn(bool) -> egui::Color32) -> bool {
+    let color = egui::epaint::ColorMode::Solid(color(harness.ctx.global_style().visuals.dark_mode));
+    let line = |shape: &egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.color == color && path.points.len() > 100);
+    harness.output().shapes.iter().any(|clipped| line(&clipped.shape))
+}
+
 #[test]
-fn a_click_on_the_name_of_a_lobe_hides_it_and_another_shows_it() {
+fn a_click_on_the_name_of_a_line_hides_it_and_another_shows_it() {
     let mut harness = harness();
-    // The line in the plot, not its sample beside the name.
-    let is_drawn = |harness: &Harness<'static, Option<Explorer>>| {
-        let color = crate::app::theme::diffuse(harness.ctx.global_style().visuals.dark_mode);
-        let line = |shape: &egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.color == egui::epaint::ColorMode::Solid(color) && path.points.len() > 100);
-        harness.output().shapes.iter().any(|clipped| line(&clipped.shape))
-    };
-    for expected in [true, false, true] {
-        assert_eq!(is_drawn(&harness), expected);
-        harness.get_by_role_and_label(Role::CheckBox, "diffuse").click();
-        harness.run();
+    for (name, color) in [("diffuse", theme::diffuse as fn(bool) -> egui::Color32), ("θi = 40°", |dark| theme::series(1, dark))] {
+        for expected in [true, false, true] {
+            assert_eq!(is_drawn(&harness, color), expected, "{name}");
+            harness.get_by_role_and_label(Role::CheckBox, name).click();
+            harness.run();
+        }
     }
 }

@@ -4,20 +4,23 @@
 use super::facets::{another, sigma_of_equal_median};
 use super::residuals::{self, Residuals};
 use crate::app::band::{BandKey, Ribbons, band_key, dolp_bands};
-use crate::app::curves::{BrdfScale, Curves, Pieces, axis_values, drawn};
+use crate::app::curves::{BrdfScale, CurveSet, Curves, MarkSet, Pieces, axis_values, drawn};
 use crate::app::document::Document;
 use crate::app::language::translated;
 use crate::app::memo::Memo;
 use crate::app::plots::axis::{self, axis, decimal};
-use crate::app::plots::{Axes, Following, MASK_HINT, Range, clicked_mask, curve, legend, marks_in, plot, ribbons_in, round_up};
+use crate::app::plots::{
+    Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
+};
 use crate::app::state::{Overlay, Settings};
 use crate::app::theme;
 use crate::app::window::Explorer;
-use egui::Ui;
+use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
+use std::collections::BTreeSet;
 use tr::tr;
 
 /// What the pane keeps.
@@ -32,6 +35,7 @@ pub struct DolpView {
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Ribbons>>,
     pub residuals: Residuals,
+    hidden: BTreeSet<Line>,
 }
 
 /// Another surface than the sliders', the reading of Eq. (17), the generation of the document, whether the backscatter side is drawn.
@@ -40,6 +44,11 @@ impl DolpView {
     /// Ends of the axis of DoLP.
     pub fn range(&self) -> Option<Range> {
         self.range.get()
+    }
+
+    /// Whether a measured series is drawn.
+    pub fn shows(&self, series: usize) -> bool {
+        !self.hidden.contains(&Line::Series(series))
     }
 
     /// Along how many series the last fit is drawn beside the sliders' curves.
@@ -138,27 +147,143 @@ pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
         .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
+/// What can be hidden.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Line {
+    /// All of a measured series, by its number.
+    Series(usize),
+    /// All at the sliders' own θi.
+    Own,
+    Limit,
+    Band,
+    Ghost,
+    /// The other distribution.
+    Other,
+    Share,
+}
+
+/// A curve as it is drawn.
+struct Drawn<'a> {
+    /// What it shows, and of which surface and angle: it is hidden with either.
+    lines: [Line; 2],
+    pieces: &'a Pieces,
+    name: String,
+    color: Color32,
+    style: LineStyle,
+    width: f32,
+}
+
+/// Names of what has one for all series.
+struct Names {
+    limit: String,
+    ghost: String,
+    other: String,
+    share: String,
+    own: String,
+}
+
+impl Names {
+    fn new(settings: &Settings) -> Self {
+        let other = match (another(settings.model.distribution), settings.shown.overlay) {
+            (SlopeDistribution::Gauss, Overlay::EqualMedian) => tr!("Gauss, equal median slope"),
+            (SlopeDistribution::Gauss, _) => tr!("Gauss, equal σ"),
+            (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),
+            (SlopeDistribution::Cauchy, _) => tr!("Cauchy, equal σ"),
+        };
+        let own = tr!("θi = {}° (slider)", settings.theta_i);
+        Self { limit: tr!("Fresnel limit"), ghost: tr!("last fit"), other, share: tr!("specular share"), own }
+    }
+}
+
+/// The looks of a line: style, and width in points.
+type Look = (LineStyle, f32);
+const CURVE: Look = (LineStyle::Solid, 2.0);
+const SHARE: Look = (LineStyle::Solid, 1.0);
+
+fn limit_look() -> Look {
+    (LineStyle::dashed_dense(), 1.0)
+}
+
+fn ghost_look() -> Look {
+    (LineStyle::dotted_dense(), 1.5)
+}
+
+fn other_look() -> Look {
+    (LineStyle::dotted_loose(), 2.0)
+}
+
+/// All curves from the back to the front; the last fit and the other distribution along each series.
+fn in_layers<'a>(
+    curves: &'a CurveSet,
+    [ghost, overlay]: [&'a [Pieces]; 2],
+    marks: &MarkSet,
+    settings: &Settings,
+    dark: bool,
+) -> Vec<Drawn<'a>> {
+    let names = Names::new(settings);
+    let series = curves.series.iter().enumerate().map(|(i, curves)| (Line::Series(i), curves, theme::series(i, dark)));
+    let own = curves.own_is_series.is_none().then_some((Line::Own, &curves.own, theme::foreground(dark)));
+    let along: Vec<(Line, &Curves, Color32)> = series.chain(own).collect();
+    let mut layers = Vec::new();
+    let mut add = |lines, pieces, name: &str, color, (style, width): Look| {
+        layers.push(Drawn { lines, pieces, name: name.to_owned(), color, style, width });
+    };
+    for &(of, curves, color) in along.iter().filter(|_| settings.show_limit) {
+        add([Line::Limit, of], &curves.limit, &names.limit, color, limit_look());
+    }
+    for &(of, curves, color) in along.iter().filter(|_| settings.shown.share) {
+        add([Line::Share, of], &curves.share, &names.share, color.gamma_multiply(0.65), SHARE);
+    }
+    for (i, pieces) in overlay.iter().enumerate() {
+        add([Line::Other, Line::Series(i)], pieces, &names.other, theme::series(i, dark), other_look());
+    }
+    for (i, pieces) in ghost.iter().enumerate() {
+        add([Line::Ghost, Line::Series(i)], pieces, &names.ghost, theme::series(i, dark).gamma_multiply(0.4), ghost_look());
+    }
+    for &(of, curves, color) in &along {
+        let name = if let Line::Series(i) = of { marks.series.get(i).map_or("", |marks| &marks.name) } else { &names.own };
+        add([of, of], &curves.dolp, name, color, CURVE);
+    }
+    layers
+}
+
+/// What the lines mean. The entries do not depend on where the sliders stand, so that the plot keeps its height while one moves.
+fn key_entries(view: &DolpView, marks: &MarkSet, settings: &Settings, is_fitted: bool, dark: bool) -> Vec<(Line, KeyEntry)> {
+    let names = Names::new(settings);
+    let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
+    let series = marks.series.iter().enumerate();
+    let series = series.map(|(i, marks)| (Line::Series(i), marks.name.clone(), theme::series(i, dark), CURVE));
+    let band = (Line::Band, tr!("± 1 standard error"), quiet.gamma_multiply(0.5), (LineStyle::Solid, BAND));
+    let others = [
+        (true, (Line::Own, names.own, ink, CURVE)),
+        (settings.show_limit, (Line::Limit, names.limit, quiet, limit_look())),
+        (is_fitted && settings.show_band, band),
+        (is_fitted, (Line::Ghost, names.ghost, quiet, ghost_look())),
+        (view.overlay.get().is_some_and(|overlay| !overlay.is_empty()), (Line::Other, names.other, quiet, other_look())),
+        (settings.shown.share, (Line::Share, names.share, quiet, SHARE)),
+    ];
+    let others = others.into_iter().filter(|(is_shown, _)| *is_shown).map(|(_, entry)| entry);
+    series.chain(others).map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width })).collect()
+}
+
+/// Width of the sample of a band, in points.
+const BAND: f32 = 8.0;
+
 fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { derived, settings, document, views, commands, .. } = explorer;
+    let Explorer { derived, settings, document, views, commands, last_fit, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;
-    let own_name = tr!("θi = {}° (slider)", settings.theta_i);
-    let other_name = match (another(settings.model.distribution), settings.shown.overlay) {
-        (SlopeDistribution::Gauss, Overlay::EqualMedian) => tr!("Gauss, equal median slope"),
-        (SlopeDistribution::Gauss, _) => tr!("Gauss, equal σ"),
-        (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),
-        (SlopeDistribution::Cauchy, _) => tr!("Cauchy, equal σ"),
-    };
-    // The legend has discs alone, so that words have to say which line is broken.
-    let (limit_name, ghost_name) = (tr!("Fresnel limit (dashed)"), tr!("last fit (dotted)"));
-    let other_name = tr!("{} (sparse dots)", other_name);
-    let dashed = Some(LineStyle::dashed_dense());
+    let entries = key_entries(view, marks, settings, last_fit.is_some(), dark);
+    let top = ui.cursor().top();
+    switching_key_line_ui(&entries, &mut view.hidden, ui);
+    let height = height - (ui.cursor().top() - top);
+    let others = [&view.ghost, &view.overlay].map(|along| along.get().map_or(&[][..], Vec::as_slice));
+    let layers = in_layers(curves, others, marks, settings, dark);
     let x = axis(AxisHints::new_x(), ui, "θr / °", decimal).min_thickness(40.0);
     let y = axis(AxisHints::new_y(), ui, "DoLP", decimal);
     let response = plot("dolp", ui, height, x, y)
         .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
-        .legend(legend())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(format!("{plot_name}\nθr = {:.2}°\nDoLP = {:.5}\n{}", position.x, position.y, translated(MASK_HINT)))
@@ -167,40 +292,32 @@ fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
         })
         .show(ui, |plot| {
             view.axes.apply(plot, Some(key.x()), view.range.get());
+            let is_shown = |line: Line| !view.hidden.contains(&line);
             for (i, ribbons) in view.band.get().into_iter().flatten().enumerate() {
-                ribbons_in(plot, ribbons, theme::series(i, dark));
-            }
-            if settings.show_limit {
-                for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.limit, &limit_name, theme::series(i, dark), dashed, 1.0);
-                }
-                if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.limit, &limit_name, theme::foreground(dark), dashed, 1.0);
+                if is_shown(Line::Band) && is_shown(Line::Series(i)) {
+                    ribbons_in(plot, ribbons, theme::series(i, dark));
                 }
             }
-            if settings.shown.share {
-                for (i, curves) in curves.series.iter().enumerate() {
-                    curve(plot, &curves.share, &tr!("specular share"), theme::series(i, dark).gamma_multiply(0.65), None, 1.0);
+            for Drawn { lines, pieces, name, color, style, width } in &layers {
+                if lines.iter().all(|line| is_shown(*line)) {
+                    curve(plot, pieces, name, *color, Some(*style), *width);
                 }
-                if curves.own_is_series.is_none() {
-                    curve(plot, &curves.own.share, &tr!("specular share"), theme::foreground(dark).gamma_multiply(0.65), None, 1.0);
+                if let Line::Series(i) = lines[0]
+                    && let Some(marks) = marks.series.get(i).filter(|_| is_shown(lines[0]))
+                {
+                    marks_in(plot, &marks.dolp, name, *color, dark);
                 }
-            }
-            for (i, pieces) in view.overlay.get().into_iter().flatten().enumerate() {
-                curve(plot, pieces, &other_name, theme::series(i, dark), Some(LineStyle::dotted_loose()), 2.0);
-            }
-            for (i, pieces) in view.ghost.get().into_iter().flatten().enumerate() {
-                curve(plot, pieces, &ghost_name, theme::series(i, dark).gamma_multiply(0.4), Some(LineStyle::dotted_dense()), 1.5);
-            }
-            for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
-                let color = theme::series(i, dark);
-                curve(plot, &curves.dolp, &marks.name, color, None, 2.0);
-                marks_in(plot, &marks.dolp, &marks.name, color, dark);
-            }
-            if curves.own_is_series.is_none() {
-                curve(plot, &curves.own.dolp, &own_name, theme::foreground(dark), None, 2.0);
             }
         });
     view.axes.listen(&response, &tr!("Plot: DoLP against θr"), ui);
-    commands.extend(clicked_mask(&response, ui, document, |_, series| &series.dolp, |mark| Some(mark.quantity.value)));
+    let hidden = &view.hidden;
+    // What is not drawn cannot be meant.
+    let mask = clicked_mask(
+        &response,
+        ui,
+        document,
+        |i, series| if hidden.contains(&Line::Series(i)) { &[] } else { &series.dolp },
+        |mark| Some(mark.quantity.value),
+    );
+    commands.extend(mask);
 }

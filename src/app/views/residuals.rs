@@ -70,6 +70,7 @@ const LOW: f32 = 100.0;
 
 pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     let Explorer { derived, views, .. } = explorer;
+    let shown: Vec<bool> = (0..MOST_SERIES).map(|series| views.dolp.shows(series)).collect();
     let view = &mut views.dolp.residuals;
     let (Some(key), Some(marks), Some(residuals)) = (derived.curves.key(), derived.marks.get(), view.of_series.get()) else { return };
     let Some(range) = view.range.get() else { return };
@@ -88,7 +89,7 @@ pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
             view.axes.apply(plot, Some(key.x()), Some(range));
             plot.hline(HLine::new("", 0.0).color(theme::muted(dark)).width(1.0));
             for (i, (residuals, marks)) in residuals.iter().zip(&marks.series).enumerate() {
-                if !residuals.is_empty() {
+                if !residuals.is_empty() && shown.get(i) != Some(&false) {
                     plot.points(Points::new(marks.name.clone(), PlotPoints::Borrowed(residuals)).color(theme::series(i, dark)).radius(2.5));
                 }
             }
