@@ -162,7 +162,25 @@ pub struct MarkSet {
     /// Of each series.
     pub series: Vec<SeriesMarks>,
     /// Series and points that are not drawn.
-    pub left_out: Option<String>,
+    pub left_out: Option<LeftOut>,
+}
+
+/// What is not drawn of too much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeftOut {
+    /// Of so many points one in `step` is drawn.
+    Points { step: usize, of: usize },
+    /// Of so many series the first are drawn.
+    Series { of: usize },
+}
+
+impl LeftOut {
+    pub fn text(self) -> String {
+        match self {
+            Self::Points { step, of } => tr!("every {0}th of {1} points is drawn", step, of),
+            Self::Series { of } => tr!("{0} of {1} angles of incidence are drawn", MOST_SERIES, of),
+        }
+    }
 }
 
 impl MarkSet {
@@ -177,8 +195,8 @@ impl MarkSet {
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         let left_out = match (hidden, step) {
             (0, 1) => None,
-            (0, _) => Some(tr!("every {0}th of {1} points is drawn", step, total)),
-            _ => Some(tr!("{0} of {1} angles of incidence are drawn", MOST_SERIES, document.series.len())),
+            (0, _) => Some(LeftOut::Points { step, of: total }),
+            _ => Some(LeftOut::Series { of: document.series.len() }),
         };
         Self { series: series.collect(), left_out }
     }

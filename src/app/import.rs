@@ -1,5 +1,6 @@
 //! A foreign file that waits for a choice, and what the window keeps while it is asked for.
 
+use super::language::{self, Language};
 use super::memo::Memo;
 use super::reading::{Choice, Foreign, Imported};
 use super::window::Explorer;
@@ -22,9 +23,9 @@ pub struct Import {
     pub choice: Choice,
     /// Wavelengths to choose from, in nm.
     pub wavelengths_nm: Vec<f64>,
-    /// The beginning of what the choice leads to, or why it leads nowhere.
-    pub preview: Memo<Choice, Result<Imported, String>>,
-    /// Why the whole file could not be read so.
+    /// The beginning of what the choice leads to in the language of the window, or why it leads nowhere as a phrase in English.
+    pub preview: Memo<(Choice, Language), Result<Imported, String>>,
+    /// Why the whole file could not be read so, as a phrase in English.
     pub error: Option<String>,
 }
 
@@ -39,11 +40,11 @@ impl Import {
 impl Explorer {
     /// Before each frame: what the choice leads to.
     pub(super) fn refresh_import(&mut self) {
-        if let Some(Import { foreign, choice, preview, error, .. }) = &mut self.import
-            && preview.refresh(choice.clone(), |choice| foreign.preview(choice))
-        {
+        let Some(Import { foreign, choice, preview, error, .. }) = &mut self.import else { return };
+        if preview.key().is_none_or(|(before, _)| before != choice) {
             *error = None;
         }
+        preview.refresh((choice.clone(), language::current()), |(choice, _)| foreign.preview(choice));
     }
 
     /// Reads the whole file as it was chosen.

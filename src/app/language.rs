@@ -9,7 +9,7 @@
 use super::phrases::Phrases;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::sync::OnceLock;
 use tr::{Translator, tr};
@@ -105,16 +105,33 @@ pub fn translated(text: &str) -> String {
 }
 
 /// A sentence of the core in the language of the window, in English where that does not know it. It is looked for among all forms of
-/// sentences: not a thing to do for every label in every frame.
+/// sentences, once: labels ask for the same in every frame.
 pub fn phrase(text: &(impl std::fmt::Display + ?Sized)) -> String {
     let text = text.to_string();
     match (current(), CATALOGUE.get()) {
         (Language::Chinese, Some(catalogue)) => {
             let word = |word: &str| catalogue.chinese.get(word).map(String::as_str);
-            catalogue.phrases.translate(&text, &word).unwrap_or(text)
+            SAID.with_borrow_mut(|said| {
+                if let Some(known) = said.get(&text) {
+                    return known.clone();
+                }
+                if said.len() >= MOST_SAID {
+                    said.clear();
+                }
+                let translation = catalogue.phrases.translate(&text, &word).unwrap_or_else(|| text.clone());
+                said.entry(text).or_insert(translation).clone()
+            })
         }
         _ => text,
     }
+}
+
+/// Sentences that are remembered at most: some panes full of them.
+const MOST_SAID: usize = 4096;
+
+thread_local! {
+    /// Sentences that were asked for, in Chinese.
+    static SAID: RefCell<HashMap<String, String>> = RefCell::default();
 }
 
 /// Whether there is an entry for sentences of that form.
@@ -195,9 +212,9 @@ mod switch {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHINESE, CORE, Catalogue, Language, install, set};
+    use super::{CHINESE, CORE, Catalogue, Language, MOST_SAID, SAID, install, phrase, set};
     use crate::app::tests::sources::{literals_after, sources};
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeSet, HashMap};
     use tr::tr;
 
     #[test]
@@ -208,6 +225,22 @@ mod tests {
         assert_eq!(tr!("File"), "文件");
         set(Language::English);
         assert_eq!(tr!("File"), "File");
+    }
+
+    #[test]
+    fn sentences_are_remembered_and_not_without_end() {
+        install();
+        set(Language::Chinese);
+        for number in 0..=MOST_SAID {
+            assert_eq!(phrase(&format!("line {number}: ?")), format!("第 {number} 行：?"));
+        }
+        assert_eq!(SAID.with_borrow(HashMap::len), 1);
+        for (language, said) in [(Language::English, "line 7: ?"), (Language::Chinese, "第 7 行：?"), (Language::Chinese, "第 7 行：?")]
+        {
+            set(language);
+            assert_eq!(phrase("line 7: ?"), said);
+        }
+        assert_eq!(SAID.with_borrow(HashMap::len), 2);
     }
 
     #[test]

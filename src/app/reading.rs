@@ -44,7 +44,7 @@ pub struct ForeignTable {
     pub header: Vec<String>,
     /// The first rows, cell by cell.
     pub rows: Vec<Vec<String>>,
-    /// Why it is none of the program's own, as a phrase.
+    /// Why it is none of the program's own, as a phrase in English.
     pub reason: String,
 }
 
@@ -164,7 +164,7 @@ impl ForeignTable {
             }
             Ok(())
         });
-        Ok(Self { header, rows, reason: phrase(error), bytes })
+        Ok(Self { header, rows, reason: error.to_string(), bytes })
     }
 }
 
@@ -201,14 +201,14 @@ impl Foreign {
         }
     }
 
-    /// The measurement so chosen; the error is a phrase.
+    /// The measurement so chosen; the error is a phrase in English.
     pub fn import(&self, choice: &Choice, progress: Progress<'_>) -> Result<Imported, String> {
         match (self, choice) {
             (Self::Ellipsometry(ellipsometry), Choice::Ellipsometry(wavelength_nm)) => specular(ellipsometry, *wavelength_nm),
             (Self::Tensor(tensor), Choice::Tensor(slices)) => sliced(tensor, slices),
             (Self::Table(table), Choice::Table(mapping)) => mapped(&table.bytes, mapping, progress),
             // A choice is made for its own file.
-            _ => Err(tr!("the choice belongs to another file")),
+            _ => Err("the choice belongs to another file".to_owned()),
         }
     }
 
@@ -232,12 +232,12 @@ fn nearest(available: &[f64], wanted: f64) -> f64 {
 }
 
 fn mapped(bytes: &[u8], mapping: &Mapping, progress: Progress<'_>) -> Result<Imported, String> {
-    let measurement = read_mapped(bytes, mapping, progress).map_err(|error| phrase(&error))?;
+    let measurement = read_mapped(bytes, mapping, progress).map_err(|error| error.to_string())?;
     Ok(Imported { measurement, notices: Vec::new() })
 }
 
 fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported, String> {
-    let slice = ellipsometry.specular_dolp(Some(wavelength_nm)).map_err(|error| phrase(&error))?;
+    let slice = ellipsometry.specular_dolp(Some(wavelength_nm)).map_err(|error| error.to_string())?;
     let mut notices = Vec::new();
     if slice.wavelengths_nm != [wavelength_nm] {
         let taken: Vec<String> = slice.wavelengths_nm.iter().map(f64::to_string).collect();
@@ -257,10 +257,10 @@ fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported,
 
 fn sliced(tensor: &Tensor, slices: &Slices) -> Result<Imported, String> {
     let angles = |span: Span| span.angles().collect::<Vec<f64>>();
-    let geometries = grid_geometries(&angles(slices.theta_i), &angles(slices.theta_r), slices.dphi).map_err(|error| phrase(&error))?;
-    let slice = tensor.slice(&geometries, Some(slices.wavelength_nm)).map_err(|error| phrase(&error))?;
+    let geometries = grid_geometries(&angles(slices.theta_i), &angles(slices.theta_r), slices.dphi).map_err(|error| error.to_string())?;
+    let slice = tensor.slice(&geometries, Some(slices.wavelength_nm)).map_err(|error| error.to_string())?;
     if slice.measurement.rows.is_empty() {
-        return Err(tr!("none of these directions has a value"));
+        return Err("none of these directions has a value".to_owned());
     }
     let mut notices = Vec::new();
     if !tensor.assumed_grids().is_empty() {

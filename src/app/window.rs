@@ -367,7 +367,7 @@ impl Explorer {
             let choices = Choices { dolp_only: preset.dolp_only, ..settings.choices };
             let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
             let problem = problem(settings, &document.measurement, preset.model, free, choices);
-            (preset, problem.map_err(|error| reason(&error, &document.measurement)))
+            (preset, problem)
         });
         let problems = problems.collect();
         self.comparison.clear();

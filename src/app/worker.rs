@@ -14,7 +14,7 @@ use super::session::{Again, Recipe, Session};
 use super::task::Task;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
-use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
+use pbrdf::fit::{FitReport, Problem, ProblemError, Profile, Scatter, Starts, TracePoint, Watch, bootstrap, fit, profile};
 use pbrdf::measurement::{self, Measurement};
 use pbrdf::model::{Parameter, Preset};
 use pbrdf::report::Surroundings;
@@ -102,7 +102,7 @@ impl Opened {
 /// A model of the ladder with its fit, or why there is none.
 pub struct Rung {
     pub preset: &'static Preset,
-    pub result: Result<Box<FitReport>, String>,
+    pub result: Result<Box<FitReport>, ProblemError>,
 }
 
 /// A job on its way.
@@ -379,7 +379,7 @@ impl Worker {
     /// Fits several models, one after the other; those without a problem go along with the reason.
     pub fn start_comparison(
         &mut self,
-        problems: Vec<(&'static Preset, Result<Problem, String>)>,
+        problems: Vec<(&'static Preset, Result<Problem, ProblemError>)>,
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {

@@ -2,6 +2,7 @@
 
 use crate::app::command::Command;
 use crate::app::import::Import;
+use crate::app::language::phrase;
 use crate::app::plan::Span;
 use crate::app::reading::{Choice, ForeignTable, Imported, Slices};
 use crate::app::theme;
@@ -151,7 +152,7 @@ fn unit_text(field: Field, unit: Unit) -> String {
 
 /// Every column with its first cells, what it is and in which unit.
 fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
-    ui.add(Label::new(tr!("Which column is what? The header is not the program's own: {}.", table.reason)).wrap());
+    ui.add(Label::new(tr!("Which column is what? The header is not the program's own: {}.", phrase(&table.reason))).wrap());
     ScrollArea::both().id_salt("columns").max_height(COLUMNS_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
         Grid::new("columns").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
             for heading in [tr!("Column"), tr!("First rows"), tr!("Meaning"), tr!("Unit")] {
@@ -204,13 +205,13 @@ fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
     match import.preview.get() {
         None => return false,
         Some(Err(reason)) => {
-            ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", reason)).color(warning)).wrap());
+            ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", phrase(reason))).color(warning)).wrap());
             return false;
         }
         Some(Ok(imported)) => rows_ui(imported, import.foreign.is_seen_whole(), ui),
     }
     if let Some(reason) = &import.error {
-        ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", reason)).color(warning)).wrap());
+        ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", phrase(reason))).color(warning)).wrap());
     }
     true
 }

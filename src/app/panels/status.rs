@@ -42,9 +42,9 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
         if !document.mask().is_empty() {
             description.on_hover_text(words::mask_help());
         }
-        if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out.as_ref()) {
+        if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out) {
             ui.separator();
-            ui.label(left_out);
+            ui.label(left_out.text());
         }
     });
 }

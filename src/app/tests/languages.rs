@@ -39,7 +39,7 @@ fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
 }
 
 /// What is written on the screen, and what a screen reader says besides.
-fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
+pub(super) fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
     let mut texts = BTreeSet::new();
     let mut nodes = vec![harness.root()];
     while let Some(node) = nodes.pop() {

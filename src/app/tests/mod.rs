@@ -10,6 +10,7 @@ mod fuzz;
 mod help;
 mod hemisphere;
 mod imports;
+mod kept_texts;
 mod landscape;
 mod languages;
 mod leaving;

@@ -1,8 +1,10 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
 use crate::app::command::Command;
+use crate::app::document::Document;
 use crate::app::language::{phrase, translated};
 use crate::app::panels::significant;
+use crate::app::problem::reason;
 use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words;
@@ -16,7 +18,7 @@ use tr::tr;
 const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
 
 pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { comparison, worker, commands, settings, .. } = explorer;
+    let Explorer { comparison, worker, commands, settings, document, .. } = explorer;
     let running = worker.comparison.as_ref().map(Job::progress);
     ui.horizontal(|ui| {
         let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
@@ -39,7 +41,7 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
         return;
     }
     ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-        models_ui(comparison, settings.model, commands, ui);
+        models_ui(comparison, settings.model, document, commands, ui);
         ui.add_space(6.0);
         for sentence in verdicts(comparison) {
             ui.label(sentence);
@@ -51,7 +53,7 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
 /// Between columns.
 const SPACING: [f32; 2] = [9.0, 4.0];
 
-fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
@@ -75,7 +77,8 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, commands: &mut V
             }
             match &rung.result {
                 Ok(report) => quality_ui(report, best, ui),
-                Err(reason) => {
+                Err(error) => {
+                    let reason = reason(error, &document.measurement);
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
             }

@@ -1,7 +1,7 @@
 //! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
 
 use crate::app::document::Document;
-use crate::app::language::{phrase, translated};
+use crate::app::language::{self, Language, phrase, translated};
 use crate::app::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
@@ -15,8 +15,8 @@ use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
 
-/// What predictions depend on.
-type Key = (Parameters, Model, Eq17, ParameterSet, Plan, u64);
+/// What predictions depend on, the language of their words included.
+type Key = (Parameters, Model, Eq17, ParameterSet, Plan, u64, Language);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -28,7 +28,8 @@ pub struct PlannerView {
 pub fn planner_refresh(explorer: &mut Explorer) {
     let free = explorer.free_in_plan();
     let Explorer { settings, document, views, .. } = explorer;
-    let key = (settings.parameters, settings.model, settings.choices.eq17, free, settings.plan.clone(), document.generation);
+    let Settings { parameters, model, choices, ref plan, .. } = *settings;
+    let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, language::current());
     views
         .planner
         .predictions

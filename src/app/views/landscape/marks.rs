@@ -2,7 +2,7 @@
 
 use super::axes::coordinate;
 use crate::app::document::Document;
-use crate::app::language::translated;
+use crate::app::language::{self, Language, translated};
 use crate::app::past_fits::{PastFit, PastFits};
 use crate::app::plots::line;
 use crate::app::state::{OverTwo, Settings};
@@ -17,7 +17,8 @@ const WAYS: usize = 3;
 /// Minima that are drawn, the lowest ones.
 const MOST_MINIMA: usize = 24;
 
-/// What the marks depend on: the axes, how many fits there were, the one shown, the measurement, the wavelength in nm.
+/// What the marks depend on: the axes, how many fits there were, the one shown, the measurement, the wavelength in nm, the language of
+/// what a pointer reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarksKey {
     axes: (Parameter, Parameter),
@@ -25,13 +26,15 @@ pub struct MarksKey {
     shown: Option<usize>,
     number: u64,
     wavelength_nm: f64,
+    language: Language,
 }
 
 impl MarksKey {
     pub fn new(settings: &Settings, document: &Document, past: &PastFits, shown: Option<&PastFit>) -> Self {
         let OverTwo { across, up, .. } = settings.landscape;
         let wavelength_nm = settings.tabulated.wavelength_nm;
-        Self { axes: (across, up), fits: past.made(), shown: shown.map(|fit| fit.id), number: document.number, wavelength_nm }
+        let (axes, shown) = ((across, up), shown.map(|fit| fit.id));
+        Self { axes, fits: past.made(), shown, number: document.number, wavelength_nm, language: language::current() }
     }
 }
 

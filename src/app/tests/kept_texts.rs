@@ -1,0 +1,112 @@
+//! Texts that were made while the window spoke one language, and are shown when it speaks another.
+
+use super::languages::written;
+use super::{explorer, harness, wait};
+use crate::app::command::Command;
+use crate::app::language::{Language, translated};
+use crate::app::panes::Pane;
+use crate::app::reading::{Choice, Foreign};
+use crate::app::window::Explorer;
+use egui_kittest::Harness;
+use pbrdf::fit::Starts;
+use pbrdf::measurement::{Mapping, Measurement, Quantity, Row};
+use pbrdf::optics::Geometry;
+
+type Window = Harness<'static, Option<Explorer>>;
+
+fn order(harness: &mut Window, command: Command) {
+    explorer(harness).commands.push(command);
+    wait(harness);
+}
+
+/// Whether that is written somewhere, before and after the window changes to Chinese.
+fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
+    let is_there = |harness: &Window| written(harness).iter().any(|text| text.contains(part));
+    let before = is_there(harness);
+    order(harness, Command::SetLanguage(Language::Chinese));
+    harness.run_steps(3);
+    [before, is_there(harness)]
+}
+
+#[test]
+fn what_a_pointer_reads_on_the_landscape() {
+    let mut harness = harness();
+    explorer(&mut harness).settings.starts = Starts::One;
+    order(&mut harness, Command::StartFit);
+    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    harness.run_steps(4);
+    // In an unoptimised build its maps take half a minute: nobody waits for them.
+    for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {
+        explorer(&mut harness).commands.push(Command::SetLanguage(language));
+        harness.run_steps(4);
+        let marks = explorer(&mut harness).views.landscape.marks().expect("marks");
+        let text = marks.text(&translated("minima"), 0).expect("a minimum");
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
+fn why_a_model_was_skipped() {
+    let mut harness = harness();
+    let mut measurement = (*explorer(&mut harness).document.measurement).clone();
+    measurement.rows.iter_mut().for_each(|row| row.brdf = row.dolp.take());
+    explorer(&mut harness).take("lobes".to_owned(), measurement);
+    explorer(&mut harness).settings.starts = Starts::One;
+    explorer(&mut harness).panes.show(Pane::Models);
+    order(&mut harness, Command::CompareModels);
+    assert_eq!(is_there_in_both(&mut harness, "the model predicts DoLP only"), [true, false]);
+}
+
+#[test]
+fn why_nothing_is_predicted() {
+    let mut harness = harness();
+    explorer(&mut harness).panes.show(Pane::Planner);
+    explorer(&mut harness).settings.plan.theta_r.clear();
+    wait(&mut harness);
+    assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
+}
+
+#[test]
+fn what_a_plan_leaves_open() {
+    let mut harness = harness();
+    explorer(&mut harness).panes.show(Pane::Planner);
+    wait(&mut harness);
+    assert_eq!(is_there_in_both(&mut harness, "a standard error above half of the value"), [true, false]);
+}
+
+#[test]
+fn why_a_file_is_foreign_and_why_it_cannot_be_opened_yet() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("foreign.csv");
+    std::fs::write(&path, "a,b,c\n30,20,0.1\n30,40,0.2\n").expect("a writable folder");
+    let open = || {
+        let mut harness = harness();
+        order(&mut harness, Command::OpenMeasurement(path.clone()));
+        let import = explorer(&mut harness).import.as_mut().expect("a question");
+        import.choice = Choice::Table(Mapping { columns: Vec::new() });
+        wait(&mut harness);
+        harness
+    };
+    let mut harness = open();
+    let Foreign::Table(table) = &explorer(&mut harness).import.as_ref().expect("a question").foreign else { panic!("a table") };
+    let why = table.reason.clone();
+    assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
+    let mut harness = open();
+    let preview = explorer(&mut harness).import.as_ref().expect("a question").preview.get().expect("an answer");
+    let why = preview.as_ref().err().cloned().expect("no columns");
+    assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
+}
+
+#[test]
+fn what_is_not_drawn() {
+    let rows = (0..200_u32).map(|i| Row {
+        geometry: Geometry::new(f64::from(i) * 0.4, 30.0, 180.0).expect("a geometry"),
+        dolp: Some(Quantity { value: 0.1, sigma: None }),
+        brdf: None,
+        masked: false,
+    });
+    let mut harness = harness();
+    explorer(&mut harness).take("many".to_owned(), Measurement { rows: rows.collect(), ..Measurement::default() });
+    wait(&mut harness);
+    assert_eq!(is_there_in_both(&mut harness, "angles of incidence are drawn"), [true, false]);
+}
