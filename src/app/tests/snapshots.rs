@@ -14,6 +14,7 @@ use crate::app::window::Explorer;
 use crate::app::worker::Event;
 use egui_kittest::Harness;
 use pbrdf::model::{Parameter, ParameterSet};
+use pbrdf::optics::metals;
 use pbrdf::report::Surroundings;
 use pbrdf::report::figure::{Figure, Image};
 use std::path::{Path, PathBuf};
@@ -155,9 +156,9 @@ fn every_exported_plot_is_in_chinese_where_the_window_is() {
         assert!(!svg.contains("<text"), "{pane:?}: a letter that the fonts lack");
         let svg = roxmltree::Document::parse(&svg).expect("XML");
         let words = svg.descendants().filter_map(|node| node.attribute("aria-label"));
-        // Names of files stay, and sources of tabulated metals, which end with their year.
-        let is_name = |word: &str| word.contains(".csv") || word.ends_with(|last: char| last.is_ascii_digit());
-        let words = words.map(|word| word.split("：").last().unwrap_or(word)).filter(|word| !is_name(word));
+        // Who measured a metal stays.
+        let sources = || metals().expect("the bundled table").iter().flat_map(|metal| &metal.sources);
+        let words = words.map(|word| sources().fold(word.to_owned(), |word, source| word.replace(&source.name, "")));
         left.extend(words.filter(|word| !english(word).is_empty()).map(|word| format!("{pane:?}: {word}")));
     }
     assert!(left.is_empty(), "{}", left.join("\n"));
