@@ -3,15 +3,21 @@
 
 use super::past_fits::PastFit;
 use pbrdf::fit::{Descent, FitReport, Found, Loss, Problem, Search, StopReason, TracePoint};
-use pbrdf::measurement::Measurement;
 use pbrdf::model::{Parameter, Parameters};
 use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::value::to_raw_value;
-use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 /// Steps of a way that are kept: a longer one is thinned.
 const MOST_STEPS: usize = 120;
+
+/// Scales of a loss that squares of residuals over them stay finite with. 0 is a quantity without residuals.
+const LOSS_SCALES: RangeInclusive<f64> = 1e-100..=1e100;
+
+fn is_loss_scale(scale: &f64) -> bool {
+    *scale == 0.0 || LOSS_SCALES.contains(scale)
+}
 
 /// How a fit came about.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,13 +68,13 @@ fn one_a_line<T: Serialize, S: Serializer>(elements: &[T], serializer: S) -> Res
     list.end()
 }
 
-fn on_one_line<T: Serialize, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+pub fn on_one_line<T: Serialize, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
     to_raw_value(value).map_err(S::Error::custom)?.serialize(serializer)
 }
 
 impl Account {
-    /// What is known of a fit.
-    pub fn new(fit: &PastFit) -> Self {
+    /// What is known of a fit; none where nothing is.
+    pub fn new(fit: &PastFit) -> Option<Self> {
         let PastFit { report, problem, mask, .. } = fit;
         let free = problem.free();
         let is_robust = problem.choices().loss != Loss::Linear;
@@ -78,30 +84,27 @@ impl Account {
             stop_reason: minimum.stop_reason,
             at: at(&minimum.parameters),
         });
+        let minima: Vec<Ending> = minima.collect();
         let step = |(point, parameters): (&TracePoint, &Parameters)| Step {
             elapsed_ms: point.elapsed_ms,
             evaluations: point.evaluations,
             delta_e: Some(point.objective).filter(|value| value.is_finite()),
             at: at(parameters),
         };
-        Self {
+        let account = Self {
             evaluations: report.evaluations,
             elapsed_ms: report.elapsed_ms,
             masked: mask.to_vec(),
-            loss_scales: Some(report.loss_scales).filter(|scales| is_robust && scales.iter().all(|scale| scale.is_finite())),
-            minima: minima.collect(),
+            loss_scales: Some(report.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
+            minima,
             way: thinned(report.trace.iter().zip(&report.path).map(step).collect()),
-        }
+        };
+        Some(account).filter(|account| !account.is_empty())
     }
 
-    /// The measurement with the mask that it had.
-    pub fn masked<'a>(&self, measurement: &'a Measurement) -> Cow<'a, Measurement> {
-        let mut masked = Cow::Borrowed(measurement);
-        let is_masked = |row: usize| self.masked.binary_search(&row).is_ok();
-        if measurement.rows.iter().enumerate().any(|(i, row)| row.masked != is_masked(i)) {
-            masked.to_mut().rows.iter_mut().enumerate().for_each(|(i, row)| row.masked = is_masked(i));
-        }
-        masked
+    /// Whether it tells nothing but the mask.
+    pub fn is_empty(&self) -> bool {
+        self.minima.is_empty()
     }
 
     /// The rows that were masked.
@@ -109,16 +112,21 @@ impl Account {
         &self.masked
     }
 
+    /// The same of an account that is of no further use.
+    pub fn into_mask(self) -> Vec<usize> {
+        self.masked
+    }
+
     /// Why it can be the account of no fit with so many free parameters.
     pub fn fault(&self, free: usize) -> Option<&'static str> {
         let places = || self.minima.iter().map(|ending| &ending.at).chain(self.way.iter().map(|step| &step.at));
         let is_size = |value: f64| value >= 0.0;
-        if self.minima.is_empty() {
-            Some("account.minima: there is none")
-        } else if places().any(|at| at.len() != free) {
+        if places().any(|at| at.len() != free) {
             Some("account: a place has not one value for each free parameter")
-        } else if !self.masked.is_sorted() {
-            Some("account.masked: the rows are not in their order")
+        } else if self.minima.iter().try_fold(0_usize, |sum, ending| sum.checked_add(ending.reached)).is_none() {
+            Some("account.minima: more starts than can be counted")
+        } else if !self.loss_scales.iter().flatten().all(is_loss_scale) {
+            Some("account.loss_scales: out of range")
         } else if !is_size(self.elapsed_ms) || !self.way.iter().all(|step| is_size(step.elapsed_ms) && step.delta_e.is_none_or(is_size)) {
             Some("account: a time or a ΔE is negative")
         } else {

@@ -200,6 +200,7 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &P
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
         shown: fits.iter().position(|fit| shown.is_some_and(|shown| Rc::ptr_eq(fit, shown))),
         fits: fits.into_iter().map(|fit| Recipe::new(fit)).collect(),
+        left_out: Vec::new(),
     }
 }
 

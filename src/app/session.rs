@@ -5,7 +5,7 @@
 //! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
 
 use super::document::{Mask, masked_rows};
-use super::fit_account::Account;
+use super::fit_account::{Account, on_one_line};
 use super::layout::Layout;
 use super::past_fits::PastFit;
 use super::state::{Settings, can_be_set};
@@ -32,7 +32,7 @@ struct Header {
 
 /// The file, key by key.
 #[derive(Serialize, Deserialize)]
-struct Contents {
+struct Contents<F> {
     format: String,
     version: u32,
     program: String,
@@ -40,7 +40,7 @@ struct Contents {
     #[serde(deserialize_with = "Layout::lenient")]
     layout: Layout,
     measurement: Option<Data>,
-    fits: Vec<Recipe>,
+    fits: Vec<F>,
     /// Which of them was shown, from 0.
     #[serde(default = "newest")]
     shown: Option<usize>,
@@ -75,6 +75,9 @@ pub struct Recipe {
     /// How it came about; older files do not tell.
     #[serde(default)]
     account: Option<Account>,
+    /// The rows that were masked, from 0, where no account tells; without, those that the measurement has masked.
+    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
+    masked: Option<Vec<usize>>,
 }
 
 /// A fit of a session, made again.
@@ -101,6 +104,8 @@ pub struct Session {
     pub fits: Vec<Recipe>,
     /// Which of them is shown.
     pub shown: Option<usize>,
+    /// Why fits of its file are not among them; none of it is written.
+    pub left_out: Vec<String>,
 }
 
 /// Why a file is no session.
@@ -137,7 +142,9 @@ impl Recipe {
             let (low, high) = problem.bounds().of(parameter);
             (parameter, low, high)
         });
+        let account = Account::new(fit);
         Self {
+            masked: account.is_none().then(|| fit.mask.to_vec()),
             model: problem.model(),
             start: *problem.start(),
             free: problem.free().to_vec(),
@@ -145,8 +152,37 @@ impl Recipe {
             choices: *problem.choices(),
             parameters: fit.report.parameters,
             before: fit.before,
-            account: Some(Account::new(fit)),
+            account,
         }
+    }
+
+    /// A fit of a file, if it can be one of this measurement.
+    fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, String> {
+        let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| match error.path().to_string().as_str() {
+            "." => error.inner().to_string(),
+            place => format!("{place}: {}", error.inner()),
+        })?;
+        // Some files have an account that tells of the mask alone.
+        if let Some(account) = recipe.account.take_if(|account| account.is_empty()) {
+            recipe.masked = Some(account.into_mask());
+        }
+        recipe.problem(measurement).map(|_| recipe)
+    }
+
+    /// The rows that were masked, where the file tells.
+    fn mask(&self) -> Option<&[usize]> {
+        self.account.as_ref().map(Account::mask).or(self.masked.as_deref())
+    }
+
+    /// The measurement with the mask that it had.
+    fn masked<'a>(&self, measurement: &'a Measurement) -> Cow<'a, Measurement> {
+        let mut masked = Cow::Borrowed(measurement);
+        let Some(mask) = self.mask() else { return masked };
+        let is_masked = |row: usize| mask.binary_search(&row).is_ok();
+        if measurement.rows.iter().enumerate().any(|(i, row)| row.masked != is_masked(i)) {
+            masked.to_mut().rows.iter_mut().enumerate().for_each(|(i, row)| row.masked = is_masked(i));
+        }
+        masked
     }
 
     fn problem(&self, measurement: &Measurement) -> Result<Problem, String> {
@@ -157,13 +193,15 @@ impl Recipe {
         if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
             return Err(fault.to_owned());
         }
+        if self.mask().is_some_and(|mask| !is_mask(mask, measurement.rows.len())) {
+            return Err("masked: the rows are not in their order, or not all in the table".to_owned());
+        }
         let places = self.account.iter().flat_map(|account| account.places(self.start, &self.free));
         for parameters in [self.start, self.parameters, self.before].into_iter().chain(places) {
             can_be_set(&parameters, self.model.parameters()).map_err(|error| error.to_string())?;
         }
         let free: ParameterSet = self.free.iter().copied().collect();
-        let measurement = self.account.as_ref().map_or(Cow::Borrowed(measurement), |account| account.masked(measurement));
-        let problem = Problem::new(&measurement, self.model, self.start, free, bounds, self.choices);
+        let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.choices);
         problem.map_err(|error: ProblemError| error.to_string())
     }
 
@@ -174,7 +212,7 @@ impl Recipe {
             Some(account) => account.report(&problem, &self.free)?,
             None => self.without_account(&problem),
         };
-        let mask = self.account.as_ref().map_or_else(|| masked_rows(&measurement.rows), |account| account.mask().into());
+        let mask = self.mask().map_or_else(|| masked_rows(&measurement.rows), Mask::from);
         Some(Again { report, problem: Arc::new(problem), before: self.before, mask })
     }
 
@@ -192,6 +230,11 @@ impl Recipe {
         report.path.clear();
         report
     }
+}
+
+/// Whether these are rows of a table of so many, each once and in their order.
+fn is_mask(rows: &[usize], of: usize) -> bool {
+    rows.is_sorted_by(|one, next| one < next) && rows.last().is_none_or(|&last| last < of)
 }
 
 impl Session {
@@ -212,14 +255,14 @@ impl Session {
             settings: self.settings.clone(),
             layout: self.layout.clone(),
             measurement: self.measurement.as_ref().map(data).transpose()?,
-            fits: self.fits.clone(),
+            fits: self.fits.iter().collect(),
             shown: self.shown,
         };
         serde_json::to_writer_pretty(&mut *out, &contents)?;
         writeln!(out)
     }
 
-    /// Reads it, and checks that every value means something.
+    /// Reads it, and checks that every value means something; a fit that does not is left out.
     pub fn read(text: &str) -> Result<Self, SessionError> {
         let header: Header = serde_json::from_str(text).map_err(|error| SessionError::json("", &error))?;
         match (header.format.as_deref(), header.version) {
@@ -228,7 +271,7 @@ impl Session {
             _ => return Err(SessionError::Format),
         }
         let mut json = serde_json::Deserializer::from_str(text);
-        let contents: Contents =
+        let contents: Contents<serde_json::Value> =
             serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
         if let Some(fault) = contents.settings.fault() {
             return Err(SessionError::Settings(fault));
@@ -240,12 +283,18 @@ impl Session {
             }
             None => (String::new(), None, None),
         };
-        for (index, recipe) in contents.fits.iter().enumerate() {
-            let problem = recipe.problem(measurement.as_ref().unwrap_or(&Measurement::default()));
-            problem.map_err(|reason| SessionError::Fit { number: index + 1, reason })?;
-        }
         let measurement = measurement.map(Arc::new);
-        let Contents { settings, layout, fits, shown, .. } = contents;
-        Ok(Self { settings, layout, name, sha256, measurement, fits, shown })
+        let Contents { settings, layout, fits: stored, shown: stored_shown, .. } = contents;
+        let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
+        for (index, value) in stored.into_iter().enumerate() {
+            match Recipe::read(value, measurement.as_deref().unwrap_or(&Measurement::default())) {
+                Ok(recipe) => {
+                    shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
+                    fits.push(recipe);
+                }
+                Err(reason) => left_out.push(SessionError::Fit { number: index + 1, reason }.to_string()),
+            }
+        }
+        Ok(Self { settings, layout, name, sha256, measurement, fits, shown, left_out })
     }
 }

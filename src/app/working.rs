@@ -105,7 +105,11 @@ impl Explorer {
             Ok(opened) => {
                 self.notices.clear();
                 self.typed.served(path);
+                let left_out: Vec<String> = opened.session.left_out.iter().map(phrase).collect();
                 self.show_session(*opened);
+                if !left_out.is_empty() {
+                    self.say(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out.join("; ")));
+                }
                 self.session_file = (!is_working).then(|| path.to_owned());
                 if is_working {
                     self.autosaved = Some(self.working());
