@@ -94,6 +94,7 @@ impl Explorer {
         let Aside { settings, document, last_fit, past_fits, panes, comparison, scans, history, refitted, session_file } = *aside;
         self.worker.abandon();
         self.worker.abandon_load();
+        self.worker.session = None;
         self.import = None;
         self.settings = settings;
         self.document = document;

@@ -4,6 +4,7 @@ use crate::app::language::translated;
 use pbrdf::measurement::{Measurement, Row};
 use pbrdf::optics::{self, Metal};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use tr::tr;
 
 pub use pbrdf::measurement::{Mark, Series};
@@ -32,7 +33,7 @@ pub struct Document {
     pub series: Vec<Series>,
     /// Which measurement of this session it is.
     pub number: u64,
-    /// Grows with every document and every change of one, so that what is derived knows.
+    /// Another one for every document and after every change of one, so that what is derived knows.
     pub generation: u64,
     mask: Mask,
 }
@@ -40,14 +41,18 @@ pub struct Document {
 /// The rows that are masked, in ascending order.
 pub type Mask = Arc<[usize]>;
 
-/// Bits of the generation that count the changes of one document.
-const CHANGES: u32 = 32;
+/// The generation that came last: none comes twice, though a lesson gives back a document of before.
+static LAST: AtomicU64 = AtomicU64::new(0);
+
+fn next_generation() -> u64 {
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
+}
 
 impl Document {
     pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
         let series = Series::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
-        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number << CHANGES, mask }
+        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: next_generation(), mask }
     }
 
     /// The rows that are masked.
@@ -84,7 +89,7 @@ impl Document {
     }
 
     fn mask_changed(&mut self) {
-        self.generation += 1;
+        self.generation = next_generation();
         let rows = &self.measurement.rows;
         for mark in self.series.iter_mut().flat_map(|series| series.dolp.iter_mut().chain(&mut series.brdf)) {
             mark.masked = rows[mark.row].masked;

@@ -126,7 +126,7 @@ impl Account {
         } else if self.minima.iter().try_fold(0_usize, |sum, ending| sum.checked_add(ending.reached)).is_none() {
             Some("account.minima: more starts than can be counted")
         } else if !self.loss_scales.iter().flatten().all(is_loss_scale) {
-            Some("account.loss_scales: out of range")
+            Some("account: a scale of the loss is out of range")
         } else if !is_size(self.elapsed_ms) || !self.way.iter().all(|step| is_size(step.elapsed_ms) && step.delta_e.is_none_or(is_size)) {
             Some("account: a time or a ΔE is negative")
         } else {

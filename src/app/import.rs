@@ -5,6 +5,7 @@ use super::memo::Memo;
 use super::reading::{Choice, Foreign, Imported};
 use super::window::Explorer;
 use std::path::PathBuf;
+use tr::tr;
 
 /// Where a measurement comes from.
 #[derive(Debug, Clone)]
@@ -79,6 +80,11 @@ impl Explorer {
     pub(super) fn loaded(&mut self, origin: Origin, imported: Imported) {
         let Origin { name, path, sha256 } = origin;
         self.notices.clear();
+        // A file is the user's own work, and takes the place of what was set aside.
+        if path.is_some() && self.lessons.open.is_some() {
+            self.close_lesson();
+            self.say(tr!("The lesson has ended, because {} was opened.", name));
+        }
         if let Some(path) = &path {
             self.typed.served(path);
             self.window.remember(path);

@@ -247,6 +247,45 @@ fn a_session_opened_in_a_lesson_ends_it() {
 }
 
 #[test]
+fn a_session_that_is_still_being_read_does_not_replace_what_a_closed_lesson_gives_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("own.pbrdf.json");
+    let mut harness = worked_in();
+    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    explorer(&mut harness).settings.parameters.k = 4.5;
+    order(&mut harness, Command::ShowStep(0, 0));
+    explorer(&mut harness).commands.extend([Command::OpenSession(path), Command::CloseLesson]);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).settings.parameters.k, 4.5);
+}
+
+#[test]
+fn a_file_opened_in_a_lesson_ends_it_and_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.csv");
+    std::fs::write(&path, "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n").expect("a file");
+    let mut harness = worked_in();
+    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Command::OpenMeasurement(path));
+    let notice = explorer(&mut harness).notices.text().expect("a sentence");
+    assert!(notice.contains("The lesson has ended") && notice.contains("mine.csv"), "{notice}");
+    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).settings.parameters.k), (None, 4.25));
+    order(&mut harness, Command::CloseLesson);
+    assert_eq!(explorer(&mut harness).document.name, "mine.csv");
+}
+
+#[test]
+fn a_mask_set_in_a_lesson_is_not_taken_for_one_set_after_it() {
+    let mut harness = worked_in();
+    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Command::Mask { rows: vec![1], masked: true });
+    let in_lesson = explorer(&mut harness).document.generation;
+    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Command::Mask { rows: vec![5], masked: true });
+    assert_ne!(explorer(&mut harness).document.generation, in_lesson);
+}
+
+#[test]
 fn a_lesson_begins_with_the_defaults_whatever_was_set() {
     let mut harness = worked_in();
     assert!(explorer(&mut harness).last_fit.is_some());
