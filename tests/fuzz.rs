@@ -56,8 +56,8 @@ fn mapped_tables() {
             // Any text is a mapping or an error.
             let _ = Mapping::from_text(text);
         }
-        if let Ok(table) = measurement::Table::new(bytes) {
-            let _ = Mapping::guess(table.header());
+        if let Ok(table) = measurement::Table::foreign(bytes) {
+            let _ = Mapping::guess(table.header(), table.metadata());
         }
         read_mapped(bytes, &mapping, &mut go_on).is_ok()
     });

@@ -202,6 +202,60 @@ fn a_mapped_table_is_the_same_measurement() {
     assert_eq!(read.rows.len(), expected.rows.len());
 }
 
+fn mapped(table: &str, mapping: &Mapping) -> Result<Measurement, ReadError> {
+    measurement::read_mapped(table.as_bytes(), mapping, &mut |_| ControlFlow::Continue(()))
+}
+
+#[test]
+fn an_angle_that_no_column_holds_is_a_constant() {
+    let columns = Mapping::from_text("theta_r=1,dolp=2").expect("a mapping");
+    let at = |theta_i, dphi| mapped("view,pol\n20,0.1\n25,0.2\n", &Mapping { theta_i, dphi, ..columns.clone() });
+    let expected = accepted("theta_i,theta_r,dphi,dolp\n45,20,90,0.1\n45,25,90,0.2\n");
+    assert_eq!(at(Some(45.0), Some(90.0)).expect("a good table").rows, expected.rows);
+    let in_plane = at(Some(45.0), None).expect("a good table").rows;
+    assert_eq!(in_plane[0].geometry.dphi().0, 180.0);
+    for (theta_i, dphi, reason) in [
+        (None, None, "no column is named for theta_i"),
+        (Some(90.0), None, "found 90, expected"),
+        (Some(45.0), Some(f64::NAN), "found NaN"),
+    ] {
+        let error = at(theta_i, dphi).expect_err(reason).to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+#[test]
+fn a_table_without_anything_measured_is_told_so_whatever_its_angles_are_called() {
+    for (header, names) in [("inc,view", "inc, view"), ("AOI (deg),view,colour", "AOI (deg), view, colour"), ("view,x", "view, x")] {
+        let error = read(format!("{header}\n30,20,1\n")).expect_err(header).to_string();
+        assert!(error.contains("neither dolp nor brdf") && error.ends_with(names), "{error}");
+    }
+}
+
+#[test]
+fn a_mapped_table_may_be_without_a_header() {
+    let mapping = Mapping::from_text("theta_i=2,theta_r=3,dolp=5").expect("a mapping");
+    let table = mapped("# steel\nsteel;30,5;20;7;0,1\nsteel;30,5;25;7;0,2\n", &mapping).expect("a good table");
+    assert_eq!(table.rows, accepted("theta_i,theta_r,dolp\n30.5,20,0.1\n30.5,25,0.2\n").rows);
+    assert_eq!((table.lines, table.ignored_columns), (vec![2, 3], vec!["1".to_owned(), "4".to_owned()]));
+    let error = mapped("30,20,0.1\n", &Mapping::from_text("theta_i=1,theta_r=2,dolp=4").expect("a mapping")).expect_err("no column 4");
+    assert!(error.to_string().ends_with("no column number 4 for dolp; the columns are 1, 2, 3"), "{error}");
+    // A number as a name leaves a header one.
+    let named = Mapping::from_text("theta_i=AOI,theta_r=view,dolp=3").expect("a mapping");
+    assert_eq!(mapped("AOI,view,633\n30,20,0.1\n", &named).expect("a good table").rows.len(), 1);
+}
+
+#[test]
+fn comments_of_a_mapped_table_are_kept_and_survive_writing() {
+    let table = "# date 2024-05-01 12:30 operator JL, 633 nm HeNe\n# material: steel\n#\n# ----\nAOI,view,dolp\n30,20,0.1\n# lamp off\n";
+    let measurement = mapped(table, &Mapping::from_text("theta_i=1,theta_r=2,dolp=3").expect("a mapping")).expect("a good table");
+    let expected = [("comment", "date 2024-05-01 12:30 operator JL, 633 nm HeNe"), ("material", "steel"), ("comment", "lamp off")];
+    assert_eq!(measurement.metadata, expected.map(|(key, value)| (key.to_owned(), value.to_owned())));
+    let mut written = Vec::new();
+    measurement::write(&measurement, &mut written).expect("memory takes everything");
+    assert_eq!(accepted(&written).metadata, measurement.metadata);
+}
+
 #[test]
 fn a_mapping_that_does_not_fit_its_table_is_refused_with_its_place() {
     for (mapping, table, place, reason) in [

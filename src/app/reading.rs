@@ -7,8 +7,8 @@ use super::language::phrase;
 use super::plan::Span;
 use crate::export;
 use pbrdf::measurement::{
-    self, Ellipsometry, Mapping, Measurement, Progress, ReadError, ReadErrorKind, Table, Tensor, grid_geometries, is_tensor, is_woollam,
-    read_mapped, read_woollam, tensor_from_bytes,
+    self, Ellipsometry, Field, Mapping, Measurement, Progress, ReadError, ReadErrorKind, Table, Tensor, grid_geometries, is_tensor,
+    is_woollam, read_mapped, read_woollam, tensor_from_bytes,
 };
 use sha2::{Digest as _, Sha256};
 use std::io::Read;
@@ -41,11 +41,13 @@ pub enum Foreign {
 /// A table whose columns have names of their own.
 pub struct ForeignTable {
     bytes: Vec<u8>,
+    /// Names of the columns; empty where it has no header.
     pub header: Vec<String>,
     /// The first rows, cell by cell.
     pub rows: Vec<Vec<String>>,
     /// Why it is none of the program's own, as a phrase in English.
     pub reason: String,
+    metadata: Vec<(String, String)>,
 }
 
 /// Slices through a tensor.
@@ -145,26 +147,31 @@ fn arrived(imported: Imported) -> Arrived {
 
 /// Whether a table fails for the names of its columns alone.
 fn is_about_names(error: &ReadError) -> bool {
-    matches!(error.kind, ReadErrorKind::MissingColumn { .. } | ReadErrorKind::NoQuantity)
+    matches!(error.kind, ReadErrorKind::MissingColumn { .. } | ReadErrorKind::NoQuantity { .. } | ReadErrorKind::NoHeader { .. })
 }
 
 impl ForeignTable {
-    /// Needs three columns at least: two angles and something measured.
+    /// Needs two columns of numbers at least, an angle and something measured, and a column whose name is not the program's own where
+    /// nothing measured is named.
     fn new(bytes: Vec<u8>, error: &ReadError) -> Result<Self, String> {
-        let table = Table::new(head(&bytes)).map_err(|error| phrase(&error))?;
+        let table = Table::foreign(head(&bytes)).map_err(|error| phrase(&error))?;
         let header = table.header().to_vec();
-        if header.len() < 3 {
-            return Err(phrase(error));
-        }
-        let mut rows = Vec::new();
+        let (mut rows, mut is_numeric) = (Vec::new(), vec![false; header.len()]);
         // What is wrong with a row is said when columns are chosen.
         let _ = table.for_each(&mut |_| ControlFlow::Continue(()), |record| {
             if rows.len() < SHOWN {
                 rows.push((0..header.len()).map(|column| record.text(column)).collect());
+                is_numeric.iter_mut().enumerate().for_each(|(column, is_numeric)| *is_numeric |= record.number(column, "").is_ok());
             }
             Ok(())
         });
-        Ok(Self { header, rows, reason: error.to_string(), bytes })
+        let is_own = header.iter().all(|name| Field::from_key(name).is_some());
+        let lacks_all = is_own && matches!(error.kind, ReadErrorKind::NoQuantity { .. });
+        let is_table = header.len() > 2 || is_numeric.iter().filter(|is_numeric| **is_numeric).count() >= 2;
+        if lacks_all || !is_table {
+            return Err(phrase(error));
+        }
+        Ok(Self { header, rows, reason: error.to_string(), metadata: table.metadata().to_vec(), bytes })
     }
 }
 
@@ -188,7 +195,7 @@ impl Foreign {
                 theta_r: Span::new(-80.0, 80.0, 5.0),
                 dphi: 180.0,
             }),
-            Self::Table(table) => Choice::Table(Mapping::guess(&table.header)),
+            Self::Table(table) => Choice::Table(Mapping::guess(&table.header, &table.metadata)),
         }
     }
 

@@ -220,15 +220,16 @@ pub struct Import {
     /// Which columns of a table are what, such as theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent.
     #[arg(long, value_name = "FIELD=COLUMN[:UNIT],...", value_parser = values::mapping)]
     pub columns: Option<Mapping>,
-    /// Angles of incidence of the slices through a tensor, in degrees.
-    #[arg(long, default_value = "15:75:15", value_parser = values::grid)]
-    pub theta_i: Grid,
+    /// Angles of incidence of the slices through a tensor, in degrees (15:75:15 without); or the one of a table without such a column.
+    #[arg(long, value_parser = values::grid)]
+    pub theta_i: Option<Grid>,
     /// Angles of view of the slices through a tensor, in degrees; negative is the backscatter side.
     #[arg(long, default_value = "-80:80:5", allow_hyphen_values = true, value_parser = values::grid)]
     pub theta_r: Grid,
-    /// Relative azimuth of the slices through a tensor, in degrees; 180 is the plane of incidence, others are out of plane.
-    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
-    pub dphi: f64,
+    /// Relative azimuth in degrees of the slices through a tensor, or of a table without such a column (180 without); 180 is the
+    /// plane of incidence, others are out of plane.
+    #[arg(long, allow_hyphen_values = true, value_parser = values::number)]
+    pub dphi: Option<f64>,
     /// File to write; standard output without.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
@@ -243,7 +244,8 @@ Tensor (.pbsdf, KAIST and Mitsuba 3): BRDF and DoLP for unpolarised light in one
 --dphi, linear between the nodes. Out of plane: --dphi 90 --theta-r 0:80:5.
 
 Table with --columns: fields theta_i, theta_r, dphi (degrees, or :radians), dolp, dolp_sigma (fraction, or :percent), brdf, brdf_sigma,
-masked; a column by its name in the header or its number from 1. Without --columns a guess is offered, not applied.";
+masked; a column by its name in the header or its number from 1. A table without a column for theta_i takes it from --theta-i, one
+without dphi from --dphi. Without --columns a guess is offered, not applied.";
 
 /// `export`.
 #[derive(Debug, Subcommand)]

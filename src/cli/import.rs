@@ -4,7 +4,7 @@ use super::arguments::Import;
 use super::failure::Failure;
 use super::{input, interrupt, output};
 use pbrdf::measurement::{
-    self, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
+    self, Field, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
 };
 use std::process::ExitCode;
 
@@ -29,16 +29,38 @@ pub fn run(task: &Import) -> Result<ExitCode, Failure> {
 /// What to do with a file that says nothing of itself.
 fn unknown(bytes: &[u8]) -> String {
     let unknown = "this is neither Woollam ellipsometry text nor a tensor file (.pbsdf); name the columns of a table with --columns";
-    let guess = Table::new(bytes).map(|table| Mapping::guess(table.header())).unwrap_or_default();
+    let Ok(table) = Table::foreign(bytes) else { return format!("{unknown} theta_i=1,theta_r=2,dolp=3") };
+    let guess = Mapping::guess(table.header(), table.metadata());
     if guess.columns.is_empty() {
-        format!("{unknown} theta_i=1,theta_r=2,dolp=3")
-    } else {
-        format!("{unknown}; its header suggests --columns {guess}")
+        return format!("{unknown} theta_i=1,theta_r=2,dolp=3");
     }
+    if !guess.has_quantity() {
+        return format!("{unknown}; no column for DoLP or BRDF was found, the columns are {}", table.titles());
+    }
+    let option = |name: &str, angle: Option<f64>| angle.map_or_else(String::new, |angle| format!(" --{name} {angle}"));
+    format!("{unknown}; its header suggests --columns {guess}{}{}", option("theta-i", guess.theta_i), option("dphi", guess.dphi))
+}
+
+/// The columns that were named, and the angles that were given for want of a column.
+fn with_constants(task: &Import, columns: &Mapping) -> Result<Mapping, Failure> {
+    let theta_i = match task.theta_i.as_ref().map(|grid| grid.0.as_slice()) {
+        None => None,
+        Some(&[only]) => Some(only),
+        Some(_) if columns.find(Field::ThetaI).is_some() => None,
+        Some(_) => return Err(Failure::usage("--theta-i has to be one angle where a table has no column for it.")),
+    };
+    for (name, field, is_given) in [("theta-i", Field::ThetaI, task.theta_i.is_some()), ("dphi", Field::Dphi, task.dphi.is_some())] {
+        if is_given && columns.find(field).is_some() {
+            output::notice(format_args!("{}: --{name} is not used; there is a column for it.", task.input.display()));
+        }
+    }
+    Ok(Mapping { theta_i, dphi: task.dphi, ..columns.clone() })
 }
 
 fn mapped(task: &Import, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
-    let measurement = read_mapped(bytes, mapping, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
+    let mapping = with_constants(task, mapping)?;
+    let measurement =
+        read_mapped(bytes, &mapping, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
     if !measurement.ignored_columns.is_empty() {
         output::notice(format_args!("{}: {}.", task.input.display(), measurement.ignored_notice()));
     }
@@ -83,7 +105,9 @@ fn tensor(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {
         let names = tensor.assumed_grids().join(", ");
         output::notice(format_args!("{path}: gives no angles for {names}; they are taken to be even over their whole range."));
     }
-    let geometries = grid_geometries(&task.theta_i.0, &task.theta_r.0, task.dphi).map_err(|error| Failure::usage(format!("{error}.")))?;
+    let theta_i = task.theta_i.as_ref().map_or_else(|| vec![15.0, 30.0, 45.0, 60.0, 75.0], |grid| grid.0.clone());
+    let geometries =
+        grid_geometries(&theta_i, &task.theta_r.0, task.dphi.unwrap_or(180.0)).map_err(|error| Failure::usage(format!("{error}.")))?;
     let slice = tensor.slice(&geometries, task.wavelength).map_err(|error| not_chosen(task, &error))?;
     notice_nearest(task, &[slice.wavelength_nm]);
     if slice.without_value > 0 {

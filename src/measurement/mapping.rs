@@ -58,11 +58,15 @@ pub struct MappedColumn {
     pub unit: Unit,
 }
 
-/// Which columns of a foreign table mean what.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+/// Which columns of a foreign table mean what, and what stands in for a column that it lacks.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mapping {
     /// The columns, each field at most once.
     pub columns: Vec<MappedColumn>,
+    /// Angle of incidence of every row in degrees, where no column is one.
+    pub theta_i: Option<f64>,
+    /// Relative azimuth of every row in degrees, where no column is one; 180 without.
+    pub dphi: Option<f64>,
 }
 
 /// Why a text is no mapping.
@@ -226,6 +230,7 @@ const DPHI: &[&str] = &[
     "relazimuth",
     "relaz",
     "raa",
+    // In a comment, these may be how the sample was turned.
     "azimuth",
     "azimuthangle",
     "azim",
@@ -247,6 +252,8 @@ const DOLP: &[&str] = &[
     "pol",
 ];
 const BRDF: &[&str] = &["brdf", "brdf1", "brdf1sr", "brdfsr1", "fr", "reflectance"];
+/// So many names of Δφ say that it is relative.
+const RELATIVE: usize = 7;
 /// What marks the standard deviation of a quantity, before or behind its name.
 const SIGMA: &[&str] = &["sigma", "err", "error", "std", "stddev", "sd", "unc", "uncertainty"];
 
@@ -273,9 +280,9 @@ impl Mapping {
         Ok(mapping)
     }
 
-    /// What the names of a header suggest, by number of the column; to be offered, not applied.
+    /// What the names of a header suggest, by number of the column, and metadata where there is no column; to be offered, not applied.
     #[must_use]
-    pub fn guess(header: &[String]) -> Self {
+    pub fn guess(header: &[String], metadata: &[(String, String)]) -> Self {
         let mut mapping = Self::default();
         for field in Field::ALL {
             let ranked = header.iter().enumerate().filter_map(|(index, name)| Some((field.rank(&stem(name))?, index)));
@@ -292,7 +299,50 @@ impl Mapping {
                 mapping.columns.push(MappedColumn { field, column: ColumnChoice::Number(index + 1), unit });
             }
         }
+        mapping.guess_sigma(header);
+        let stated = |field: Field, names: usize| {
+            let is_it = |key: &str| field.rank(&stem(key)).is_some_and(|rank| rank < names);
+            metadata.iter().filter(|(key, _)| is_it(key)).find_map(|(key, value)| degrees_in(key, value))
+        };
+        if mapping.find(Field::ThetaI).is_none() {
+            mapping.theta_i = stated(Field::ThetaI, usize::MAX).filter(|angle| (0.0..90.0).contains(angle));
+        }
+        if mapping.find(Field::Dphi).is_none() {
+            mapping.dphi = stated(Field::Dphi, RELATIVE);
+        }
         mapping
+    }
+
+    /// A column that is a standard deviation and does not say of what belongs to the only quantity, in the same unit.
+    fn guess_sigma(&mut self, header: &[String]) {
+        let (value, sigma) = match (self.find(Field::Dolp), self.find(Field::Brdf)) {
+            (Some(dolp), None) => (dolp, Field::DolpSigma),
+            (None, Some(brdf)) => (brdf, Field::BrdfSigma),
+            _ => return,
+        };
+        let rank = |name: &str| SIGMA.iter().position(|mark| *mark == stem(name));
+        let ranked = header.iter().enumerate().filter_map(|(index, name)| Some((rank(name)?, index)));
+        if let (None, Some((_, index))) = (self.find(sigma), ranked.min()) {
+            let unit = value.unit;
+            self.columns.push(MappedColumn { field: sigma, column: ColumnChoice::Number(index + 1), unit });
+            self.columns.sort_by_key(|column| Field::ALL.iter().position(|field| *field == column.field));
+        }
+    }
+
+    /// Whether something measured is named.
+    #[must_use]
+    pub fn has_quantity(&self) -> bool {
+        self.find(Field::Dolp).is_some() || self.find(Field::Brdf).is_some()
+    }
+
+    /// What stands in for a column of that field, in degrees.
+    #[must_use]
+    pub fn constant(&self, field: Field) -> Option<f64> {
+        match field {
+            Field::ThetaI => self.theta_i,
+            Field::Dphi => self.dphi,
+            _ => None,
+        }
     }
 
     /// The column of that field.
@@ -306,7 +356,7 @@ impl Mapping {
         let Some(MappedColumn { column, unit, .. }) = self.find(field) else { return Ok(None) };
         let header = table.header();
         let unknown = |found: String| {
-            let names = header.join(", ");
+            let names = table.titles();
             table.header_error(ReadErrorKind::UnknownColumn { field: field.key(), found, names })
         };
         let index = match column {
@@ -339,6 +389,18 @@ impl std::fmt::Display for Mapping {
     }
 }
 
+/// The angle in degrees that a line of metadata states, if it is one number, with or without a unit.
+fn degrees_in(key: &str, value: &str) -> Option<f64> {
+    let end = value.find(|next: char| !next.is_ascii_digit() && !['.', '-', '+'].contains(&next)).unwrap_or(value.len());
+    let number: f64 = value[..end].parse().ok()?;
+    match value[end..].trim().to_lowercase().as_str() {
+        "" if key.to_lowercase().contains("rad") => Some(number.to_degrees()),
+        "" | "°" | "deg" | "degree" | "degrees" => Some(number),
+        "rad" | "radian" | "radians" => Some(number.to_degrees()),
+        _ => None,
+    }
+}
+
 /// A name in small letters and digits, without what stands in brackets and without its unit.
 fn stem(name: &str) -> String {
     let name = name.split(['(', '[', '/']).next().unwrap_or(name).to_lowercase();
@@ -346,6 +408,7 @@ fn stem(name: &str) -> String {
         .replace(['θ', 'ϑ'], "theta")
         .replace(['φ', 'ϕ'], "phi")
         .replace('δ', "delta")
+        .replace('σ', "sigma")
         .chars()
         .filter(char::is_ascii_alphanumeric)
         .collect();
@@ -383,10 +446,10 @@ mod tests {
     #[test]
     fn a_guess_knows_usual_names_and_units() {
         let header = ["Sample", "AOI [deg]", "View (rad)", "DoLP %", "BRDF [1/sr]"].map(str::to_owned);
-        assert_eq!(Mapping::guess(&header).to_string(), "theta_i=2,theta_r=3:radians,dolp=4:percent,brdf=5");
+        assert_eq!(Mapping::guess(&header, &[]).to_string(), "theta_i=2,theta_r=3:radians,dolp=4:percent,brdf=5");
         let own = ["theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"].map(str::to_owned);
-        assert_eq!(Mapping::guess(&own).columns.len(), 8);
-        assert!(Mapping::guess(&["a".to_owned(), "b".to_owned()]).columns.is_empty());
+        assert_eq!(Mapping::guess(&own, &[]).columns.len(), 8);
+        assert!(Mapping::guess(&["a".to_owned(), "b".to_owned()], &[]).columns.is_empty());
     }
 
     #[test]
@@ -396,13 +459,40 @@ mod tests {
             ("Incidence (deg),View zenith,RAA,Reflectance,Reflectance error", "theta_i=1,theta_r=2,dphi=3,brdf=4,brdf_sigma=5"),
             ("SZA,VZA,phi,DOP [%],DOP err [%]", "theta_i=1,theta_r=2,dphi=3,dolp=4:percent,dolp_sigma=5:percent"),
             ("inc_rad,viewing_angle_rad,pol_percent", "theta_i=1:radians,theta_r=2:radians,dolp=3:percent"),
+            ("inc,view,pol [%],sd", "theta_i=1,theta_r=2,dolp=3:percent,dolp_sigma=4:percent"),
+            ("inc,view,std,BRDF", "theta_i=1,theta_r=2,brdf=4,brdf_sigma=3"),
+            ("inc,view,σ,DoLP", "theta_i=1,theta_r=2,dolp=4,dolp_sigma=3"),
+            ("inc,view,DoLP,unc,dolp_err", "theta_i=1,theta_r=2,dolp=3,dolp_sigma=5"),
             ("ϑ_i/°,ϑ_r/°,Δϕ/°,DoLP,σ,BRDF 1/sr", "theta_i=1,theta_r=2,dphi=3,dolp=4,brdf=6"),
             // The surer name wins, wherever it stands.
             ("phi,relative azimuth,incident,AOI,pol,DoLP,std_dolp", "theta_i=4,dphi=2,dolp=6,dolp_sigma=7"),
         ] {
             let header: Vec<String> = header.split(',').map(str::to_owned).collect();
-            assert_eq!(Mapping::guess(&header).to_string(), guess, "{header:?}");
+            assert_eq!(Mapping::guess(&header, &[]).to_string(), guess, "{header:?}");
         }
+    }
+
+    #[test]
+    fn a_guess_takes_a_constant_angle_from_metadata_where_there_is_no_column() {
+        let header = ["view", "dolp"].map(str::to_owned);
+        for (key, value, theta_i, dphi) in [
+            ("theta_i", "45", Some(45.0), None),
+            ("angle of incidence", "45.5 deg", Some(45.5), None),
+            ("AOI (rad)", "0", Some(0.0), None),
+            ("incidence", "30°", Some(30.0), None),
+            ("relative azimuth", "90 degrees", None, Some(90.0)),
+            // Not one angle, no angle of incidence, or perhaps the sample's.
+            ("theta_i", "30, 40", None, None),
+            ("theta_i", "30:60:10", None, None),
+            ("theta_i", "95", None, None),
+            ("azimuth", "90", None, None),
+            ("material", "45", None, None),
+        ] {
+            let guess = Mapping::guess(&header, &[(key.to_owned(), value.to_owned())]);
+            assert_eq!((guess.theta_i, guess.dphi), (theta_i, dphi), "{key}: {value}");
+        }
+        let header = ["inc", "view", "dolp"].map(str::to_owned);
+        assert_eq!(Mapping::guess(&header, &[("theta_i".to_owned(), "45".to_owned())]).theta_i, None);
     }
 
     #[test]

@@ -29,9 +29,13 @@ struct Layout {
 
 /// Where an angle stands, and in what.
 #[derive(Clone, Copy)]
-struct Angle {
-    column: usize,
-    is_radians: bool,
+enum Angle {
+    Column {
+        column: usize,
+        is_radians: bool,
+    },
+    /// The same in every row, in degrees.
+    Constant(f64),
 }
 
 /// Where a quantity and its standard deviation stand, and what is allowed there.
@@ -64,16 +68,16 @@ pub fn read(source: impl Read, progress: Progress<'_>) -> Result<Measurement, Re
     read_rows(&table, &layout, ignored_columns, progress)
 }
 
-/// Reads a foreign table whose columns were said to be so; the others are ignored and named.
+/// Reads a foreign table whose columns were said to be so; the others are ignored and named. It may be without a header.
 pub fn read_mapped(source: impl Read, mapping: &Mapping, progress: Progress<'_>) -> Result<Measurement, ReadError> {
-    let table = Table::new(source)?;
+    let table = Table::foreign(source)?;
     let layout = Layout::mapped(&table, mapping)?;
     let mut used = Vec::new();
     for field in Field::ALL {
         used.extend(mapping.place(field, &table)?.map(|(index, _)| index));
     }
-    let others = table.header().iter().enumerate().filter(|(index, _)| !used.contains(index));
-    let ignored_columns = others.map(|(_, name)| name.clone()).collect();
+    let others = (0..table.header().len()).filter(|index| !used.contains(index));
+    let ignored_columns = others.map(|index| table.title(index)).collect();
     read_rows(&table, &layout, ignored_columns, progress)
 }
 
@@ -89,6 +93,12 @@ fn read_rows(table: &Table, layout: &Layout, ignored_columns: Vec<String>, progr
 
 impl Layout {
     fn new(table: &Table) -> Result<Self, ReadError> {
+        let no_quantity = || table.header_error(ReadErrorKind::NoQuantity { names: table.titles() });
+        let guess = Mapping::guess(table.header(), &[]);
+        if guess.find(Field::ThetaR).is_some() && !guess.has_quantity() {
+            // Whatever the angles are called, this is what is missing.
+            return Err(no_quantity());
+        }
         let (theta_i, theta_r) = (table.require("theta_i")?, table.require("theta_r")?);
         let (fraction, percent) = (table.find("dolp")?, table.find("dolp_percent")?);
         if let (Some(a), Some(b)) = (fraction, percent) {
@@ -114,16 +124,18 @@ impl Layout {
             expected: BRDF,
         });
         if dolp.is_none() && brdf.is_none() {
-            return Err(table.header_error(ReadErrorKind::NoQuantity));
+            return Err(no_quantity());
         }
-        let degrees = |column| Angle { column, is_radians: false };
+        let degrees = |column| Angle::Column { column, is_radians: false };
         let (theta_i, theta_r) = (degrees(theta_i), degrees(theta_r));
         Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?.map(degrees), dolp, brdf, masked: table.find("masked")? })
     }
 
     fn mapped(table: &Table, mapping: &Mapping) -> Result<Self, ReadError> {
         let angle = |field| -> Result<Option<Angle>, ReadError> {
-            Ok(mapping.place(field, table)?.map(|(column, unit)| Angle { column, is_radians: unit == Unit::Radians }))
+            let place = mapping.place(field, table)?;
+            let column = place.map(|(column, unit)| Angle::Column { column, is_radians: unit == Unit::Radians });
+            Ok(column.or(mapping.constant(field).map(Angle::Constant)))
         };
         let require = |field: Field| angle(field)?.ok_or_else(|| table.header_error(ReadErrorKind::NotMapped { field: field.key() }));
         let source = |field, sigma_field| -> Result<Option<Source>, ReadError> {
@@ -168,27 +180,41 @@ impl Layout {
     fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
         let theta_i = self.theta_i.degrees(record, THETA_I)?;
         if !(0.0..90.0).contains(&theta_i) {
-            return Err(record.out_of_range(self.theta_i.column, THETA_I));
+            return Err(self.theta_i.out_of_range(record, THETA_I));
         }
         let theta_r = self.theta_r.degrees(record, THETA_R)?;
         if theta_r.abs() >= 90.0 {
-            return Err(record.out_of_range(self.theta_r.column, THETA_R));
+            return Err(self.theta_r.out_of_range(record, THETA_R));
         }
         let dphi = self.dphi.map_or(Ok(180.0), |angle| angle.degrees(record, DPHI))?;
         if theta_r < 0.0 && dphi != 180.0 {
-            let found = record.text(self.theta_r.column);
-            return Err(record.error(self.theta_r.column, ReadErrorKind::NegativeThetaR { found, dphi }));
+            return Err(self.theta_r.error(record, |found| ReadErrorKind::NegativeThetaR { found, dphi }));
         }
         let geometry = if theta_r < 0.0 { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) };
-        geometry.map_err(|_| record.out_of_range(self.theta_r.column, THETA_R))
+        geometry.map_err(|_| self.theta_r.out_of_range(record, THETA_R))
     }
 }
 
 impl Angle {
     fn degrees(self, record: &Record<'_>, expected: &'static str) -> Result<f64, ReadError> {
-        let stated = record.number(self.column, expected)?;
-        let degrees = if self.is_radians { stated.to_degrees() } else { stated };
-        if degrees.is_finite() { Ok(degrees) } else { Err(record.out_of_range(self.column, expected)) }
+        let degrees = match self {
+            Self::Column { column, is_radians: true } => record.number(column, expected)?.to_degrees(),
+            Self::Column { column, is_radians: false } => record.number(column, expected)?,
+            Self::Constant(degrees) => degrees,
+        };
+        if degrees.is_finite() { Ok(degrees) } else { Err(self.out_of_range(record, expected)) }
+    }
+
+    /// An error at its cell; of a constant, at no place of the file.
+    fn error(self, record: &Record<'_>, kind: impl FnOnce(String) -> ReadErrorKind) -> ReadError {
+        match self {
+            Self::Column { column, .. } => record.error(column, kind(record.text(column))),
+            Self::Constant(degrees) => kind(degrees.to_string()).anywhere(),
+        }
+    }
+
+    fn out_of_range(self, record: &Record<'_>, expected: &str) -> ReadError {
+        self.error(record, |found| ReadErrorKind::OutOfRange { found, expected: expected.to_owned() })
     }
 }
 

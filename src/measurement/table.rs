@@ -68,8 +68,11 @@ pub enum ReadErrorKind {
         similar: Option<String>,
     },
     /// Neither quantity.
-    #[error("neither dolp nor brdf is in the header; at least one is needed")]
-    NoQuantity,
+    #[error("neither dolp nor brdf is in the header; at least one is needed; the columns are {names}")]
+    NoQuantity {
+        /// The names in the header.
+        names: String,
+    },
     /// The same column twice, or two names for one quantity.
     #[error("the column stands for the same quantity as column {first}; only one is allowed")]
     RepeatedColumn {
@@ -188,6 +191,8 @@ pub struct Table {
     delimiter: u8,
     header: Vec<String>,
     header_line: u64,
+    has_header: bool,
+    is_foreign: bool,
     metadata: Vec<(String, String)>,
 }
 
@@ -206,7 +211,17 @@ const ROWS_PER_REPORT: u64 = 4096;
 
 impl Table {
     /// Reads the whole source, its metadata and its header.
-    pub fn new(mut source: impl Read) -> Result<Self, ReadError> {
+    pub fn new(source: impl Read) -> Result<Self, ReadError> {
+        Self::scanned(source, false)?.with_header()
+    }
+
+    /// The same of a table that others made: where the first row is mostly numbers, all rows are data and no column has a name;
+    /// comments are metadata under the key `comment`.
+    pub fn foreign(source: impl Read) -> Result<Self, ReadError> {
+        Self::scanned(source, true)?.with_header()
+    }
+
+    fn scanned(mut source: impl Read, is_foreign: bool) -> Result<Self, ReadError> {
         let mut bytes = Vec::new();
         source.read_to_end(&mut bytes).map_err(|error| ReadErrorKind::Io(error).anywhere())?;
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
@@ -219,22 +234,22 @@ impl Table {
             // Line ends of old: a lone carriage return.
             bytes.iter_mut().filter(|byte| **byte == b'\r').for_each(|byte| *byte = b'\n');
         }
-        let mut table = Self { delimiter: b',', header: Vec::new(), header_line: 0, metadata: Vec::new(), bytes };
+        let mut table =
+            Self { delimiter: b',', header: Vec::new(), header_line: 0, has_header: true, is_foreign, metadata: Vec::new(), bytes };
         table.scan()?;
-        table.read_header()?;
         Ok(table)
     }
 
     /// Walks the lines once: metadata, delimiter, and the faults that would mislead a CSV parser.
     fn scan(&mut self) -> Result<(), ReadError> {
-        let Self { bytes, delimiter, metadata, .. } = self;
+        let Self { bytes, delimiter, metadata, is_foreign, .. } = self;
         let mut header_seen = false;
         for (number, line) in (1..).zip(bytes.split_mut(|&byte| byte == b'\n')) {
             let indent = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
             let is_comment = line.get(indent) == Some(&b'#');
             if is_comment {
                 line[..indent].fill(b'#');
-                metadata.extend(metadata_of(line));
+                metadata.extend(if *is_foreign { remark_of(line) } else { metadata_of(line) });
             } else if indent == line.len() {
                 // White space alone is an empty line.
                 line.fill(b'\r');
@@ -269,25 +284,39 @@ impl Table {
             .from_reader(&self.bytes)
     }
 
-    fn read_header(&mut self) -> Result<(), ReadError> {
+    fn with_header(mut self) -> Result<Self, ReadError> {
         let mut record = csv::ByteRecord::new();
         if !read_record(&mut self.csv_reader(), &mut record)? {
             return Err(ReadErrorKind::Empty.anywhere());
         }
         let header: Vec<String> = record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect();
         self.header_line = self.line_of(&record);
-        if header.iter().any(|cell| cell.replace(',', ".").parse::<f64>().is_ok()) {
+        let numbers = header.iter().filter(|cell| cell.replace(',', ".").parse::<f64>().is_ok()).count();
+        if self.is_foreign {
+            self.has_header = 2 * numbers <= header.len();
+        } else if numbers > 0 {
             let found = header.into_iter().next().unwrap_or_default();
             return Err(ReadError { line: Some(self.header_line), column: None, kind: ReadErrorKind::NoHeader { found } });
         }
-        self.header = header;
-        Ok(())
+        self.header = if self.has_header { header } else { vec![String::new(); header.len()] };
+        Ok(self)
     }
 
-    /// Names of the columns.
+    /// Names of the columns; empty ones where the table has no header.
     #[must_use]
     pub fn header(&self) -> &[String] {
         &self.header
+    }
+
+    /// What a message calls a column: its name, or its number where the table has no header.
+    pub(super) fn title(&self, index: usize) -> String {
+        if self.has_header { self.header[index].clone() } else { (index + 1).to_string() }
+    }
+
+    /// The titles of all columns.
+    #[must_use]
+    pub fn titles(&self) -> String {
+        (0..self.header.len()).map(|index| self.title(index)).collect::<Vec<_>>().join(", ")
     }
 
     /// `# key: value` lines, in their order.
@@ -340,7 +369,9 @@ impl Table {
     pub fn for_each(&self, progress: Progress<'_>, mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>) -> Result<(), ReadError> {
         let mut reader = self.csv_reader();
         let mut cells = csv::ByteRecord::new();
-        read_record(&mut reader, &mut cells)?;
+        if self.has_header {
+            read_record(&mut reader, &mut cells)?;
+        }
         let mut rows = 0_u64;
         while read_record(&mut reader, &mut cells)? {
             let line = self.line_of(&cells);
@@ -378,6 +409,19 @@ fn metadata_of(line: &[u8]) -> Option<(String, String)> {
     let (key, value) = text.trim_start_matches('#').split_once(':')?;
     let key = key.trim();
     (!key.is_empty()).then(|| (key.to_owned(), value.trim().to_owned()))
+}
+
+/// Key and value of a comment line of others: what has no key, or whose colon is that of a time of day, is a `comment`.
+fn remark_of(line: &[u8]) -> Option<(String, String)> {
+    let text = String::from_utf8_lossy(line);
+    let text = text.trim_start_matches('#').trim();
+    let is_time = text.split_once(':').is_some_and(|(before, after)| {
+        before.contains(char::is_whitespace)
+            && before.ends_with(|last: char| last.is_ascii_digit())
+            && after.starts_with(|first: char| first.is_ascii_digit())
+    });
+    let comment = || text.contains(char::is_alphanumeric).then(|| ("comment".to_owned(), text.to_owned()));
+    if is_time { comment() } else { metadata_of(line).or_else(comment) }
 }
 
 impl Record<'_> {

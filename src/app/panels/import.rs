@@ -165,6 +165,40 @@ fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
             }
         });
     });
+    constants_ui(mapping, ui);
+}
+
+/// The angle of incidence that is offered where nothing is stated.
+const OFFERED_THETA_I: f64 = 45.0;
+
+/// Angles that no column holds.
+fn constants_ui(mapping: &mut Mapping, ui: &mut Ui) {
+    let is_free = |mapping: &Mapping, field| mapping.find(field).is_none();
+    let (theta_i_is_free, dphi_is_free) = (is_free(mapping, Field::ThetaI), is_free(mapping, Field::Dphi));
+    ui.horizontal(|ui| {
+        ui.label(tr!("The same in every row:")).on_hover_text(tr!("For an angle that no column holds"));
+        ui.add_enabled_ui(theta_i_is_free, |ui| {
+            let mut is_constant = theta_i_is_free && mapping.theta_i.is_some();
+            let tick = ui.checkbox(&mut is_constant, "θi").on_hover_text(tr!("The file was measured at a single angle of incidence"));
+            if tick.changed() {
+                mapping.theta_i = is_constant.then_some(OFFERED_THETA_I);
+            }
+            let mut degrees = mapping.theta_i.unwrap_or(OFFERED_THETA_I);
+            let value = DragValue::new(&mut degrees).range(0.0..=89.9).speed(0.5).max_decimals(3).suffix("°");
+            if ui.add_enabled(is_constant, value).labelled_by(tick.id).changed() {
+                mapping.theta_i = Some(degrees);
+            }
+        });
+        ui.add_space(12.0);
+        ui.add_enabled_ui(dphi_is_free, |ui| {
+            let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
+            let mut degrees = mapping.dphi.unwrap_or(180.0);
+            let value = DragValue::new(&mut degrees).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°");
+            if ui.add(value).labelled_by(label.id).changed() {
+                mapping.dphi = Some(degrees);
+            }
+        });
+    });
 }
 
 fn column_ui(mapping: &mut Mapping, table: &ForeignTable, index: usize, name: &str, ui: &mut Ui) {

@@ -136,6 +136,52 @@ fn columns_without_a_guess_are_named_by_hand() {
     assert_eq!(state(&mut harness), ("letters.csv".to_owned(), 2, false));
 }
 
+fn mapping(harness: &mut Harness<'static, Option<Explorer>>) -> Mapping {
+    match &explorer(harness).import.as_ref().expect("a question").choice {
+        Choice::Table(mapping) => mapping.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_table_at_a_single_angle_of_incidence_is_opened_with_a_constant() {
+    let (mut harness, _folder) = opened("single.csv", b"view,dolp\n20,0.1\n25,0.2\n");
+    assert!(harness.get_by_role_and_label(egui::accesskit::Role::Button, "Open").accesskit_node().is_disabled());
+    harness.get_by_role_and_label(egui::accesskit::Role::CheckBox, "θi").click();
+    harness.run();
+    assert_eq!(mapping(&mut harness).theta_i, Some(45.0));
+    press(&mut harness, "Open");
+    assert_eq!(state(&mut harness), ("single.csv".to_owned(), 2, false));
+    assert_eq!(explorer(&mut harness).document.measurement.incidence_angles(), [45.0]);
+    // Stated beside the numbers, it is offered.
+    let (mut harness, _folder) = opened("stated.csv", b"# angle of incidence: 30 deg\n# by JL\nview,dolp,sd\n20,0.1,0.01\n");
+    assert_eq!((mapping(&mut harness).theta_i, mapping(&mut harness).to_string().as_str()), (Some(30.0), "theta_r=1,dolp=2,dolp_sigma=3"));
+    press(&mut harness, "Open");
+    let measurement = &explorer(&mut harness).document.measurement;
+    assert_eq!((measurement.incidence_angles(), measurement.metadata("comment")), (vec![30.0], Some("by JL")));
+    assert_eq!(measurement.rows[0].dolp.and_then(|dolp| dolp.sigma), Some(0.01));
+}
+
+#[test]
+fn a_table_without_a_header_offers_numbered_columns() {
+    let (mut harness, _folder) = opened("bare.csv", b"30,20,0.1\n30,25,0.2\n");
+    for (column, meaning) in [("column 1", "θi, angle of incidence"), ("column 2", "θr, angle of view"), ("column 3", "DoLP")] {
+        harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, column).click();
+        harness.run();
+        harness.query_all_by_role_and_label(egui::accesskit::Role::Button, meaning).last().expect("a meaning").click();
+        harness.run();
+    }
+    press(&mut harness, "Open");
+    assert_eq!(state(&mut harness), ("bare.csv".to_owned(), 2, false));
+}
+
+#[test]
+fn a_table_without_anything_measured_is_asked_about_with_that_reason() {
+    let (harness, _folder) = opened("angles.csv", b"inc,view\n30,20\n");
+    assert!(harness.query_by_label_contains("neither dolp nor brdf").is_some());
+    assert!(harness.query_by_label_contains("the columns are inc, view").is_some());
+}
+
 #[test]
 fn the_question_stays_where_it_is_and_as_large_as_it_is() {
     let area = |harness: &Harness<'static, Option<Explorer>>| {

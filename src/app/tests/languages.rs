@@ -219,7 +219,7 @@ fn foreign() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("1.dat", b"nm\n600\t55\t43\t150\n650\t55\t43.5\t151\n".to_vec()),
         ("2.pbsdf", tensor()),
-        ("3.csv", b"1;2 [deg];3 (rad);4 %;5\n6;30;0,5;12,5;7\n".to_vec()),
+        ("3.csv", b"1;2 [d];3 (rad);4 %;5\n6;30;0,5;12,5;7\n".to_vec()),
         ("4.csv", b"1,2,3\n30,20,12\n".map(|byte| if byte == b'1' { b'a' } else { byte }).to_vec()),
         ("5.csv", b"theta_i,theta_r,dolp\n95,0,0.5\n".to_vec()),
         ("6.csv", Vec::new()),

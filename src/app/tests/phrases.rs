@@ -202,7 +202,7 @@ fn errors_of_tables_are_said_in_chinese() {
             E::NoHeader { found: text() },
             E::MissingColumn { name: "theta_i", similar: None },
             E::MissingColumn { name: "theta_i", similar: Some("Theta_I".to_owned()) },
-            E::NoQuantity,
+            E::NoQuantity { names: "dolp, brdf".to_owned() },
             E::RepeatedColumn { first: 1 },
             E::RowLength { found: 2, expected: 3 },
             E::EmptyCell { expected: "0 or 1" },
@@ -250,7 +250,8 @@ fn damaged_files() -> Vec<String> {
         texts.push(read(table.as_bytes(), &mut going_on).expect_err(cells).to_string());
     }
     let column = |field, number, unit| MappedColumn { field, column: ColumnChoice::Number(number), unit };
-    let mapping = Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Usual), column(Field::ThetaR, 9, Unit::Usual)] };
+    let mapping =
+        Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Usual), column(Field::ThetaR, 9, Unit::Usual)], ..Mapping::default() };
     texts.push(read_mapped(&b"a,b,c\n1,2,3\n"[..], &mapping, &mut going_on).expect_err("no ninth column").to_string());
     for rows in [
         "nm\n0 55 43 160",
