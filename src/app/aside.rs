@@ -3,9 +3,9 @@
 //! What is kept without being asked, the settings and the working state, is the user's own work all the while: a crash in a lesson brings that
 //! back, without the lesson.
 
-use super::document::{Document, EXAMPLES};
+use super::document::Document;
 use super::history::History;
-use super::panes::{Pane, Panes};
+use super::panes::Panes;
 use super::past_fits::{PastFit, PastFits};
 use super::scans::Scans;
 use super::state::Settings;
@@ -32,34 +32,22 @@ pub struct Aside {
 }
 
 impl Explorer {
-    /// Sliders, angles and views as a step of a lesson wants them; what it does not name stays as the step before left it.
+    /// Data, sliders and views as a step of a lesson wants them.
     pub(super) fn show_step(&mut self, lesson: usize, step: usize) -> Result<(), String> {
         if self.lessons.all.get(lesson).is_none_or(|lesson| step >= lesson.steps.len()) {
             return Ok(());
         }
-        if self.lessons.open.is_none_or(|(open, _)| open != lesson) {
+        let begins = self.lessons.open.is_none_or(|(open, _)| open != lesson);
+        if begins {
             self.close_lesson();
             self.set_aside()?;
         }
         self.lessons.open = Some((lesson, step));
-        let Some((_, step)) = self.lessons.current() else { return Ok(()) };
-        let settings = &mut self.settings;
-        settings.model = step.preset.map_or(settings.model, |preset| preset.model);
-        for &(parameter, value) in &step.set {
-            settings.parameters[parameter] = value;
-        }
-        settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
-        settings.dphi = step.dphi.unwrap_or(settings.dphi);
-        settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
-        let panes: Vec<Pane> = step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()).collect();
-        self.panes.show_together(&panes);
-        match EXAMPLES.iter().find(|example| step.example.as_deref() == Some(example.name)) {
-            Some(example) => self.worker.open_text(example.name.to_owned(), example.text),
-            None => Ok(()),
-        }
+        self.set_up_step(lesson, step, begins);
+        Ok(())
     }
 
-    /// Keeps the user's own work, and goes on with the same data and panes, no fit shown, and with settings that every lesson finds alike.
+    /// Keeps the user's own work, and goes on with the same panes and no fit; data and sliders are then the lesson's.
     fn set_aside(&mut self) -> Result<(), String> {
         if self.worker.load.is_some() || self.worker.session.is_some() {
             return Err(tr!("A file is still being read: begin the lesson when it is there."));
@@ -70,7 +58,7 @@ impl Explorer {
         self.worker.abandon();
         let setup = self.setup();
         self.history.rest(setup);
-        let copy = self.panes.layout().map_or_else(|| Panes::new(&self.window.layout), |layout| Panes::new(&layout));
+        let copy = self.panes_at_its_beginning();
         self.aside = Some(Box::new(Aside {
             settings: std::mem::replace(&mut self.settings, Settings::for_measurement(&self.document.measurement)),
             document: self.document.clone(),
@@ -85,6 +73,12 @@ impl Explorer {
         }));
         self.refitted = Some(self.settings.parameters);
         Ok(())
+    }
+
+    /// The panes as a lesson finds them.
+    pub(super) fn panes_at_its_beginning(&self) -> Panes {
+        let own = self.aside.as_ref().map_or(&self.panes, |aside| &aside.panes);
+        own.layout().map_or_else(|| Panes::new(&self.window.layout), |layout| Panes::new(&layout))
     }
 
     /// Closes the lesson; the user's own work is back as it was.

@@ -126,6 +126,9 @@ impl Document {
 
     /// What its metadata say about it, for a line under the plots.
     pub fn description(&self) -> String {
+        if self.name.is_empty() && self.measurement.rows.is_empty() {
+            return tr!("No measurement: curves alone");
+        }
         let simulated = self.measurement.metadata("simulated") == Some("true");
         let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
         let mut parts = vec![if is_example { translated(&self.name) } else { self.name.clone() }];

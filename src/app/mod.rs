@@ -21,6 +21,7 @@ mod language;
 mod latest_job;
 mod layout;
 mod leaving;
+mod lesson_step;
 mod lessons;
 mod memo;
 mod notices;

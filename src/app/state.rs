@@ -1,5 +1,6 @@
 //! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
+use super::document::Document;
 use super::language::Language;
 use super::layout::Layout;
 use super::plan::Plan;
@@ -217,6 +218,22 @@ impl Settings {
         let mut settings = Self::default();
         settings.lock_what_only_ratios_decide(measurement);
         settings
+    }
+
+    /// What a measurement that was just opened decides: what can be fitted, and where to look first.
+    pub fn suit(&mut self, document: &Document) {
+        self.lock_what_only_ratios_decide(&document.measurement);
+        if document.brdf_spans_decades() {
+            self.log_brdf = true;
+        }
+        if let Some(first) = document.series.first() {
+            self.theta_i = first.theta_i;
+            self.dphi = first.plane;
+        }
+        if let Some(wavelength_nm) = document.wavelength_nm() {
+            self.tabulated.wavelength_nm = wavelength_nm;
+        }
+        self.tabulated.look_at(document.metal());
     }
 
     /// With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.

@@ -185,22 +185,11 @@ impl Explorer {
     pub fn take(&mut self, name: String, measurement: Measurement) {
         self.generation += 1;
         self.import = None;
-        self.settings.lock_what_only_ratios_decide(&measurement);
         if !measurement.ignored_columns.is_empty() {
             self.say(format!("{name}: {}.", measurement.ignored_notice()));
         }
         self.document = Document::new(name, measurement, self.generation);
-        if self.document.brdf_spans_decades() {
-            self.settings.log_brdf = true;
-        }
-        if let Some(first) = self.document.series.first() {
-            self.settings.theta_i = first.theta_i;
-            self.settings.dphi = first.plane;
-        }
-        if let Some(wavelength_nm) = self.document.wavelength_nm() {
-            self.settings.tabulated.wavelength_nm = wavelength_nm;
-        }
-        self.settings.tabulated.look_at(self.document.metal());
+        self.settings.suit(&self.document);
         self.last_fit = None;
         self.scans.forget();
         self.comparison.clear();

@@ -4,7 +4,9 @@
 //! begins with `#` is a comment. Texts may be given in further languages under the key with the language behind a dot
 //! (`title.zh`).
 //!
-//! A lesson begins with the program's default settings and with the measurement that is open; when it is closed, all is as it was before.
+//! A lesson begins with the program's default settings and with a measurement of its own: the first bundled example, if it does not name
+//! one; `example: none` is for lessons that points in the plots would only hide. A step shows what the lesson's beginning and all steps up to
+//! it set, whichever way one came to it. When the lesson is closed, all is as it was before.
 //!
 //! | key | where | meaning |
 //! |---|---|---|
@@ -15,12 +17,14 @@
 //! | `range` | step | ends of sliders while the step is shown, such as `k=0..3, sigma=0.05..0.5`; the others have their own |
 //! | `theta_i`, `dphi` | step | angles of the lobes in degrees |
 //! | `log` | step | `yes` or `no`: logarithmic BRDF |
-//! | `example` | step | name of a bundled example to open |
+//! | `example` | step | name of the bundled example to open, or `none` for no measurement |
+//! | `metal` | step | symbol or name of the tabulated metal to look at, such as `Cu` |
+//! | `wavelength` | step | vacuum wavelength in nm at which to look at it |
 //! | `panes` | step | names of the views to bring to the front |
 //! | `move`, `watch`, `why` | step | what to do, what to look at, and the reason |
 
 use super::{AssignmentError, Parameter, Preset, assignment_from_text, assignments_from_text};
-use crate::optics::Geometry;
+use crate::optics::{self, Geometry, Metal};
 
 /// A text in one language or more.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -56,6 +60,15 @@ impl Wording {
     }
 }
 
+/// What is measured in a lesson.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Data {
+    /// Nothing: curves alone.
+    Nothing,
+    /// A bundled example, by name.
+    Example(String),
+}
+
 /// One step of a lesson; what is not set stays as it is.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Step {
@@ -73,8 +86,12 @@ pub struct Step {
     pub dphi: Option<f64>,
     /// Whether BRDF is drawn logarithmically.
     pub log: Option<bool>,
-    /// The bundled example to open, by name.
-    pub example: Option<String>,
+    /// The measurement to open.
+    pub data: Option<Data>,
+    /// The tabulated metal to look at.
+    pub metal: Option<&'static Metal>,
+    /// The wavelength to look at it, nm.
+    pub wavelength_nm: Option<f64>,
     /// The views to bring to the front, by name.
     pub panes: Vec<String>,
     /// What to move.
@@ -154,6 +171,12 @@ pub enum LessonErrorKind {
         /// What is allowed.
         expected: &'static str,
     },
+    /// No such metal.
+    #[error("{0:?} is no tabulated metal")]
+    Metal(String),
+    /// Not a wavelength.
+    #[error("{0:?} is no wavelength: expected a positive number of nanometres")]
+    Wavelength(String),
     /// Neither yes nor no.
     #[error("expected yes or no, found {0:?}")]
     YesOrNo(String),
@@ -166,7 +189,7 @@ pub enum LessonErrorKind {
 }
 
 const HEAD_KEYS: &str = "title, about, step";
-const STEP_KEYS: &str = "step, model, set, range, theta_i, dphi, log, example, panes, move, watch, why";
+const STEP_KEYS: &str = "step, model, set, range, theta_i, dphi, log, example, metal, wavelength, panes, move, watch, why";
 
 /// A line with its continuations.
 struct Entry {
@@ -254,7 +277,12 @@ impl Step {
                     _ => return Err(LessonErrorKind::YesOrNo(text)),
                 });
             }
-            "example" => self.example = Some(text),
+            "example" => self.data = Some(if text == "none" { Data::Nothing } else { Data::Example(text) }),
+            "metal" => self.metal = Some(optics::metal(&text).ok().flatten().ok_or(LessonErrorKind::Metal(text))?),
+            "wavelength" => {
+                let stated = text.parse().ok().filter(|nm: &f64| nm.is_finite() && *nm > 0.0);
+                self.wavelength_nm = Some(stated.ok_or(LessonErrorKind::Wavelength(text))?);
+            }
             "panes" => self.panes = text.split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect(),
             _ => return Err(LessonErrorKind::Key { found: key, expected: STEP_KEYS }),
         }
@@ -316,17 +344,22 @@ fn entries(text: &str) -> Result<Vec<Entry>, LessonError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lesson, LessonErrorKind};
+    use super::{Data, Lesson, LessonErrorKind};
     use crate::model::Parameter;
 
     const SMALL: &str = "# a comment\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n\nstep: Glass\nmodel: fresnel\nset: n=1.5, k=0\nrange: k=0..3, sigma = 0.05 .. 0.5\n\
-                         theta_i: 56.3\nlog: no\npanes: dolp, lobes\nwatch: the maximum,\n  which is 1\nstep: Metal\nset: k=3\n";
+                         theta_i: 56.3\nlog: no\npanes: dolp, lobes\nwatch: the maximum,\n  which is 1\nstep: Metal\nset: k=3\nexample: none\nmetal: copper\nwavelength: 450.5\n\
+                         step: Steel\nexample: 45# steel (simulated)\n";
 
     #[test]
     fn a_lesson_is_read_with_its_steps() {
         let lesson = Lesson::from_text(SMALL).expect("a lesson");
         assert_eq!((lesson.title.in_language("en"), lesson.title.in_language("zh")), ("Brewster", "布儒斯特"));
-        assert_eq!(lesson.steps.len(), 2);
+        assert_eq!(lesson.steps.len(), 3);
+        let data = lesson.steps.iter().map(|step| step.data.clone()).collect::<Vec<_>>();
+        assert_eq!(data, [None, Some(Data::Nothing), Some(Data::Example("45# steel (simulated)".to_owned()))]);
+        let second = &lesson.steps[1];
+        assert_eq!((second.metal.map(|metal| metal.key.as_str()), second.wavelength_nm), (Some("Cu"), Some(450.5)));
         let first = &lesson.steps[0];
         assert_eq!(first.preset.map(|preset| preset.key), Some("fresnel"));
         assert_eq!(first.set, [(Parameter::N, 1.5), (Parameter::K, 0.0)]);
@@ -352,6 +385,11 @@ mod tests {
             ("title: a\nstep: b\nrange: k=0..3, k=0..4", 3, "twice"),
             ("title: a\nstep: b\ntheta_i: 90", 3, "0 ≤ θi < 90"),
             ("title: a\nstep: b\ndphi: inf", 3, "finite angle"),
+            ("title: a\nstep: b\nmetal: Xx", 3, "no tabulated metal"),
+            ("title: a\nstep: b\nwavelength: red", 3, "positive number of nanometres"),
+            ("title: a\nstep: b\nwavelength: 0", 3, "positive number of nanometres"),
+            ("title: a\nstep: b\nwavelength: inf", 3, "positive number of nanometres"),
+            ("title: a\nstep: b\nwavelength: 650\nwavelength: 450", 4, "twice"),
             ("title: a\nstep: b\nlog: maybe", 3, "yes or no"),
             ("title: a\nstep: b\nwatch: c\nwatch: d", 4, "twice"),
             ("title: a\nstep: b\nlog.zh: yes", 3, "language"),

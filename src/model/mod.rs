@@ -27,7 +27,7 @@ pub use finishes::{FINISHES, Finish};
 pub use gradient::{Gradient, Wanted};
 pub use hemisphere::{Hemisphere, HemisphereMap};
 pub use ladder::{PRESETS, Preset};
-pub use lesson::{Lesson, LessonError, LessonErrorKind, Step, Wording};
+pub use lesson::{Data, Lesson, LessonError, LessonErrorKind, Step, Wording};
 pub use lobes::Lobe;
 pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
 pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};

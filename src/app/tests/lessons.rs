@@ -2,7 +2,7 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
-use crate::app::document::Mask;
+use crate::app::document::{EXAMPLES, Mask};
 use crate::app::language::Language;
 use crate::app::layout::Layout;
 use crate::app::leaving::Outgoing;
@@ -165,11 +165,81 @@ fn closing_a_lesson_brings_everything_back() {
     }
 }
 
+/// What a step sets up: settings, data, mask, panes.
+fn set_up(explorer: &Explorer) -> (Settings, String, Vec<Row>, Mask, Option<Layout>) {
+    let Work { settings, rows, mask, layout, .. } = work(explorer);
+    (settings, explorer.document.name.clone(), rows, mask, layout)
+}
+
+#[test]
+fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
+    let mut harness = worked_in();
+    for lesson in 0..explorer(&mut harness).lessons.all.len() {
+        let count = explorer(&mut harness).lessons.all[lesson].steps.len();
+        let mut forward = Vec::new();
+        for step in 0..count {
+            order(&mut harness, Command::ShowStep(lesson, step));
+            forward.push(set_up(explorer(&mut harness)));
+        }
+        // What a user moves, switches and opens on the way.
+        let open = explorer(&mut harness);
+        (open.settings.parameters.sigma, open.settings.shown.facets_equal_median, open.settings.tabulated.wavelength_nm) =
+            (1.75, true, 333.0);
+        order(&mut harness, Command::ClosePane(Pane::Dolp));
+        for (step, forward) in forward.iter().enumerate().rev() {
+            order(&mut harness, Command::ShowStep(lesson, step));
+            assert_eq!(&set_up(explorer(&mut harness)), forward, "lesson {lesson}, step {step}");
+        }
+        // Straight to the last one, the lesson not yet begun.
+        order(&mut harness, Command::CloseLesson);
+        order(&mut harness, Command::ShowStep(lesson, count - 1));
+        assert_eq!(Some(&set_up(explorer(&mut harness))), forward.last(), "lesson {lesson}");
+    }
+}
+
+#[test]
+fn undo_leads_to_the_step_before_whichever_way_one_came() {
+    let mut harness = harness();
+    // "Quite another metal, the same curve", reached from behind.
+    order(&mut harness, Command::ShowStep(2, 3));
+    order(&mut harness, Command::ShowStep(2, 1));
+    let k = |harness: &mut Harness<'static, Option<Explorer>>| explorer(harness).settings.parameters.k;
+    assert_eq!(k(&mut harness), 10.0054);
+    order(&mut harness, Command::Undo);
+    assert_eq!(k(&mut harness), 6.6);
+    order(&mut harness, Command::Redo);
+    assert_eq!(k(&mut harness), 10.0054);
+}
+
+#[test]
+fn a_lesson_has_a_measurement_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    std::fs::write(
+        folder.path().join("mine.txt"),
+        "title: Mine\nstep: One\nset: k=3\nstep: Two\nexample: none\nmetal: Cu\nwavelength: 450\n",
+    )
+    .expect("a file");
+    let mut harness = worked_in();
+    let before = work(explorer(&mut harness));
+    explorer(&mut harness).read_lessons(Some(folder.path()));
+    let last = explorer(&mut harness).lessons.all.len() - 1;
+    order(&mut harness, Command::ShowStep(last, 0));
+    assert_eq!(explorer(&mut harness).document.name, EXAMPLES[0].name);
+    assert_eq!(explorer(&mut harness).document.mask().len(), 0);
+    order(&mut harness, Command::ShowStep(last, 1));
+    assert!(explorer(&mut harness).document.measurement.rows.is_empty());
+    assert!(harness.query_by_label("No measurement: curves alone").is_some());
+    let tabulated = &explorer(&mut harness).settings.tabulated;
+    assert_eq!((tabulated.metal.as_str(), tabulated.wavelength_nm), ("Cu", 450.0));
+    order(&mut harness, Command::CloseLesson);
+    assert_eq!(work(explorer(&mut harness)), before);
+}
+
 #[test]
 fn an_example_that_is_still_being_read_is_no_guest_of_the_own_work() {
     let mut harness = worked_in();
     let before = work(explorer(&mut harness));
-    explorer(&mut harness).commands.extend([Command::ShowStep(WITH_EXAMPLE, 0), Command::CloseLesson]);
+    explorer(&mut harness).commands.extend([Command::ShowStep(0, 0), Command::OpenExample(2), Command::CloseLesson]);
     wait(&mut harness);
     assert_eq!(work(explorer(&mut harness)), before);
 }

@@ -349,6 +349,8 @@ fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
         "title: a\nstep: b\nmodel: phong",
         "title: a\nstep: b\ntheta_i: 90",
         "title: a\nstep: b\ndphi: inf",
+        "title: a\nstep: b\nmetal: Xx",
+        "title: a\nstep: b\nwavelength: red",
         "title: a\nstep: b\nlog: maybe",
         "title: a\nstep: b\nwatch: c\nwatch: d",
         "title: a\nstep: b\nlog.zh: yes",
