@@ -65,6 +65,7 @@ const SAME: &[&str] = &[
     "English",
     "GGX",
     "Germer",
+    "Hagemann",
     "Hyde",
     "Lambert",
     "MIT",

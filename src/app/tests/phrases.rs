@@ -96,6 +96,7 @@ const SAME: &[&str] = &[
     "name=value",
     "nan",
     "null",
+    "metal",
     "panes",
     "parameters",
     "percent",
