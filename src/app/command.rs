@@ -131,6 +131,21 @@ pub enum Switch {
     FrameTimes,
 }
 
+impl Command {
+    /// Why it cannot be carried out, where that is not said by what it does.
+    pub fn obstacle(&self) -> Option<String> {
+        match self {
+            Self::ChooseExport(Outgoing::Plot(pane)) | Self::CopyPlot(pane) => {
+                Some(tr!("Open the pane {} first (menu View).", translated(pane.entry().title)))
+            }
+            Self::ChooseExport(Outgoing::Fitted | Outgoing::Report) | Self::UseFit | Self::Back | Self::Bootstrap => {
+                Some(tr!("Fit first (F5)."))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl Switch {
     /// Where it is kept.
     pub fn of(self, explorer: &mut Explorer) -> &mut bool {
@@ -144,8 +159,8 @@ impl Switch {
     }
 }
 
-/// The menu that a command stands in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The menu that a command stands in, in the order of the bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Menu {
     File,
     Example,
@@ -161,6 +176,27 @@ pub enum Menu {
     Help,
     /// The palette alone.
     None,
+}
+
+impl Menu {
+    /// What it is called; the palette alone has no name.
+    pub fn name(self) -> String {
+        match self {
+            Self::File => tr!("File"),
+            Self::Example => tr!("Examples"),
+            Self::Recent => tr!("Recent"),
+            Self::Export => tr!("Export"),
+            Self::Edit => tr!("Edit"),
+            Self::Fit => tr!("Fitting"),
+            Self::Pane => tr!("Panes"),
+            Self::View => tr!("View"),
+            Self::Theme => tr!("Theme"),
+            Self::Language => tr!("Language"),
+            Self::Lesson => tr!("Lessons"),
+            Self::Help => tr!("Help"),
+            Self::None => String::new(),
+        }
+    }
 }
 
 /// Whether a command can be carried out now, and for a switch where it stands.
@@ -245,18 +281,16 @@ static ENTRIES: &[Entry] = &[
     row(Command::ChooseExport(Outgoing::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |e| only_if(e.last_fit.is_some())),
-    row(Command::CopyTable, Menu::Edit, "Copy data table", "The measurement with its masks, as text", None, always),
     row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
-    row(Command::ForgetRecent, Menu::Recent, "Forget recent files", "Empty this list; the files stay", None,
-        |e| only_if(!e.window.recent.is_empty())),
     row(Command::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Command::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
         |e| only_if(e.history.can_undo())),
-    row(Command::Redo, Menu::Edit, "Redo", "Forth again", ctrl_shift(Key::Z), |e| only_if(e.history.can_redo())),
+    row(Command::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |e| only_if(e.history.can_redo())),
     row(Command::CopyParameters, Menu::Edit, "Copy parameters", "All nine as text: n=2, k=3, …", ctrl_shift(Key::C), always),
     row(Command::RequestPaste, Menu::Edit, "Paste parameters", "From text such as n=2.07, k=2.9; those that it does not name stay",
         ctrl_shift(Key::V), always),
     row(Command::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
+    row(Command::CopyTable, Menu::Edit, "Copy data table", "Every row as the pane Data shows it, with tabs between cells as spreadsheets want them", None, always),
     row(Command::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
         plain(Key::F5), |e| only_if(e.worker.fit.is_none())),
     row(Command::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.worker.fit.is_some())),
@@ -360,6 +394,13 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         item(Command::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Status::Possible)
     });
+    let forget = item(
+        Command::ForgetRecent,
+        Menu::Recent,
+        tr!("Forget recent files").into(),
+        tr!("Empty this list; the files stay").into(),
+        only_if(!explorer.window.recent.is_empty()),
+    );
     let code = language::current().code();
     let lessons = explorer.lessons.all.iter().enumerate().map(|(i, lesson)| {
         let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
@@ -400,6 +441,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         .chain(examples)
         .chain(lessons)
         .chain(recent)
+        .chain([forget])
         .chain(panes)
         .chain(models)
         .chain(finishes())
@@ -413,6 +455,10 @@ pub fn pressed(explorer: &Explorer, ctx: &egui::Context) -> Option<Command> {
     let any_key = ctx.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Key { pressed: true, .. })));
     if !any_key {
         return None;
+    }
+    if explorer.history.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
+        // As other programs have it.
+        return Some(Command::Redo);
     }
     let mut items = items(explorer);
     // Escape leaves what lies above first, and is nobody's while there is nothing to dismiss.

@@ -32,6 +32,14 @@ impl Language {
         }
     }
 
+    /// Its name in English.
+    pub fn english_name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::Chinese => "Chinese",
+        }
+    }
+
     /// Its code in lessons.
     pub fn code(self) -> &'static str {
         match self {

@@ -1,6 +1,6 @@
-//! The command palette: every command by a few letters of its name.
+//! The command palette: every command by words of its name and its menu.
 
-use super::command::{self, Item, Status};
+use super::command::{self, Command, Item, Status};
 use super::language::{self, Language};
 use super::window::Explorer;
 use egui::{Key, Modifiers, Role, Ui};
@@ -26,15 +26,15 @@ impl Palette {
     }
 }
 
-/// Commands that are listed at most.
-const MOST_LISTED: usize = 14;
+/// Height that the list has at most.
+const LIST_HEIGHT: f32 = 400.0;
 
 /// Draws the palette, if it is open, and orders what is chosen.
 pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
     if !explorer.palette.is_open {
         return;
     }
-    let items = matching(command::items(explorer), english_names(explorer), &explorer.palette.filter);
+    let items = matching(found(explorer), english_names(explorer), &explorer.palette.filter);
     let Explorer { palette, commands, .. } = explorer;
     let area = egui::Modal::default_area(egui::Id::unique("palette")).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 80.0));
     let response = egui::Modal::new(egui::Id::unique("palette")).area(area).show(ui.ctx(), |ui| {
@@ -54,17 +54,25 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
             palette.chosen = 0;
         }
         let mut clicked = None;
-        for (i, item) in items.iter().enumerate() {
-            if row_ui(item, i == palette.chosen, ui) {
-                clicked = Some(i);
+        egui::ScrollArea::vertical().max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
+            for (i, found) in items.iter().enumerate() {
+                let row = row_ui(found, i == palette.chosen, ui);
+                if i == palette.chosen && (down > 0 || up > 0) {
+                    row.scroll_to_me(None);
+                }
+                if row.clicked() {
+                    clicked = Some(i);
+                }
             }
-        }
+        });
         if items.is_empty() {
             ui.weak(tr!("No command has these letters in this order."));
         }
         clicked.or(enter.then_some(palette.chosen))
     });
-    if let Some(item) = response.inner.and_then(|chosen| items.get(chosen)).filter(|item| item.status != Status::Impossible) {
+    if let Some(item) =
+        response.inner.and_then(|chosen| items.get(chosen)).map(|found| &found.item).filter(|item| item.status != Status::Impossible)
+    {
         commands.push(item.command.clone());
         palette.is_open = false;
         ui.ctx().request_repaint();
@@ -73,45 +81,102 @@ pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
 }
 
-fn row_ui(item: &Item, is_chosen: bool, ui: &mut Ui) -> bool {
+fn row_ui(found: &Found, is_chosen: bool, ui: &mut Ui) -> egui::Response {
+    let item = &found.item;
     let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
     let state = if item.status == Status::On { tr!("on") } else { String::new() };
-    let button = egui::Button::selectable(is_chosen, item.text.as_ref()).right_text(format!("{state}  {keys}"));
+    let button = egui::Button::selectable(is_chosen, found.shown()).right_text(format!("{state}  {keys}"));
     let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
-    ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).clicked()
+    let obstacle = item.command.obstacle().unwrap_or_else(|| item.tooltip.to_string());
+    ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(obstacle)
+}
+
+/// A command with what it is found by.
+struct Found {
+    item: Item,
+    name: Name,
+    /// Its English text, where that found it in another language.
+    english: Option<String>,
+}
+
+/// What a command is called: its menu, its text, and what else finds it.
+struct Name {
+    menu: String,
+    text: String,
+    alias: &'static str,
+}
+
+impl Found {
+    fn shown(&self) -> String {
+        let own = if self.name.menu.is_empty() { self.name.text.clone() } else { format!("{} › {}", self.name.menu, self.name.text) };
+        self.english.as_ref().map_or_else(|| own.clone(), |english| format!("{own} · {english}"))
+    }
+}
+
+/// Every command, as the menus have them.
+fn found(explorer: &Explorer) -> Vec<Found> {
+    let mut items = command::items(explorer);
+    items.sort_by_key(|item| (item.menu, item.command == Command::Quit));
+    let found = |item: Item| {
+        let alias = if let Command::SetLanguage(language) = item.command { language.english_name() } else { "" };
+        Found { name: Name { menu: item.menu.name(), text: item.text.to_string(), alias }, item, english: None }
+    };
+    items.into_iter().map(found).collect()
 }
 
 /// The names of all commands in English, where the window speaks another language.
-fn english_names(explorer: &Explorer) -> Option<Vec<String>> {
-    let names = || command::items(explorer).into_iter().map(|item| item.text.into_owned()).collect();
+fn english_names(explorer: &Explorer) -> Option<Vec<Name>> {
+    let names = || found(explorer).into_iter().map(|found| found.name).collect();
     (language::current() != Language::English).then(|| language::in_english(names))
 }
 
-/// The commands that fit, the best first; what is impossible now comes last. Those found by their English names show these too.
-fn matching(mut items: Vec<Item>, english: Option<Vec<String>>, filter: &str) -> Vec<Item> {
-    let misfits: Vec<Option<u32>> = items.iter().map(|item| misfit(&item.text, filter)).collect();
-    let misfits: Vec<Option<u32>> = match english {
-        None => misfits,
-        Some(names) => items.iter_mut().zip(misfits).zip(names).map(|((item, own), name)| with_english(item, own, &name, filter)).collect(),
+/// The commands that fit, the best first; what is impossible now comes last. Scattered letters count where no command has the words.
+/// Those found by their English names show these too.
+fn matching(found: Vec<Found>, english: Option<Vec<Name>>, filter: &str) -> Vec<Found> {
+    let english: Vec<Option<Name>> =
+        english.map_or_else(|| found.iter().map(|_| None).collect(), |names| names.into_iter().map(Some).collect());
+    let rank = |misfit: fn(&Name, &str) -> Option<u32>| -> Vec<Option<(u32, bool)>> {
+        let by_name = |(found, english): (&Found, &Option<Name>)| {
+            let own = misfit(&found.name, filter);
+            let other = english.as_ref().and_then(|name| misfit(name, filter)).filter(|other| own.is_none_or(|own| *other < own));
+            other.map(|other| (other, true)).or(own.map(|own| (own, false)))
+        };
+        found.iter().zip(&english).map(by_name).collect()
     };
-    let mut ranked: Vec<(u32, Item)> = misfits.into_iter().zip(items).filter_map(|(misfit, item)| Some((misfit?, item))).collect();
-    ranked.sort_by_key(|(misfit, item)| (item.status == Status::Impossible, *misfit));
-    ranked.truncate(MOST_LISTED);
-    ranked.into_iter().map(|(_, item)| item).collect()
+    let mut ranks = rank(misfit_of_words);
+    if ranks.iter().all(Option::is_none) {
+        ranks = rank(|name, filter| misfit_of_letters(&name.text, filter));
+    }
+    let fits = ranks.into_iter().zip(found).zip(english).filter_map(|((rank, mut found), english)| {
+        let (misfit, is_english) = rank?;
+        found.english = english.map(|name| name.text).filter(|text| is_english && *text != found.name.text);
+        Some((misfit, found))
+    });
+    let mut ranked: Vec<(u32, Found)> = fits.collect();
+    ranked.sort_by_key(|(misfit, found)| (found.item.status == Status::Impossible, *misfit));
+    ranked.into_iter().map(|(_, found)| found).collect()
 }
 
-/// How far a command is from the letters of a filter by its own name or its English one, which is shown where it is the nearer.
-fn with_english(item: &mut Item, own: Option<u32>, name: &str, filter: &str) -> Option<u32> {
-    let english = misfit(name, filter).filter(|english| !filter.trim().is_empty() && own.is_none_or(|own| *english < own));
-    if english.is_some() && item.text != name {
-        item.text = format!("{} · {name}", item.text).into();
-    }
-    english.or(own)
+/// How far a name is from having the words of a filter; none if one is nowhere. The beginnings of its own words fit best, then what
+/// stands inside of them, then what its menu is called.
+fn misfit_of_words(name: &Name, filter: &str) -> Option<u32> {
+    let [menu, text, alias] = [&name.menu, &name.text, name.alias].map(str::to_lowercase);
+    let begins = |text: &str, word: &str| {
+        let before = |at: usize| text[..at].chars().next_back();
+        text.match_indices(word).any(|(at, _)| before(at).is_none_or(|c| !c.is_alphanumeric()))
+    };
+    let misfit = |word: &str| {
+        let places = [text.starts_with(word), begins(&text, word) || begins(&alias, word), text.contains(word)];
+        let menus = [begins(&menu, word), menu.contains(word) || alias.contains(word)];
+        let at = places.into_iter().chain(menus).position(|fits| fits)?;
+        u32::try_from(at).ok()
+    };
+    filter.to_lowercase().split_whitespace().map(misfit).sum()
 }
 
 /// How far a name is from the letters of a filter; none if it lacks some of them in their order. A letter costs nothing where a word
 /// begins, little right after the letter before it, and else the more the further it is away.
-fn misfit(name: &str, filter: &str) -> Option<u32> {
+fn misfit_of_letters(name: &str, filter: &str) -> Option<u32> {
     let letters: Vec<char> = name.to_lowercase().chars().collect();
     let begins = |i: usize| i == 0 || !letters[i - 1].is_alphanumeric();
     let mut misfit = 0;
@@ -135,13 +200,13 @@ fn misfit(name: &str, filter: &str) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::misfit;
+    use super::{Name, misfit_of_letters, misfit_of_words};
 
     #[test]
     fn beginnings_of_words_fit_best_and_missing_letters_not_at_all() {
         let best = |filter: &str| {
             let names = ["Reset all parameters", "Reset layout", "Redo", "Logarithmic lobes", "Theme: Dark", "Model: Lambert"];
-            names.into_iter().filter_map(|name| Some((misfit(name, filter)?, name))).min().map(|(_, name)| name)
+            names.into_iter().filter_map(|name| Some((misfit_of_letters(name, filter)?, name))).min().map(|(_, name)| name)
         };
         for (filter, expected) in [
             ("rl", Some("Reset layout")),
@@ -154,5 +219,18 @@ mod tests {
         ] {
             assert_eq!(best(filter), expected, "{filter}");
         }
+    }
+
+    #[test]
+    fn words_fit_best_where_they_begin_and_menus_count_too() {
+        let misfit = |menu: &str, text: &str, filter: &str| {
+            misfit_of_words(&Name { menu: menu.to_owned(), text: text.to_owned(), alias: "Chinese" }, filter)
+        };
+        let inside = misfit("Edit", "Undo", "do").expect("inside of a word");
+        assert!(misfit("Edit", "Do it", "do").expect("its beginning") < inside);
+        assert!(inside < misfit("Dot", "Other", "do").expect("the menu"));
+        assert_eq!(misfit("Edit", "Undo", "uo"), None, "scattered letters");
+        assert!(misfit("Language", "简体中文", "chin").is_some() && misfit("Export", "Curves as CSV…", "csv exp").is_some());
+        assert_eq!(misfit("Edit", "Undo", " "), Some(0));
     }
 }

@@ -16,7 +16,7 @@ use super::leaving::Outgoing;
 use super::lessons::{self, Lessons};
 use super::notices::Notices;
 use super::palette::{Palette, palette_ui};
-use super::panes::{Panes, panes_ui};
+use super::panes::{Pane, Panes, panes_ui};
 use super::past_fits::{PastFit, PastFits};
 use super::problem::{problem, reason};
 use super::reading::Arrived;
@@ -376,7 +376,7 @@ impl Explorer {
             Command::SaveSession => self.save_session(ctx)?,
             Command::Export(what, path) => self.export(what, path)?,
             Command::CopyPlot(pane) => ctx.copy_image(leaving::image(self, pane)?),
-            Command::CopyTable => self.copy_table(ctx)?,
+            Command::CopyTable => self.copy_table(ctx),
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
             Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
@@ -415,7 +415,10 @@ impl Explorer {
             Command::Bootstrap => self.start_bootstrap()?,
             Command::CancelScan => self.worker.scan.iter().for_each(super::worker::Job::cancel),
             Command::UseRung(index) => self.use_rung(index),
-            Command::CompareModels => self.compare_models()?,
+            Command::CompareModels => {
+                self.panes.show(Pane::Models);
+                self.compare_models()?;
+            }
             Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
             Command::ForgetReport(subject) => self.reports.forget(subject),
             Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
@@ -475,12 +478,10 @@ impl Explorer {
         self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
     }
 
-    /// The measurement to the clipboard, as its file would be.
-    fn copy_table(&self, ctx: &egui::Context) -> Result<(), String> {
-        let mut table = Vec::new();
-        pbrdf::measurement::write(&self.document.measurement, &mut table).map_err(|error| tr!("{}.", phrase(&error)))?;
-        ctx.copy_text(String::from_utf8_lossy(&table).into_owned());
-        Ok(())
+    /// The table of the pane Data to the clipboard.
+    fn copy_table(&mut self, ctx: &egui::Context) {
+        ctx.copy_text(super::views::table_text(self));
+        self.notices.say_briefly(tr!("{} rows are copied; paste them into a spreadsheet.", self.document.measurement.rows.len()));
     }
 
     /// Everything the user sets as a step of undo has it.

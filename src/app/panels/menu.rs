@@ -60,8 +60,10 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 }
 
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let items = command::items(explorer);
+    let (quit, items): (Vec<Item>, Vec<Item>) = command::items(explorer).into_iter().partition(|item| item.command == Command::Quit);
     let Explorer { commands, typed, window, .. } = explorer;
+    items_ui(&items, Menu::File, commands, ui);
+    ui.separator();
     ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
         ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, commands, ui));
@@ -77,6 +79,7 @@ fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
         let label = ui.label(tr!("Or type a path first, and then choose above:"));
         ui.add(egui::TextEdit::singleline(&mut typed.export).desired_width(260.0)).labelled_by(label.id);
     });
+    ui.separator();
     let label = ui.label(tr!("Type a path to open and press Enter:"));
     let field = ui.add(egui::TextEdit::singleline(&mut typed.open).desired_width(260.0)).labelled_by(label.id);
     if is_entered(&field, ui)
@@ -94,7 +97,7 @@ fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
         ui.close();
     }
     ui.separator();
-    items_ui(&items, Menu::File, commands, ui);
+    items_ui(&quit, Menu::File, commands, ui);
 }
 
 fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
@@ -126,7 +129,8 @@ fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui
             }
             status => ui.add_enabled(status == Status::Possible, egui::Button::new(item.text.as_ref()).shortcut_text(keys)),
         };
-        if clicked.on_hover_text(item.tooltip.as_ref()).clicked() {
+        let obstacle = item.command.obstacle().unwrap_or_else(|| item.tooltip.to_string());
+        if clicked.on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(obstacle).clicked() {
             commands.push(item.command.clone());
             ui.close();
         }

@@ -9,6 +9,7 @@ mod menu;
 mod parameters;
 mod replace;
 mod status;
+mod stepping;
 
 pub use fit::fit_ui;
 pub use help::help_ui;
@@ -18,3 +19,4 @@ pub use menu::menu_ui;
 pub use parameters::{parameters_ui, significant};
 pub use replace::replace_ui;
 pub use status::{notices_ui, status_ui};
+pub use stepping::{Step, step_with_arrows};

@@ -1,6 +1,7 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
 use super::beside::Beside as _;
+use super::stepping::{Step, step_with_arrows};
 use crate::app::language::{phrase, translated};
 use crate::app::lessons::Lessons;
 use crate::app::notices::Notices;
@@ -145,8 +146,10 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
         ];
         for (angle, default, range, name, help) in angles {
             let label = name_ui(ui, name, &help);
+            let before = *angle;
             let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
             let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help);
+            step_with_arrows(ui, &slider, before, angle, &range, Step::Fixed(0.5));
             if is_double_clicked(ui, &[&label, &slider]) {
                 *angle = default;
             }
@@ -186,7 +189,7 @@ fn sliders_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons,
 fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
-        "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it.",
+        "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it, with Shift by a tenth.",
         translated(parameter.name()),
         parameter.symbol(),
         translated(parameter.help()),
@@ -196,11 +199,14 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
     let label = name_ui(ui, parameter.symbol(), &help);
 
     let value = &mut settings.parameters[parameter];
+    let before = *value;
     let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
     if parameter.is_logarithmic() {
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
     let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help.as_str());
+    let step = if parameter.is_logarithmic() { Step::OfSize } else { Step::over(&range) };
+    step_with_arrows(ui, &slider, before, value, &range, step);
     if is_double_clicked(ui, &[&label, &slider]) {
         *value = parameter.default_value();
     }

@@ -2,7 +2,7 @@
 
 use super::{explorer, harness, wait};
 use crate::app::command::Command;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::{Starts, Weights};
 use pbrdf::measurement::Quantity;
 use pbrdf::model::{Parameter, ParameterSet, Parameters};
@@ -28,7 +28,8 @@ fn back_and_use_as_sliders_go_to_and_fro() {
     harness.step();
     wait(&mut harness);
     let fitted = explorer(&mut harness).settings.parameters;
-    harness.get_by_label("Back").click();
+    assert!(harness.get_by_label("Use as sliders").accesskit_node().is_disabled(), "the sliders are the fit's");
+    harness.get_by_label("Back to before the fit").click();
     harness.run();
     assert_eq!(explorer(&mut harness).settings.parameters, Parameters::default());
     let model = explorer(&mut harness).settings.model;
@@ -129,7 +130,10 @@ fn comparing_models_lists_the_ladder() {
     wait(&mut harness);
     let models: Vec<&str> = explorer(&mut harness).comparison.iter().map(|rung| rung.preset.key).collect();
     assert_eq!(models.len(), pbrdf::model::PRESETS.len());
-    harness.get_by_label("three-component");
+    // The pane with the results came to the front, with the names of the list of models.
+    let name = "two components, Minnaert diffuse (Zhu)";
+    harness.get_all_by_label_contains(name).next().expect("a row of the comparison");
+    assert!(harness.query_all_by_label_contains("★").count() == 1, "the best is marked");
 }
 
 #[test]

@@ -243,7 +243,9 @@ fn plots_and_tables_go_to_the_clipboard() {
             egui::OutputCommand::CopyImage(image) => {
                 is_image && image.width() > 500 && image.pixels.iter().any(|pixel| *pixel != egui::Color32::WHITE)
             }
-            egui::OutputCommand::CopyText(text) => !is_image && text.contains("theta_i,theta_r,dphi,dolp"),
+            egui::OutputCommand::CopyText(text) => {
+                !is_image && text.starts_with("row\tmask\tθi / °\tθr / °\tΔφ / °\tDoLP\tDoLP ± s.d.\tDoLP model\tDoLP residual")
+            }
             _ => false,
         });
         assert!(found, "{commands:?}");

@@ -86,8 +86,7 @@ fn models_stand_beside_each_other_and_one_is_taken_over() {
     harness.get_by_label_contains("Cauchy against Gauss (all terms)");
     harness.get_by_label("Starts and where they led").click();
     harness.run();
-    // The list in the fit panel has the names as plain text.
-    harness.get_by_role_and_label(Role::Button, "minnaert").click();
+    harness.get_by_role_and_label(Role::Button, "two components, Minnaert diffuse (Zhu)").click();
     harness.run();
     let explorer = explorer(&mut harness);
     let preset = Preset::from_key("minnaert").expect("a preset");

@@ -162,3 +162,28 @@ fn tooltips_of_sliders_cover_no_row_of_the_panel() {
         assert_eq!(tooltips(&harness), [], "{name}");
     }
 }
+
+#[test]
+fn a_dragged_slider_takes_arrow_keys_and_right_and_left_come_back_exactly() {
+    let mut harness = harness();
+    let slider = harness.get_by_role_and_label(Role::Slider, "k").rect();
+    harness.drag_at(slider.center());
+    harness.run();
+    harness.hover_at(slider.center() + egui::vec2(7.0, 0.0));
+    harness.run();
+    harness.drop_at(slider.center() + egui::vec2(7.0, 0.0));
+    harness.run();
+    let k = 2.345_678_901_234_5;
+    explorer(&mut harness).settings.parameters.k = k;
+    harness.run();
+    harness.key_press(egui::Key::ArrowRight);
+    harness.run();
+    assert!((explorer(&mut harness).settings.parameters.k - k - 0.1).abs() < 1e-8);
+    harness.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
+    harness.run();
+    assert!((explorer(&mut harness).settings.parameters.k - k - 0.11).abs() < 1e-8);
+    harness.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowLeft);
+    harness.key_press(egui::Key::ArrowLeft);
+    harness.run();
+    assert_eq!(explorer(&mut harness).settings.parameters.k, k);
+}

@@ -11,7 +11,7 @@ use crate::app::words;
 use crate::app::worker::{Job, Rung};
 use egui::{CollapsingHeader, Grid, RichText, ScrollArea, Ui};
 use pbrdf::fit::{Contest, Estimate, FitReport, Standing};
-use pbrdf::model::Parameter;
+use pbrdf::model::{Parameter, Preset};
 use tr::tr;
 
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
@@ -31,7 +31,7 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 commands.push(Command::CancelComparison);
             }
             ui.spinner();
-            ui.label(tr!("Fitting: {}", at.unwrap_or("…")));
+            running_model_ui(at, ui);
         }
     });
     if comparison.is_empty() {
@@ -48,6 +48,12 @@ pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
         }
         CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
     });
+}
+
+/// Which model is being fitted.
+pub fn running_model_ui(key: Option<&str>, ui: &mut Ui) {
+    let preset = key.and_then(Preset::from_key);
+    ui.add(egui::Label::new(tr!("Fitting: {}", preset.map_or_else(|| "…".to_owned(), |preset| translated(preset.name)))).truncate());
 }
 
 /// Between columns.
@@ -71,8 +77,13 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Docum
         ui.end_row();
         for (index, rung) in comparison.iter().enumerate() {
             let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
-            let help = format!("{}\n{}", translated(rung.preset.name), translated(rung.preset.citation));
-            if ui.selectable_label(is_current, rung.preset.key).on_hover_text(help).clicked() {
+            let is_best = rung.result.as_ref().is_ok_and(|report| report.aicc == Some(best));
+            let name = translated(rung.preset.name);
+            let text = RichText::new(if is_best { format!("{name} ★") } else { name });
+            let text = if is_best { text.strong() } else { text };
+            let citation = translated(rung.preset.citation);
+            let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
+            if ui.selectable_label(is_current, text).on_hover_text(help).clicked() {
                 commands.push(Command::UseRung(index));
             }
             match &rung.result {
@@ -113,7 +124,7 @@ fn parameters_ui(comparison: &[Rung], ui: &mut Ui) {
         ui.end_row();
         for rung in comparison {
             let Ok(report) = &rung.result else { continue };
-            ui.label(rung.preset.key);
+            ui.label(translated(rung.preset.name));
             for parameter in Parameter::ALL {
                 match report.estimates.iter().find(|estimate| estimate.parameter == parameter) {
                     Some(estimate) => estimate_ui(estimate, ui),
@@ -151,7 +162,7 @@ fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
         for rung in comparison {
             let minima = rung.result.as_ref().map_or(&[][..], |report| &report.minima);
             for (i, minimum) in minima.iter().take(MOST_MINIMA).enumerate() {
-                ui.label(if i == 0 { rung.preset.key } else { "" });
+                ui.label(if i == 0 { translated(rung.preset.name) } else { String::new() });
                 ui.monospace(format!("{:.6e}", minimum.objective));
                 ui.label(format!("{} ×", minimum.reached));
                 ui.label(translated(minimum.stop_reason.text()));

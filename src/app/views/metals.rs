@@ -98,10 +98,17 @@ fn set(index: RefractiveIndex) -> Command {
     Command::SetParameters(PARTS.iter().map(|(parameter, part)| (*parameter, part(index))).collect())
 }
 
+/// Its name, with its symbol where it has one of its own.
+fn name_and_symbol(metal: &Metal) -> String {
+    let name = translated(&metal.name);
+    let has_symbol = metal.key.replace('-', " ") != metal.name.to_lowercase();
+    if has_symbol { format!("{name} ({})", metal.key) } else { name }
+}
+
 fn choice_ui(tabulated: &mut Tabulated, metal: &Metal, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Metal"));
-        let text = |Metal { key, name, .. }: &Metal| format!("{} ({key})", translated(name));
+        let text = name_and_symbol;
         let combo = ComboBox::from_id_salt("metal").width(170.0).height(400.0).selected_text(text(metal)).show_ui(ui, |ui| {
             for other in optics::metals().into_iter().flatten() {
                 if ui.selectable_label(other.key == metal.key, text(other)).clicked() {
@@ -123,8 +130,10 @@ fn wavelength_ui(explorer: &mut Explorer, ui: &mut Ui) {
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
         ui.spacing_mut().slider_width = 260.0;
         let range = Tabulated::SHORTEST_NM..=Tabulated::LONGEST_NM;
+        let before = *wavelength_nm;
         let slider = Slider::new(wavelength_nm, range.clone()).show_value(false).step_by(1.0).clamping(SliderClamping::Never);
-        ui.add(slider).labelled_by(label.id).on_hover_text(help.as_str());
+        let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help.as_str());
+        step_with_arrows(ui, &slider, before, wavelength_nm, &range, Step::Fixed(1.0));
         let value = DragValue::new(wavelength_nm).range(range).clamp_existing_to_range(false).speed(1.0).max_decimals(3);
         ui.add(value.suffix(" nm")).labelled_by(label.id);
         if let Some(measured) = measured.filter(|measured| measured != wavelength_nm)

@@ -20,7 +20,7 @@ mod stability;
 mod table;
 
 pub use audit::{audit_figure, audit_refresh, audit_ui};
-pub use comparison::comparison_ui;
+pub use comparison::{comparison_ui, running_model_ui};
 pub use convergence::{convergence_figure, convergence_options_ui, convergence_refresh, convergence_ui};
 pub use cost::cost_ui;
 pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
@@ -34,7 +34,7 @@ pub use mueller::{mueller_figure, mueller_refresh, mueller_ui};
 pub use planner::{planner_refresh, planner_ui};
 pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
 pub use stability::stability_ui;
-pub use table::{table_refresh, table_ui};
+pub use table::{table_refresh, table_text, table_ui};
 
 use super::panes::Pane;
 

@@ -11,7 +11,7 @@ use crate::app::words::{mask_help, short};
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::fit::Eq17;
-use pbrdf::measurement::{Quantity, Row};
+use pbrdf::measurement::{Quantity, Row, exact};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use std::ops::Range;
@@ -52,6 +52,38 @@ pub fn table_refresh(explorer: &mut Explorer) {
         };
         rows[visible.clone()].iter().map(predict).collect()
     });
+}
+
+/// All rows as the pane shows them, with all digits, and with tabs between cells.
+pub fn table_text(explorer: &Explorer) -> String {
+    let Explorer { settings, document, .. } = explorer;
+    let measurement = &document.measurement;
+    let surface = Pbrdf::new(settings.model, settings.parameters).ok();
+    let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
+    let shown = [("DoLP", measurement.has_dolp()), ("BRDF", measurement.has_brdf())];
+    let mut headings: Vec<String> = ["row", "mask"].map(translated).into();
+    headings.extend(ANGLES.map(|(heading, ..)| heading.to_owned()));
+    for (name, _) in shown.iter().filter(|(_, is_there)| *is_there) {
+        let others = ["± s.d.", "model", "residual"].map(|heading| format!("{name} {}", translated(heading)));
+        headings.extend(std::iter::once((*name).to_owned()).chain(others));
+    }
+    let mut lines = vec![headings.join("\t")];
+    for (index, row) in measurement.rows.iter().enumerate() {
+        let geometry = row.geometry;
+        let mut cells = vec![(index + 1).to_string(), u8::from(row.masked).to_string()];
+        cells.extend([geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0].map(exact));
+        let reflection = surface.as_ref().map(|surface| surface.reflection(&Facet::new(geometry)));
+        let dolp = (row.dolp, reflection.map(|reflection| gain * reflection.dolp));
+        let brdf = (row.brdf, reflection.map(|reflection| reflection.brdf));
+        for (measured, model) in [dolp, brdf].into_iter().zip(shown).filter(|(_, (_, is_there))| *is_there).map(|(values, _)| values) {
+            let value = measured.map(|measured| measured.value);
+            let residual = value.zip(model).map(|(value, model)| model - value);
+            let numbers = [value, measured.and_then(|measured| measured.sigma), model, residual];
+            cells.extend(numbers.map(|number| number.map_or_else(String::new, exact)));
+        }
+        lines.push(cells.join("\t"));
+    }
+    lines.join("\n") + "\n"
 }
 
 pub fn table_ui(explorer: &mut Explorer, ui: &mut Ui) {
@@ -118,18 +150,18 @@ type Heading = (&'static str, &'static str, f32);
 
 const ANGLES: [Heading; 3] = [
     ("θi / °", "Angle of incidence", 46.0),
-    ("θr / °", "Angle of view", 46.0),
+    ("θr / °", "Angle of view; the backscatter side has Δφ = 0 here and a negative θr in plots", 46.0),
     ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 46.0),
 ];
 const DOLP: [Heading; 4] = [
     ("DoLP", "Measured degree of linear polarisation", 68.0),
-    ("± σ", "Its stated standard deviation", 62.0),
+    ("± s.d.", "Its stated standard deviation", 62.0),
     ("model", "DoLP of the model at the sliders", 68.0),
     ("residual", "Model less measurement", 68.0),
 ];
 const BRDF: [Heading; 4] = [
     ("BRDF", "Measured BRDF in 1/sr", 80.0),
-    ("± σ", "Its stated standard deviation", 80.0),
+    ("± s.d.", "Its stated standard deviation", 80.0),
     ("model", "BRDF of the model at the sliders", 80.0),
     ("residual", "Model less measurement", 80.0),
 ];

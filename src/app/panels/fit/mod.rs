@@ -43,7 +43,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 ui.spinner();
             }
         });
-        ui.weak(free_text(free));
+        ui.weak(free_text(free, settings));
         if let Some(text) = derived.values().and_then(|values| words::too_few(values, free.len())) {
             ui.add(Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
         }
@@ -72,7 +72,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."))
                         .on_hover_text(words::mask_help());
                 }
-                result::result_ui(fit, scans.scatter.as_ref(), commands, ui);
+                result::result_ui(fit, settings, scans.scatter.as_ref(), commands, ui);
                 scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
             }
             None => {
@@ -97,7 +97,14 @@ fn sigmas_ui(settings: &mut Settings, derived: &Derived, ui: &mut Ui) {
     }
 }
 
-fn free_text(free: ParameterSet) -> String {
+/// What a fit would change, or why it would change nothing.
+fn free_text(free: ParameterSet, settings: &Settings) -> String {
     let names: Vec<&str> = free.iter().map(Parameter::symbol).collect();
-    if names.is_empty() { tr!("Nothing is free: all parameters are fixed.") } else { tr!("Free: {}", names.join(", ")) }
+    let of_model = settings.model.parameters();
+    match () {
+        () if !names.is_empty() => tr!("Free: {}", names.join(", ")),
+        () if of_model.is_empty() => tr!("Nothing is free: no lobe with parameters is on."),
+        () if of_model.without_all(settings.locked).is_empty() => tr!("Nothing is free: all parameters are fixed."),
+        () => tr!("Nothing is free: the data say nothing about what is not fixed."),
+    }
 }

@@ -6,22 +6,25 @@ use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
 use crate::app::past_fits::PastFit;
 use crate::app::scans::Bootstrap;
+use crate::app::state::Settings;
 use crate::app::theme;
 use crate::app::words;
-use egui::{Grid, RichText, Ui};
+use egui::{Button, Grid, RichText, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
 use tr::tr;
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &PastFit, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn result_ui(fit: &PastFit, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
     let report = &fit.report;
     ui.horizontal(|ui| {
-        if ui.button(tr!("Use as sliders")).on_hover_text(tr!("The fitted values to the sliders")).clicked() {
+        let are_sliders = settings.parameters == report.parameters && settings.model == report.model;
+        let take = ui.add_enabled(!are_sliders, Button::new(tr!("Use as sliders"))).on_hover_text(tr!("The fitted values to the sliders"));
+        if take.on_disabled_hover_text(tr!("The sliders are those of the fit.")).clicked() {
             commands.push(Command::UseFit);
         }
-        if ui.button(tr!("Back")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
+        if ui.button(tr!("Back to before the fit")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
             commands.push(Command::Back);
         }
     });

@@ -27,6 +27,6 @@ pub fn metals_figure(explorer: &Explorer) -> Option<Figure> {
             ..Panel::default()
         }
     });
-    let title = format!("{} ({})", translated(metal.name.as_str()), metal.key);
+    let title = super::name_and_symbol(metal);
     Some(Figure { title, panels: panels.collect(), width_mm: 160.0, height_mm: 170.0, ..Figure::default() })
 }
