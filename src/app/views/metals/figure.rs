@@ -1,7 +1,6 @@
 //! n and k of a metal against the wavelength for print.
 
 use super::{PARTS, chosen};
-use crate::app::language::translated;
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
 use crate::app::window::Explorer;
 use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
