@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::curves::{Pieces, pieces};
 use crate::app::language::translated;
 use crate::app::memo::Memo;
+use crate::app::panels::{Step, step_with_arrows};
 use crate::app::plots::axis::{self, axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, plot, round_up};
 use crate::app::state::{Settings, Tabulated};
