@@ -83,7 +83,7 @@ fn why_a_file_is_foreign_and_why_it_cannot_be_opened_yet() {
         let mut harness = harness();
         order(&mut harness, Command::OpenMeasurement(path.clone()));
         let import = explorer(&mut harness).import.as_mut().expect("a question");
-        import.choice = Choice::Table(Mapping { columns: Vec::new() });
+        import.choice = Choice::Table(Mapping::default());
         wait(&mut harness);
         harness
     };
