@@ -61,6 +61,7 @@ const SAME: &[&str] = &[
     "CSV",
     "Close",
     "Ctrl",
+    "Escape",
     "DoLP",
     "English",
     "GGX",
