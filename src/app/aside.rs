@@ -39,8 +39,9 @@ impl Explorer {
         }
         let begins = self.lessons.open.is_none_or(|(open, _)| open != lesson);
         if begins {
+            self.is_free_for_lessons()?;
             self.close_lesson();
-            self.set_aside()?;
+            self.set_aside();
         }
         self.lessons.open = Some((lesson, step));
         self.set_up_step(lesson, step, begins);
@@ -48,10 +49,7 @@ impl Explorer {
     }
 
     /// Keeps the user's own work, and goes on with the same panes and no fit; data and sliders are then the lesson's.
-    fn set_aside(&mut self) -> Result<(), String> {
-        if self.worker.load.is_some() || self.worker.session.is_some() {
-            return Err(tr!("A file is still being read: begin the lesson when it is there."));
-        }
+    fn set_aside(&mut self) {
         if self.worker.fit.is_some() || self.worker.comparison.is_some() || self.worker.scan.is_some() {
             self.say(tr!("What was being fitted was stopped for the lesson."));
         }
@@ -72,6 +70,26 @@ impl Explorer {
             session_file: self.session_file.take(),
         }));
         self.refitted = Some(self.settings.parameters);
+    }
+
+    /// Whether nothing is on its way that belongs to what is shown now: an answer or a file would meet the other work.
+    fn is_free_for_lessons(&self) -> Result<(), String> {
+        if self.worker.load.is_some() || self.worker.session.is_some() {
+            return Err(tr!("A file is still being read: begin the lesson when it is there."));
+        }
+        if self.worker.is_asking() || self.worker.export.is_some() || self.import.is_some() || self.replacing.is_some() {
+            return Err(tr!("A file is being chosen or written: lessons begin and end when that is done."));
+        }
+        Ok(())
+    }
+
+    /// Closes the lesson, if nothing is on its way that belongs to it.
+    pub(super) fn end_lesson(&mut self) -> Result<(), String> {
+        // What is being read for the lesson is not wanted any more.
+        self.worker.abandon_load();
+        self.worker.session = None;
+        self.is_free_for_lessons()?;
+        self.close_lesson();
         Ok(())
     }
 

@@ -79,7 +79,7 @@ impl Explorer {
     /// Puts a measurement that was read in the place of the one that is open.
     pub(super) fn loaded(&mut self, origin: Origin, imported: Imported) {
         let Origin { name, path, sha256 } = origin;
-        self.notices.clear();
+        self.notices.reading_succeeded();
         // A file is the user's own work, and takes the place of what was set aside.
         if path.is_some() && self.lessons.open.is_some() {
             self.close_lesson();

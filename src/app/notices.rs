@@ -1,4 +1,5 @@
-//! Sentences to the user: one about a success goes by itself, every other one stays until it is dismissed.
+//! Sentences to the user: one about a success goes by itself, one about a file that cannot be read goes when another one is, every other
+//! one stays until it is dismissed.
 
 use egui::Color32;
 
@@ -14,6 +15,8 @@ pub struct Notice {
     pub text: String,
     /// Whether it goes by itself.
     pub is_brief: bool,
+    /// Whether it tells why a file cannot be read.
+    is_of_reading: bool,
     /// When it goes, in seconds of the window's clock; not known before it was shown.
     until: Option<f64>,
 }
@@ -26,17 +29,27 @@ const MOST: usize = 12;
 impl Notices {
     /// A sentence that stays until it is dismissed.
     pub fn say(&mut self, text: String) {
-        self.push(text, false);
+        self.push(Notice { text, is_brief: false, is_of_reading: false, until: None });
+    }
+
+    /// Why a file cannot be read: stays until another one is, or until it is dismissed.
+    pub fn say_of_reading(&mut self, text: String) {
+        self.push(Notice { text, is_brief: false, is_of_reading: true, until: None });
+    }
+
+    /// A file was read: what was said of those before is past.
+    pub fn reading_succeeded(&mut self) {
+        self.all.retain(|notice| !notice.is_of_reading);
     }
 
     /// A sentence that goes by itself.
     pub fn say_briefly(&mut self, text: String) {
-        self.push(text, true);
+        self.push(Notice { text, is_brief: true, is_of_reading: false, until: None });
     }
 
-    fn push(&mut self, text: String, is_brief: bool) {
-        self.all.retain(|other| other.text != text);
-        self.all.push(Notice { text, is_brief, until: None });
+    fn push(&mut self, notice: Notice) {
+        self.all.retain(|other| other.text != notice.text);
+        self.all.push(notice);
         let surplus = self.all.len().saturating_sub(MOST);
         self.all.drain(..surplus);
     }

@@ -246,7 +246,8 @@ impl Explorer {
 
     pub(super) fn receive(&mut self, event: Event) {
         match event {
-            Event::Answered(question, Ok(path)) => self.commands.extend(path.map(|path| question.command(path))),
+            // It was asked before whatever waits to be carried out, and is about the work of then.
+            Event::Answered(question, Ok(path)) => drop(self.commands.splice(..0, path.map(|path| question.command(path)))),
             Event::Answered(question, Err(NoDialog)) => self.say(question.without_dialog()),
             Event::Exported(what, result) => self.exported(what, result),
             Event::Autosaved(result) => {
@@ -268,7 +269,7 @@ impl Explorer {
             }
             Event::Loaded { origin, result: Err(sentence) } => {
                 origin.path.iter().for_each(|path| self.window.forget(path));
-                self.say(sentence);
+                self.notices.say_of_reading(sentence);
             }
             Event::Imported(result) => self.imported(result),
             Event::Refitted(report) => {
@@ -321,8 +322,8 @@ impl Explorer {
     }
 
     fn listen_to_keys(&mut self, ctx: &egui::Context) {
-        // Keys belong to the field that is being typed into.
-        if ctx.text_edit_focused() {
+        // Keys belong to the field that is being typed into, or to the question that is asked.
+        if ctx.text_edit_focused() || self.import.is_some() || self.replacing.is_some() {
             return;
         }
         self.commands.extend(command::pressed(self, ctx));
@@ -385,7 +386,7 @@ impl Explorer {
             }
             Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
-            Command::CloseLesson => self.close_lesson(),
+            Command::CloseLesson => self.end_lesson()?,
             Command::KeepLesson => self.keep_lesson(),
             Command::Import => self.start_import()?,
             Command::CancelImport => self.cancel_import(),

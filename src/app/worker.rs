@@ -233,6 +233,11 @@ impl Worker {
         }
     }
 
+    /// Whether a dialog of the desktop is open.
+    pub fn is_asking(&self) -> bool {
+        self.dialog.is_some()
+    }
+
     /// Asks the desktop, one question at a time.
     pub fn ask(&mut self, question: Question) -> Result<(), String> {
         if self.dialog.is_none() {

@@ -103,7 +103,7 @@ impl Explorer {
         let is_working = self.working_file.as_deref() == Some(path);
         match result {
             Ok(opened) => {
-                self.notices.clear();
+                self.notices.reading_succeeded();
                 self.typed.served(path);
                 let left_out: Vec<String> = opened.session.left_out.iter().map(phrase).collect();
                 self.show_session(*opened);
@@ -128,7 +128,7 @@ impl Explorer {
             }
             Err(sentence) => {
                 self.window.forget(path);
-                self.say(sentence);
+                self.notices.say_of_reading(sentence);
             }
         }
     }

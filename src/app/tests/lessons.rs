@@ -391,3 +391,61 @@ fn a_step_states_the_ends_of_a_slider() {
     order(&mut harness, Command::CloseLesson);
     assert_eq!(reach(&mut harness), own);
 }
+
+/// A table with names of its own, which the window asks about.
+fn foreign(folder: &std::path::Path) -> std::path::PathBuf {
+    let path = folder.join("foreign.csv");
+    std::fs::write(&path, "a,b,c\n30,20,0.1\n30,40,0.2\n").expect("a writable folder");
+    path
+}
+
+#[test]
+fn no_lesson_begins_under_a_question() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::OpenMeasurement(foreign(folder.path())));
+    wait(&mut harness);
+    assert!(explorer(&mut harness).import.is_some());
+    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    wait(&mut harness);
+    let state = explorer(&mut harness);
+    assert!(state.lessons.open.is_none() && state.import.is_some());
+    assert!(state.notices.take().is_some_and(|text| text.contains("being chosen")));
+    // Nor does a key open anything over the question.
+    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::P);
+    harness.run();
+    assert!(!explorer(&mut harness).palette.is_open());
+}
+
+#[test]
+fn an_answer_is_about_the_work_it_was_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("own.pbrdf.json");
+    let mut harness = harness();
+    explorer(&mut harness).settings.parameters.k = 4.5;
+    wait(&mut harness);
+    // The lesson is asked for in the very frame in which the answer comes.
+    let question = crate::app::dialogs::Question::Export(Outgoing::Session, String::new());
+    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    explorer(&mut harness).receive(crate::app::worker::Event::Answered(question, Ok(Some(path.clone()))));
+    wait(&mut harness);
+    let text = std::fs::read_to_string(&path).expect("a file");
+    assert_eq!(Session::read(&text).expect("a session").settings.parameters.k, 4.5);
+}
+
+#[test]
+fn what_was_said_before_a_session_is_opened_is_still_there_after() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("working.pbrdf.json");
+    let mut harness = harness();
+    let mut bytes = Vec::new();
+    crate::app::leaving::session(explorer(&mut harness)).write(&mut bytes).expect("memory takes everything");
+    std::fs::write(&path, bytes).expect("a writable folder");
+    let state = explorer(&mut harness);
+    state.say("The settings are damaged.".to_owned());
+    state.notices.say_of_reading("other.csv: no such file.".to_owned());
+    state.working_file = Some(path);
+    state.resume();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).notices.take().as_deref(), Some("The settings are damaged."));
+}
