@@ -185,7 +185,7 @@ fn sliders_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons,
     });
 }
 
-/// Name, slider, typed value with unit, lock, reset.
+/// Name, slider, typed value with unit; lock and reset.
 fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
@@ -254,6 +254,11 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
     if let Some(sentence) = refused.into_inner() {
         notices.say(sentence);
     }
+    lock_and_reset_ui(settings, outside, ui, parameter);
+}
+
+/// Whether a fit leaves the parameter alone, and the way back to its default.
+fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parameter: Parameter) {
     let mut locked = settings.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_beside(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
