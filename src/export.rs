@@ -47,7 +47,8 @@ pub fn report_kind(path: &Path) -> Result<ReportKind, String> {
     }
 }
 
-/// Refuses a file name that says another kind of file; the error is a phrase.
+/// Refuses a file name that says another kind of file; the error is a phrase. Only the window asks for a name by its kind.
+#[cfg(any(feature = "gui", test))]
 pub fn expect_ending(path: &Path, ending: &str) -> Result<(), String> {
     if extension(path) == ending { Ok(()) } else { Err(format!("{}: expected a name that ends in .{ending}", path.display())) }
 }
