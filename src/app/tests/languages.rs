@@ -113,8 +113,8 @@ const SAME: &[&str] = &[
 /// Whether something in it is English: an entry of the literature, which has its year, is not translated.
 fn is_english(text: &str) -> bool {
     let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit));
-    // One that is cut before its year begins with initials.
-    let is_cut = text.ends_with('…') && text.as_bytes().get(1) == Some(&b'.');
+    // One that is cut before its year begins with initials, or stands in a bracket that does not close.
+    let is_cut = text.ends_with('…') && (text.as_bytes().get(1) == Some(&b'.') || text.contains('（'));
     if PRESETS.iter().any(|preset| preset.key == text) {
         return false;
     }

@@ -9,7 +9,7 @@ use crate::app::theme;
 use crate::app::window::Explorer;
 use crate::app::words;
 use crate::app::worker::{Job, Rung};
-use egui::{CollapsingHeader, Grid, RichText, ScrollArea, Ui};
+use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
 use pbrdf::fit::{Contest, Estimate, FitReport, Standing};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
@@ -59,6 +59,17 @@ pub fn running_model_ui(key: Option<&str>, ui: &mut Ui) {
 /// Between columns.
 const SPACING: [f32; 2] = [9.0, 4.0];
 
+/// Width of the names, in points: with it the numbers beside them fit into a pane of a small window.
+const NAME: f32 = 200.0;
+
+fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
+    ui.scope(|ui| {
+        ui.set_max_width(NAME);
+        ui.add(name)
+    })
+    .inner
+}
+
 fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
@@ -79,11 +90,12 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Docum
             let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
             let is_best = rung.result.as_ref().is_ok_and(|report| report.aicc == Some(best));
             let name = translated(rung.preset.name);
-            let text = RichText::new(if is_best { format!("{name} ★") } else { name });
+            let text = RichText::new(if is_best { format!("★ {name}") } else { name.clone() });
             let text = if is_best { text.strong() } else { text };
             let citation = translated(rung.preset.citation);
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
-            if ui.selectable_label(is_current, text).on_hover_text(help).clicked() {
+            let button = Button::selectable(is_current, text).truncate();
+            if narrow(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
                 commands.push(Command::UseRung(index));
             }
             match &rung.result {
@@ -124,7 +136,7 @@ fn parameters_ui(comparison: &[Rung], ui: &mut Ui) {
         ui.end_row();
         for rung in comparison {
             let Ok(report) = &rung.result else { continue };
-            ui.label(translated(rung.preset.name));
+            narrow(ui, Label::new(translated(rung.preset.name)).truncate());
             for parameter in Parameter::ALL {
                 match report.estimates.iter().find(|estimate| estimate.parameter == parameter) {
                     Some(estimate) => estimate_ui(estimate, ui),
