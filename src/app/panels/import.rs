@@ -35,8 +35,15 @@ pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
             if let Some(job) = &worker.load {
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
                 ui.add(egui::ProgressBar::new(job.progress().unwrap_or(0.0) as f32).desired_width(160.0).text(tr!("Reading…")));
-            } else if ui.add_enabled(is_sound, egui::Button::new(tr!("Open"))).clicked() {
-                commands.push(Command::Import);
+            } else {
+                let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
+                if open.clicked() {
+                    commands.push(Command::Import);
+                }
+                // Enter opens.
+                if is_sound && ui.memory(|memory| memory.focused().is_none()) {
+                    open.request_focus();
+                }
             }
             if ui.button(tr!("Cancel")).on_hover_text(tr!("What is open stays")).clicked() {
                 commands.push(Command::CancelImport);
@@ -152,7 +159,16 @@ fn unit_text(field: Field, unit: Unit) -> String {
 
 /// Every column with its first cells, what it is and in which unit.
 fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
-    ui.add(Label::new(tr!("Which column is what? The header is not the program's own: {}.", phrase(&table.reason))).wrap());
+    let angles = [Field::ThetaI, Field::ThetaR].iter().all(|angle| mapping.find(*angle).is_some() || mapping.constant(*angle).is_some());
+    let text = if angles && mapping.has_quantity() {
+        tr!("The columns are taken as follows: change what is not so.")
+    } else {
+        tr!("Which column is what? The header is not the program's own: {}.", phrase(&table.reason))
+    };
+    // As high whichever it is: the dialog keeps its size.
+    let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body) + 4.0;
+    let height = ui.add(Label::new(text).wrap()).rect.height();
+    ui.add_space((lines - height).max(0.0));
     ScrollArea::both().id_salt("columns").max_height(COLUMNS_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
         Grid::new("columns").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
             for heading in [tr!("Column"), tr!("First rows"), tr!("Meaning"), tr!("Unit")] {

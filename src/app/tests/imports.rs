@@ -275,3 +275,19 @@ fn the_command_line_opens_foreign_files_too() {
     wait(&mut harness);
     assert!(explorer(&mut harness).import.is_some());
 }
+
+#[test]
+fn enter_opens_a_table_whose_columns_are_guessed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("lab.csv");
+    std::fs::write(&path, "inc,view,dolp\n30,20,0.1\n30,40,0.2\n40,40,0.3\n").expect("a writable folder");
+    let mut harness = harness();
+    explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
+    wait(&mut harness);
+    harness.get_by_label_contains("The columns are taken as follows");
+    harness.key_press(egui::Key::Enter);
+    wait(&mut harness);
+    let explorer = explorer(&mut harness);
+    assert!(explorer.import.is_none());
+    assert_eq!(explorer.document.measurement.rows.len(), 3);
+}
