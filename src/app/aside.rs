@@ -72,23 +72,25 @@ impl Explorer {
         self.refitted = Some(self.settings.parameters);
     }
 
-    /// Whether nothing is on its way that belongs to what is shown now: an answer or a file would meet the other work.
+    /// Whether nothing is on its way that belongs to what is shown now: a file would meet the other work.
     fn is_free_for_lessons(&self) -> Result<(), String> {
         if self.worker.load.is_some() || self.worker.session.is_some() {
             return Err(tr!("A file is still being read: begin the lesson when it is there."));
         }
+        self.awaits_no_answer()
+    }
+
+    /// Whether no question about a file is open and none is being written: the answer would meet the other work.
+    fn awaits_no_answer(&self) -> Result<(), String> {
         if self.worker.is_asking() || self.worker.export.is_some() || self.import.is_some() || self.replacing.is_some() {
             return Err(tr!("A file is being chosen or written: lessons begin and end when that is done."));
         }
         Ok(())
     }
 
-    /// Closes the lesson, if nothing is on its way that belongs to it.
+    /// Closes the lesson, if no answer is awaited that belongs to it; what is being read for it is not wanted any more.
     pub(super) fn end_lesson(&mut self) -> Result<(), String> {
-        // What is being read for the lesson is not wanted any more.
-        self.worker.abandon_load();
-        self.worker.session = None;
-        self.is_free_for_lessons()?;
+        self.awaits_no_answer()?;
         self.close_lesson();
         Ok(())
     }
