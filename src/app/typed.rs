@@ -32,7 +32,7 @@ impl Typed {
     /// The measurement or the session into the typed path, as its ending says.
     pub fn save_command(&self) -> Option<Command> {
         let path = path_in(&self.save)?;
-        let is_session = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        let is_session = Outgoing::Session.check(&path).is_ok();
         Some(if is_session { Command::ExportNew(Outgoing::Session, path) } else { Command::SaveNew(path) })
     }
 

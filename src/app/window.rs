@@ -369,7 +369,7 @@ impl Explorer {
             Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
                 self.choose(&command)?;
             }
-            Command::OpenMeasurement(path) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+            Command::OpenMeasurement(path) if leaving::Outgoing::Session.check(&path).is_ok() => {
                 self.worker.open_session(path)?;
             }
             Command::OpenMeasurement(path) => self.worker.open(path)?,
