@@ -1,8 +1,9 @@
 //! Figures and reports of fits as files: what the name of a file asks for, and writing it.
 
+use crate::figure::Figure;
+use crate::report::Document;
 use crate::write_file::write_file;
-use pbrdf::report::figure::Figure;
-use pbrdf::report::{Document, Machine};
+use pbrdf::selftest::Machine;
 use sha2::{Digest as _, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -4,30 +4,31 @@
 
 mod common;
 
-use common::asset;
 use common::program::{Folder, answer, refusal, run, text};
+use common::repository_file;
+use pbrdf::selftest::{golden, relative_error};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
 fn example(name: &str) -> String {
-    asset(&format!("examples/{name}")).display().to_string()
+    repository_file(&format!("assets/examples/{name}")).display().to_string()
 }
 
 #[test]
 fn evaluate_gives_the_golden_values_row_by_row() {
-    let golden = asset("reference/golden.csv").display().to_string();
-    let out = answer(&["evaluate", &golden, "--mueller", "--gradient"]);
+    let table = repository_file("core/assets/reference/golden.csv").display().to_string();
+    let out = answer(&["evaluate", &table, "--mueller", "--gradient"]);
     let mut lines = out.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
     assert_eq!(header[..6], ["brdf", "dolp", "specular", "diffuse", "volume", "m00"]);
     assert_eq!((header.len(), header[20], header[21], header[38]), (39, "m33", "dbrdf_dn", "ddolp_dsigma_v"));
-    let reference = common::table("golden.csv");
+    let reference = golden();
     let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), reference.len());
     for (row, reference) in rows.iter().zip(&reference) {
         // The bar of golden.rs, at the critical angle included.
-        assert!(common::relative_error(row[0], reference.number("brdf")) <= 1e-13, "line {}", reference.line);
+        assert!(relative_error(row[0], reference.brdf) <= 1e-13, "{reference:?}");
         assert!(row.iter().all(|number| !number.is_nan()));
     }
 }
@@ -91,7 +92,7 @@ fn simulate_gives_the_same_bytes_and_says_what_it_is() {
 #[test]
 fn the_examples_are_what_their_own_command_makes() {
     for name in ["steel45_simulated.csv", "copper_650nm_simulated.csv", "aluminium_650nm_simulated.csv"] {
-        let expected = std::fs::read_to_string(asset(&format!("examples/{name}"))).expect("a bundled example");
+        let expected = std::fs::read_to_string(repository_file(&format!("assets/examples/{name}"))).expect("a bundled example");
         let command = expected.lines().find_map(|line| line.strip_prefix("# command: pbrdf-explorer ")).expect("the command that made it");
         let folder = Folder::new();
         let path = folder.path(name).display().to_string();

@@ -1,6 +1,6 @@
 //! Figures: what an SVG contains, read as XML, and what a PNG is when decoded.
 
-use pbrdf::report::figure::{Axis, ColorMap, Dash, Figure, HeatMap, Panel, Point, Rgb, SERIES, Series, Symbol};
+use pbrdf_explorer::figure::{Axis, ColorMap, Dash, Figure, HeatMap, Panel, Point, Rgb, SERIES, Series, Symbol};
 use roxmltree::{Document, Node};
 
 fn panel(series: Vec<Series>) -> Panel {
@@ -205,7 +205,7 @@ fn the_same_figure_has_the_same_bytes() {
 #[cfg(feature = "figures")]
 mod as_png {
     use super::{panel, svg_of};
-    use pbrdf::report::figure::{Figure, Panel, Series};
+    use pbrdf_explorer::figure::{Figure, Panel, Series};
 
     #[test]
     fn a_png_has_the_size_and_resolution_that_were_asked_for() {
@@ -233,7 +233,7 @@ mod as_png {
 
     #[test]
     fn cells_of_a_map_leave_no_gap() {
-        use pbrdf::report::figure::{Axis, ColorMap, HeatMap};
+        use pbrdf_explorer::figure::{Axis, ColorMap, HeatMap};
         let edges: Vec<f64> = (0..=37).map(f64::from).collect();
         let map = HeatMap {
             x_edges: edges.clone(),

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::asset;
+use common::repository_file;
 use roxmltree::Document;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -19,7 +19,7 @@ fn fit(arguments: &[&str]) {
 }
 
 fn steel() -> String {
-    asset("examples/steel45_simulated.csv").display().to_string()
+    repository_file("assets/examples/steel45_simulated.csv").display().to_string()
 }
 
 fn read(path: &Path) -> String {

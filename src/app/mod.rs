@@ -3,58 +3,25 @@
 //! `logic` drains the worker, applies commands and refreshes what is derived; `ui` draws what is there and pushes commands. No
 //! model is evaluated in a paint closure and no fit runs on this thread.
 
-mod aside;
-mod band;
-mod command;
-mod contours;
-mod curves;
-mod derived;
-mod dialogs;
-mod document;
-mod fit_account;
-mod frame_times;
-mod heap;
-mod help;
-mod history;
-mod import;
-mod language;
-mod latest_job;
-mod layout;
-mod leaving;
-mod lesson_step;
-mod lessons;
-mod memo;
-mod notices;
-mod palette;
+mod jobs;
 mod panels;
-mod panes;
-mod parameter_text;
-mod past_fits;
-mod phrases;
-mod plan;
+mod platform;
 mod plots;
-mod problem;
-mod reading;
-mod reports;
-mod scans;
-mod session;
-mod state;
-mod store;
-mod task;
+mod shell;
+mod storage;
 #[cfg(test)]
 mod tests;
-mod theme;
-mod typed;
+mod text;
 mod views;
-mod window;
-mod words;
-mod worker;
-mod working;
+mod work;
 
+use platform::heap;
+use shell::app::Explorer;
+use shell::file_dialogs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use storage::settings_file;
 use tr::tr;
-use window::Explorer;
 
 const TITLE: &str = "pBRDF explorer";
 
@@ -64,19 +31,20 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
     heap::keep_heap();
-    let (stored, notice) = store::load();
-    let mut viewport = egui::ViewportBuilder::default().with_title(TITLE).with_app_id(store::APP).with_min_inner_size([1024.0, 640.0]);
+    let (stored, notice) = settings_file::load();
+    let mut viewport =
+        egui::ViewportBuilder::default().with_title(TITLE).with_app_id(settings_file::APP).with_min_inner_size([1024.0, 640.0]);
     viewport = viewport.with_inner_size(stored.window.size).with_maximized(stored.window.maximized);
     let options = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..eframe::NativeOptions::default() };
     let create: eframe::AppCreator<'_> = Box::new(|context| {
         STARTED.store(true, Ordering::Relaxed);
         let mut explorer = Explorer::new(&context.egui_ctx, stored);
-        explorer.settings_file = store::path();
-        explorer.worker.ask = dialogs::ask_desktop;
+        explorer.settings_file = settings_file::path();
+        explorer.worker.ask = file_dialogs::ask_desktop;
         if let Some(notice) = notice {
             explorer.say(notice);
         }
-        explorer.working_file = store::working_path();
+        explorer.working_file = settings_file::working_path();
         let is_alone = file.is_none();
         explorer.begin(file);
         if is_alone {

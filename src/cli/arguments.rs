@@ -1,9 +1,11 @@
 //! What can be asked on the command line.
 
-use super::values::{self, Assignment, Grid, Interval};
+use crate::cli::values;
+use crate::cli::values::{Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit;
-use pbrdf::measurement::{self, Mapping, TensorResolution};
+use pbrdf::measurement;
+use pbrdf::measurement::{Mapping, TensorResolution};
 use pbrdf::model::{Parameter, Preset};
 use std::path::PathBuf;
 

@@ -1,14 +1,14 @@
 //! `compare`: the ladder of models on one measurement, from the same starts.
 
-use super::arguments::Compare;
-use super::failure::Failure;
-use super::problem::{NoProblem, problem, starts};
-use super::watched::Watched;
-use super::{input, interrupt, output};
+use crate::cli::arguments::Compare;
+use crate::cli::failure::Failure;
+use crate::cli::problem::{NoProblem, problem, starts};
+use crate::cli::watched::Watched;
+use crate::cli::{input, interrupt, output};
+use crate::report::fit_json;
 use pbrdf::fit::{Contest, FitReport, HeldGauss, Problem, ProblemError, Standing, fit};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
-use pbrdf::report::fit_json;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;

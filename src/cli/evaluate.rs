@@ -1,8 +1,8 @@
 //! `evaluate`: the model, one row of parameters and angles after the other.
 
-use super::arguments::Evaluate;
-use super::failure::Failure;
-use super::{input, interrupt, output};
+use crate::cli::arguments::Evaluate;
+use crate::cli::failure::Failure;
+use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::{ReadError, ReadErrorKind, Record, Table, exact};
 use pbrdf::model::{Model, Parameter, ParameterError, Parameters, Pbrdf, Wanted};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};

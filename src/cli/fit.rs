@@ -1,15 +1,16 @@
 //! `fit`: the model on a measurement.
 
-use super::arguments::Fit;
-use super::failure::Failure;
-use super::problem::{problem, starts};
-use super::watched::Watched;
-use super::{input, interrupt, output};
+use crate::cli::arguments::Fit;
+use crate::cli::failure::Failure;
+use crate::cli::problem::{problem, starts};
+use crate::cli::watched::Watched;
+use crate::cli::{input, interrupt, output};
 use crate::export;
-use pbrdf::fit::{Edge, FitReport, Problem, Profile, Scatter, Standing, bootstrap, fit, profile};
+use crate::report::{FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
+use pbrdf::fit::{Edge, FitReport, Problem, Profile, Scatter, Standing, fit};
+use pbrdf::fit::{bootstrap, profile};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
-use pbrdf::report::{FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -152,7 +153,7 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[Scatter]) 
 }
 
 fn residuals_in_words(task: &Fit) -> String {
-    use super::arguments::{BrdfResiduals, Loss, Weights};
+    use crate::cli::arguments::{BrdfResiduals, Loss, Weights};
     let weights = if matches!(task.options.weights, Weights::Sigma) { "weighted " } else { "" };
     let form = match task.options.brdf_residuals {
         BrdfResiduals::Absolute => "residuals",

@@ -1,10 +1,11 @@
 //! `import`: foreign files as measurements.
 
-use super::arguments::Import;
-use super::failure::Failure;
-use super::{input, interrupt, output};
+use crate::cli::arguments::Import;
+use crate::cli::failure::Failure;
+use crate::cli::{input, interrupt, output};
+use pbrdf::measurement;
 use pbrdf::measurement::{
-    self, Field, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
+    Field, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
 };
 use std::process::ExitCode;
 

@@ -1,10 +1,11 @@
 //! Files from the command line.
 
-use super::failure::Failure;
-use super::interrupt;
-use super::output::{Progress, notice};
+use crate::cli::failure::Failure;
+use crate::cli::interrupt;
+use crate::cli::output::{Progress, notice};
 use crate::open_file::open_file;
-use pbrdf::measurement::{self, Measurement, ReadError, ReadErrorKind};
+use pbrdf::measurement;
+use pbrdf::measurement::{Measurement, ReadError, ReadErrorKind};
 use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::Path;

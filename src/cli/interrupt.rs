@@ -1,6 +1,6 @@
 //! Ctrl-C: the first asks for the best so far, the second ends the program at once.
 
-use super::failure::INTERRUPTED;
+use crate::cli::failure::INTERRUPTED;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);

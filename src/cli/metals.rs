@@ -1,9 +1,10 @@
 //! `metals`: tabulated refractive indices, source by source.
 
-use super::arguments::Metals;
-use super::failure::Failure;
-use super::output;
-use pbrdf::optics::{self, Metal, RefractiveIndex, Source};
+use crate::cli::arguments::Metals;
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use pbrdf::optics;
+use pbrdf::optics::{Metal, RefractiveIndex, Source};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -1,8 +1,8 @@
 //! `export mitsuba`: the tensor that Mitsuba 3 renders.
 
-use super::arguments::{Columns, Mitsuba};
-use super::failure::Failure;
-use super::{interrupt, output, simulate};
+use crate::cli::arguments::{Columns, Mitsuba};
+use crate::cli::failure::Failure;
+use crate::cli::{interrupt, output, simulate};
 use pbrdf::measurement::{TensorGrid, write_tensor};
 use std::ops::ControlFlow;
 use std::process::ExitCode;

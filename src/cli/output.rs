@@ -1,7 +1,7 @@
 //! Where answers and progress go.
 
-use super::failure::{Failure, INTERRUPTED};
-use super::interrupt;
+use crate::cli::failure::{Failure, INTERRUPTED};
+use crate::cli::interrupt;
 use crate::write_file::write_file;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::Path;

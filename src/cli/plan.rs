@@ -1,10 +1,11 @@
 //! `plan`: what a choice of angles would determine, before anything is measured.
 
-use super::arguments::{Columns, Plan};
-use super::failure::Failure;
-use super::output;
-use super::simulate::simulation;
-use pbrdf::fit::{self, PlannedNoise, Prediction};
+use crate::cli::arguments::{Columns, Plan};
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::cli::simulate::simulation;
+use pbrdf::fit;
+use pbrdf::fit::{PlannedNoise, Prediction};
 use pbrdf::model::{Parameter, ParameterSet};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};

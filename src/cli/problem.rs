@@ -1,8 +1,8 @@
 //! The problem that the options of `fit` and `compare` describe.
 
-use super::arguments::FitOptions;
-use super::failure::Failure;
-use super::output;
+use crate::cli::arguments::FitOptions;
+use crate::cli::failure::Failure;
+use crate::cli::output;
 use pbrdf::fit::{Bounds, Choices, Problem, ProblemError, Starts, free_by_default};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{ParameterSet, Parameters, Preset};

@@ -1,12 +1,13 @@
 //! `report`: what the program says about itself, as a table, as JSON, and as files in a folder.
 
-use super::arguments::{Report as Task, Subject};
-use super::failure::Failure;
-use super::output::Progress;
-use super::{interrupt, output};
+use crate::cli::arguments::{Report as Task, Subject};
+use crate::cli::failure::Failure;
+use crate::cli::output::Progress;
+use crate::cli::{interrupt, output};
 use crate::export::{machine, now};
-use pbrdf::report::figure::Figure;
-use pbrdf::report::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
+use crate::figure::Figure;
+use crate::report::BenchmarkFigures;
+use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,8 +30,11 @@ struct Answer {
 }
 
 impl Answer {
-    fn new<R: Row>(report: Report<R>) -> Self {
-        Self { json: report.json(), whole_json: report.json_with_curves(), markdown: report.markdown(), figures: report.figures }
+    fn new<R: Row>(report: &Report<R>) -> Self
+    where
+        Report<R>: BenchmarkFigures,
+    {
+        Self { json: report.json(), whole_json: report.json_with_curves(), markdown: report.markdown(), figures: report.figures() }
     }
 }
 
@@ -52,9 +56,9 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
         },
     };
     let answer = match task.subject {
-        Subject::ErrorVsTime => Answer::new(ErrorVsTime::run(machine(), now(), surroundings)),
-        Subject::Stability => Answer::new(Stability::run(machine(), now(), surroundings)),
-        Subject::Cost => Answer::new(Cost::run(machine(), now(), surroundings)),
+        Subject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), now(), surroundings)),
+        Subject::Stability => Answer::new(&Stability::run(machine(), now(), surroundings)),
+        Subject::Cost => Answer::new(&Cost::run(machine(), now(), surroundings)),
     };
     drop(progress);
     if task.json {

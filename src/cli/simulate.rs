@@ -1,8 +1,8 @@
 //! `simulate`: a measurement that says of itself that it is none.
 
-use super::arguments::{Angles, Columns, Simulate, Surface};
-use super::failure::Failure;
-use super::output;
+use crate::cli::arguments::{Angles, Columns, Simulate, Surface};
+use crate::cli::failure::Failure;
+use crate::cli::output;
 use pbrdf::measurement::{Simulation, write};
 use pbrdf::model::{Parameters, Pbrdf};
 use std::process::ExitCode;

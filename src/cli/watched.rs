@@ -1,7 +1,7 @@
 //! A fit that is watched from the terminal: clock, Ctrl-C, progress.
 
-use super::interrupt;
-use super::output::Progress;
+use crate::cli::interrupt;
+use crate::cli::output::Progress;
 use pbrdf::fit::{TracePoint, Watch};
 use std::sync::Mutex;
 use std::time::Instant;

@@ -1,8 +1,8 @@
 //! The model along a series: DoLP, its limit, BRDF and the terms of it against θr.
 
-use crate::measurement::{Series, exact};
-use crate::model::{Pbrdf, Reflection};
-use crate::optics::Facet;
+use pbrdf::measurement::{Series, exact};
+use pbrdf::model::{Pbrdf, Reflection};
+use pbrdf::optics::Facet;
 use std::io::{self, Write};
 
 /// One direction of a curve.
@@ -66,9 +66,9 @@ pub fn write_curves(surface: &Pbrdf, series: &[Series], backscatter: bool, mut o
 #[cfg(test)]
 mod tests {
     use super::{curve, directions, write_curves};
-    use crate::measurement::{Series, read};
-    use crate::model::{Model, Parameters, Pbrdf};
-    use crate::optics::SlopeDistribution;
+    use pbrdf::measurement::{Series, read};
+    use pbrdf::model::{Model, Parameters, Pbrdf};
+    use pbrdf::optics::SlopeDistribution;
     use std::ops::ControlFlow;
 
     fn surface() -> Pbrdf {

@@ -1,6 +1,6 @@
 //! A document of headings, paragraphs, tables and figures, written as one self-contained HTML file or as Markdown.
 
-use super::figure::{Figure, escape};
+use crate::figure::{Figure, escape};
 use std::fmt::Write as _;
 
 /// A part of a document.
@@ -207,7 +207,7 @@ fn address(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Block, Document, plain, plain_line};
-    use crate::report::figure::Figure;
+    use crate::figure::Figure;
 
     const HOSTILE: &str = "<script>alert(1)</script> & \"x\" | *b* _i_ `c` [l](javascript:1) \u{0}\n# h";
 

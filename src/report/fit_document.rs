@@ -1,13 +1,13 @@
 //! A fit as a document for people: data and where they come from, model, choices, parameters, what is open, figures.
 
-use super::document::{Block, Document};
-use super::figure::{Figure, Panel};
-use super::fit_figures::FitFigures;
-use super::fitted::dolp_divisor;
-use crate::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
-use crate::measurement::{Measurement, Series};
-use crate::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
-use crate::optics::SlopeDistribution;
+use crate::figure::{Figure, Panel};
+use crate::report::document::{Block, Document};
+use crate::report::fit_figures::FitFigures;
+use crate::report::residual_table::dolp_divisor;
+use pbrdf::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
+use pbrdf::measurement::{Measurement, Series};
+use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
+use pbrdf::optics::SlopeDistribution;
 
 /// Where measured data come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -250,7 +250,7 @@ impl FitDocument<'_> {
         rows.push(("AICc", number(report.aicc)));
         let mut blocks = vec![heading("Goodness of fit"), pairs(rows)];
         if report.minima.len() > 1 {
-            let row = |minimum: &crate::fit::Minimum| {
+            let row = |minimum: &pbrdf::fit::Minimum| {
                 vec![significant(minimum.objective, 6), minimum.reached.to_string(), minimum.stop_reason.text().to_owned()]
             };
             blocks.push(Block::Paragraph("Where the starts ended, the best first:".to_owned()));
@@ -271,7 +271,7 @@ impl FitDocument<'_> {
         }
         rows.push(("rows", format!("{}, {masked} of them masked and not used", measurement.rows.len())));
         let quantity = |there: bool, count: usize, name: &str| there.then(|| format!("{name} ({count} values)"));
-        let count = |of: fn(&crate::measurement::Row) -> bool| measurement.rows.iter().filter(|row| of(row)).count();
+        let count = |of: fn(&pbrdf::measurement::Row) -> bool| measurement.rows.iter().filter(|row| of(row)).count();
         let measured = [
             quantity(measurement.has_dolp(), count(|row| row.dolp.is_some()), "DoLP"),
             quantity(measurement.has_brdf(), count(|row| row.brdf.is_some()), "BRDF in 1/sr"),

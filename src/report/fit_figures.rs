@@ -1,10 +1,10 @@
 //! The figures of a fit: DoLP with its residuals, and the BRDF.
 
-use super::curves::{CurvePoint, curve};
-use super::figure::{Axis, Dash, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
-use crate::measurement::{Mark, Series as Measured};
-use crate::model::Pbrdf;
-use crate::optics::Facet;
+use crate::figure::{Axis, Dash, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
+use crate::report::curves::{CurvePoint, curve};
+use pbrdf::measurement::{Mark, Series as Measured};
+use pbrdf::model::Pbrdf;
+use pbrdf::optics::Facet;
 
 /// Series that are drawn at most: more cannot be told apart.
 const MOST_SERIES: usize = SERIES.len();
@@ -36,7 +36,7 @@ type Term = (&'static str, bool, fn(&CurvePoint) -> f64, usize);
 type Marks = fn(&Measured) -> &[Mark];
 
 impl<'a> FitFigures<'a> {
-    /// Of a surface along those series; `divisor` is [`super::dolp_divisor`].
+    /// Of a surface along those series; `divisor` is [`crate::report::dolp_divisor`].
     #[must_use]
     pub fn new(surface: &'a Pbrdf, divisor: f64, series: &'a [Measured]) -> Self {
         let series = &series[..series.len().min(MOST_SERIES)];
@@ -124,7 +124,7 @@ impl<'a> FitFigures<'a> {
         let mut series = vec![Series::line("total", points(curve, |point| point.reflection.brdf)).colored(Rgb(20, 20, 20))];
         let terms: [Term; 3] = [
             ("specular", model.specular, |point| point.reflection.specular, 3),
-            ("diffuse", model.diffuse != crate::model::Diffuse::Absent, |point| point.reflection.diffuse, 4),
+            ("diffuse", model.diffuse != pbrdf::model::Diffuse::Absent, |point| point.reflection.diffuse, 4),
             ("volume", model.volume, |point| point.reflection.volume, 5),
         ];
         for (name, _, value, color) in terms.into_iter().filter(|(_, is_there, ..)| *is_there) {

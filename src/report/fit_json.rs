@@ -1,7 +1,7 @@
 //! A fit as JSON: the keys that other programs rely on. Numbers that do not exist or are not finite are null.
 
-use crate::fit::{Edge, FitReport};
-use crate::model::Preset;
+use pbrdf::fit::{Edge, FitReport};
+use pbrdf::model::Preset;
 use serde_json::{Map, Value, json};
 
 /// The fit of that preset as a JSON object.

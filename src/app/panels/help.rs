@@ -1,10 +1,10 @@
 //! The pages of help, each in a dialog.
 
 use crate::app::TITLE;
-use crate::app::command::Command;
-use crate::app::help::{DOI, FIRST_STEPS, Help, PAPER, WORDS};
-use crate::app::language::translated;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::help::{DOI, FIRST_STEPS, Help, PAPER, WORDS};
+use crate::app::text::i18n::translated;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 use std::path::Path;
 use tr::tr;

@@ -1,13 +1,13 @@
 //! The question that a foreign file asks: which wavelength, which slices, which column is what; with the first rows of the answer.
 
-use crate::app::command::Command;
-use crate::app::import::Import;
-use crate::app::language::phrase;
-use crate::app::plan::Span;
-use crate::app::reading::{Choice, ForeignTable, Imported, Slices};
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words::short;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::import_dialog::Import;
+use crate::app::shell::theme;
+use crate::app::storage::import::{Choice, ForeignTable, Imported, Slices};
+use crate::app::text::glossary::short;
+use crate::app::text::i18n::phrase;
+use crate::app::work::design::Span;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
 use tr::tr;
@@ -67,7 +67,7 @@ fn choice_ui(import: &mut Import, ui: &mut Ui) {
             ui.label(tr!("A tensor of Mueller matrices: slices through it become BRDF and DoLP for unpolarised light."));
             slices_ui(slices, wavelengths_nm, ui);
         }
-        (Choice::Table(mapping), crate::app::reading::Foreign::Table(table)) => columns_ui(mapping, table, ui),
+        (Choice::Table(mapping), crate::app::storage::import::Foreign::Table(table)) => columns_ui(mapping, table, ui),
         (Choice::Table(_), _) => {}
     }
 }
@@ -277,10 +277,10 @@ fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
         for row in rows.iter().take(SHOWN) {
             let geometry = row.geometry;
             for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
-                ui.monospace(format!("{}°", super::significant(angle)));
+                ui.monospace(format!("{}°", crate::app::panels::significant(angle)));
             }
             for quantity in [row.dolp, row.brdf] {
-                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| super::significant(quantity.value)));
+                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| crate::app::panels::significant(quantity.value)));
             }
             ui.end_row();
         }

@@ -1,10 +1,10 @@
 //! The open lesson, under the panes that it speaks of: what to move, what to watch, why.
 
-use crate::app::command::Command;
-use crate::app::language;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::text::i18n;
+use crate::app::work::lesson::Wording;
 use egui::{Label, RichText, ScrollArea, Ui};
-use pbrdf::model::Wording;
 use tr::tr;
 
 /// Height of the panel before the user changes it.
@@ -20,7 +20,7 @@ pub fn lesson_panel(explorer: &mut Explorer, ui: &mut Ui) {
 fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
     let Explorer { lessons, commands, .. } = explorer;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
-    let code = language::current().code();
+    let code = i18n::current().code();
     let count = lesson.steps.len();
     ui.horizontal(|ui| {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

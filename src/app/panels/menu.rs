@@ -1,8 +1,9 @@
 //! The menu bar: the table of commands, sorted into menus.
 
-use crate::app::command::{self, Command, Item, Menu, Status};
-use crate::app::typed::path_in;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands;
+use crate::app::shell::commands::{Command, Item, Menu, Status};
+use crate::app::shell::path_entry::path_in;
 use egui::containers::menu::MenuConfig;
 use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
@@ -12,17 +13,17 @@ pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
         bar_menu_ui(tr!("File"), ui, |ui| file_ui(explorer, ui));
         for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
             bar_menu_ui(name, ui, |ui| {
-                let items = command::items(explorer);
+                let items = commands::items(explorer);
                 items_ui(&items, menu, &mut explorer.commands, ui);
             });
         }
         bar_menu_ui(tr!("View"), ui, |ui| view_ui(explorer, ui));
         bar_menu_ui(tr!("Lessons"), ui, |ui| {
-            let items = command::items(explorer);
+            let items = commands::items(explorer);
             items_ui(&items, Menu::Lesson, &mut explorer.commands, ui);
         });
         bar_menu_ui(tr!("Help"), ui, |ui| {
-            let items = command::items(explorer);
+            let items = commands::items(explorer);
             items_ui(&items, Menu::Help, &mut explorer.commands, ui);
         });
     });
@@ -60,7 +61,7 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 }
 
 fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let (quit, items): (Vec<Item>, Vec<Item>) = command::items(explorer).into_iter().partition(|item| item.command == Command::Quit);
+    let (quit, items): (Vec<Item>, Vec<Item>) = commands::items(explorer).into_iter().partition(|item| item.command == Command::Quit);
     let Explorer { commands, typed, window, .. } = explorer;
     items_ui(&items, Menu::File, commands, ui);
     ui.separator();
@@ -105,7 +106,7 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
 }
 
 fn view_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let items = command::items(explorer);
+    let items = commands::items(explorer);
     ui.weak(tr!("Panes"));
     items_ui(&items, Menu::Pane, &mut explorer.commands, ui);
     ui.separator();

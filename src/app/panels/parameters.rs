@@ -1,13 +1,13 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
-use super::beside::Beside as _;
-use super::stepping::{Step, step_with_arrows};
-use crate::app::language::{phrase, translated};
-use crate::app::lessons::Lessons;
-use crate::app::notices::Notices;
-use crate::app::state::Settings;
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::panels::beside::Beside as _;
+use crate::app::panels::stepping::{Step, step_with_arrows};
+use crate::app::shell::app::Explorer;
+use crate::app::shell::lessons::Lessons;
+use crate::app::shell::theme;
+use crate::app::shell::toasts::Notices;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::work::settings::Settings;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;

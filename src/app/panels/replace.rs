@@ -1,7 +1,7 @@
 //! The question before a file is replaced.
 
-use crate::app::command::Command;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
 use egui::{Label, RichText, Ui};
 use tr::tr;
 

@@ -1,11 +1,11 @@
 //! The line under the plots, and sentences over them.
 
-use crate::app::command::Command;
-use crate::app::language::phrase;
-use crate::app::notices::Notices;
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::shell::toasts::Notices;
+use crate::app::text::glossary;
+use crate::app::text::i18n::phrase;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
 use std::time::Duration;
@@ -22,7 +22,7 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",
             tr!("Of the sliders as they stand."),
-            words::delta_e_help()
+            glossary::delta_e_help()
         ));
         ui.separator();
         if let Some(job) = &worker.load {
@@ -40,7 +40,7 @@ pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
         }
         let description = ui.add(egui::Label::new(document.description()).truncate());
         if !document.mask().is_empty() {
-            description.on_hover_text(words::mask_help());
+            description.on_hover_text(glossary::mask_help());
         }
         if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out) {
             ui.separator();

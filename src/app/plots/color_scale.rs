@@ -1,11 +1,11 @@
 //! Colours of values in a map, and the bar beside it that tells which is which.
 
-use super::Range;
-use super::axis::{decimal, marks};
-use crate::app::theme;
+use crate::app::plots::Range;
+use crate::app::plots::axis::{decimal, marks};
+use crate::app::shell::theme;
+use crate::figure::{ColorMap, Rgb};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use egui_plot::GridInput;
-use pbrdf::report::figure::{ColorMap, Rgb};
 use tr::tr;
 
 /// A map of colours over a range of values.

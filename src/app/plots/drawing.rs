@@ -1,14 +1,16 @@
 //! A figure of the core in the window: the same curves, points and names, made ready once and drawn each frame.
 
-use super::axis::{self, axis, decimal, logarithmic};
-use super::{Axes, Range, curve, plot};
-use crate::app::curves::{Pieces, pieces};
-use crate::app::language::{phrase, translated};
-use crate::app::theme;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal, logarithmic};
+use crate::app::plots::{Axes, Range, curve, plot};
+use crate::app::shell::theme;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::views::curves::{Pieces, pieces};
+use crate::figure;
+use crate::figure::{Dash, Drawn, Figure, Panel, Scale};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{TextStyle, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, PlotResponse, PlotUi, Points, VLine};
-use pbrdf::report::figure::{self, Dash, Drawn, Figure, Panel, Scale};
 use tr::tr;
 
 /// A figure, its panels side by side.
@@ -91,7 +93,7 @@ impl DrawnAxis {
     /// A place in words.
     fn value(&self, place: f64) -> String {
         let value = if self.log { libm::exp10(place) } else { place };
-        format!("{}: {} {}", self.label(), crate::app::words::short(value), self.unit)
+        format!("{}: {} {}", self.label(), crate::app::text::glossary::short(value), self.unit)
     }
 
     fn format(&self) -> fn(f64, f64) -> String {
@@ -234,7 +236,7 @@ fn edges(points: &[Option<(f64, f64)>], steps: bool) -> Pieces {
 #[cfg(test)]
 mod tests {
     use super::{Drawing, Kind};
-    use pbrdf::report::figure::{Axis, Figure, Panel, Series};
+    use crate::figure::{Axis, Figure, Panel, Series};
 
     #[test]
     fn what_a_logarithm_has_no_place_for_is_a_gap() {

@@ -1,6 +1,6 @@
 //! Error bars, which `egui_plot` lacks: one item with a cap at either end of each bar.
 
-use crate::app::curves::Bar;
+use crate::app::views::curves::Bar;
 use egui::{Color32, Shape, Stroke, Ui, pos2};
 use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotPoint, PlotTransform};
 use std::ops::RangeInclusive;

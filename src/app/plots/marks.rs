@@ -1,8 +1,8 @@
 //! Measured points in a plot.
 
-use super::ErrorBars;
-use crate::app::curves::Marks;
-use crate::app::theme;
+use crate::app::plots::ErrorBars;
+use crate::app::shell::theme;
+use crate::app::views::curves::Marks;
 use egui::Color32;
 use egui_plot::{MarkerShape, PlotPoints, PlotUi, Points};
 use tr::tr;

@@ -2,6 +2,7 @@
 
 pub mod axis;
 mod color_scale;
+pub mod contours;
 mod drawing;
 mod error_bars;
 mod key_line;
@@ -20,8 +21,8 @@ pub use picking::{MASK_HINT, clicked_mask};
 pub use range::{Following, Range, round_up};
 pub use ribbon::{Ribbon, ribbons_in};
 
-use super::curves::Pieces;
-use super::theme;
+use crate::app::shell::theme;
+use crate::app::views::curves::Pieces;
 use egui::{Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 

@@ -1,8 +1,8 @@
 //! Clicks on measured points.
 
-use crate::app::command::Command;
-use crate::app::curves::drawn;
-use crate::app::document::{Document, Mark, Series};
+use crate::app::shell::commands::Command;
+use crate::app::views::curves::drawn;
+use crate::app::work::document::{Document, Mark, Series};
 use egui::Ui;
 use egui_plot::{PlotPoint, PlotResponse};
 

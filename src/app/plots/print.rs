@@ -1,8 +1,8 @@
 //! What figures for print have in common: inks, and curves as the core's figures have them.
 
-use super::Range;
-use crate::app::curves::Pieces;
-use pbrdf::report::figure::{Axis, Rgb};
+use crate::app::plots::Range;
+use crate::app::views::curves::Pieces;
+use crate::figure::{Axis, Rgb};
 
 /// Ink of what is no series: totals, rays, marks.
 pub const FOREGROUND: Rgb = Rgb(20, 20, 20);

@@ -1,10 +1,10 @@
 //! The audit: findings of the sliders' surface, with verdicts and reasons, in both languages.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::language::Language;
-use crate::app::panes::Pane;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::Language;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
@@ -30,7 +30,7 @@ fn every_finding_has_its_number_verdict_and_reason() {
     assert_eq!(harness.query_all_by_label("✗ fail").count(), audit.findings.len() - passed);
     let volume = audit.finding(Check::VolumeReciprocity).expect("the model has a volume lobe");
     assert!(!volume.pass);
-    harness.get_by_label(&crate::app::words::short(volume.value));
+    harness.get_by_label(&crate::app::text::glossary::short(volume.value));
     let reflectance = audit.finding(Check::Reflectance).expect("always there");
     harness.get_by_label(&format!("{:.4}", reflectance.value));
 }
@@ -81,8 +81,8 @@ fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
 #[test]
 fn every_reason_is_said_in_chinese() {
     use pbrdf::model::Finding;
-    crate::app::language::install();
-    crate::app::language::set(Language::Chinese);
+    crate::app::text::i18n::install();
+    crate::app::text::i18n::set(Language::Chinese);
     for check in [
         Check::SpecularReciprocity,
         Check::DiffuseReciprocity,
@@ -97,5 +97,5 @@ fn every_reason_is_said_in_chinese() {
             assert_ne!(tr::tr!(why), why);
         }
     }
-    crate::app::language::set(Language::English);
+    crate::app::text::i18n::set(Language::English);
 }

@@ -1,12 +1,12 @@
 //! Jobs that panic: nothing waits for them, and the window says so.
 
-use super::{PATIENCE, explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::dialogs::Question;
-use crate::app::leaving::Outgoing;
-use crate::app::reports::Subject;
-use crate::app::task::Task;
-use crate::app::window::Explorer;
+use crate::app::jobs::kind::Task;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::commands::Command;
+use crate::app::shell::file_dialogs::Question;
+use crate::app::storage::export::Outgoing;
+use crate::app::tests::{PATIENCE, explorer, harness, wait};
 use std::time::Instant;
 
 /// Begins a job of that kind in its place.

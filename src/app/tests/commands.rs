@@ -1,11 +1,12 @@
 //! The table of commands: menus, keyboard, palette.
 
-use super::{explorer, harness, wait};
-use crate::app::command::{self, Command, Status, Switch};
-use crate::app::language::Language;
-use crate::app::leaving::PLOTS;
-use crate::app::state::Theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands;
+use crate::app::shell::commands::{Command, Status, Switch};
+use crate::app::storage::export::PLOTS;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::Language;
+use crate::app::work::settings::Theme;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -15,7 +16,7 @@ use pbrdf::model::Parameters;
 fn no_two_commands_have_the_same_keys_or_the_same_name() {
     let mut harness = harness();
     explorer(&mut harness).window.remember(std::path::Path::new("/somewhere/mine.csv"));
-    let items = command::items(explorer(&mut harness));
+    let items = commands::items(explorer(&mut harness));
     for (i, item) in items.iter().enumerate() {
         assert!(!item.text.is_empty() && !item.tooltip.is_empty(), "{item:?}");
         for other in &items[..i] {
@@ -27,7 +28,7 @@ fn no_two_commands_have_the_same_keys_or_the_same_name() {
 
 #[test]
 fn every_command_can_be_carried_out() {
-    let commands: Vec<Command> = command::items(explorer(&mut harness())).into_iter().map(|item| item.command).collect();
+    let commands: Vec<Command> = commands::items(explorer(&mut harness())).into_iter().map(|item| item.command).collect();
     // All in one window, so that the later ones meet what the earlier ones left.
     let mut harness = harness();
     for command in commands {
@@ -182,7 +183,7 @@ fn ctrl_y_does_again_what_was_undone() {
 fn undo_brings_back_every_setting() {
     let mut harness = harness();
     let before = explorer(&mut harness).settings.clone();
-    let steps: [fn(&mut crate::app::state::Settings); 5] = [
+    let steps: [fn(&mut crate::app::work::settings::Settings); 5] = [
         |settings| settings.parameters.k = 4.5,
         |settings| settings.model.volume = false,
         |settings| settings.log_brdf = true,
@@ -242,7 +243,7 @@ fn parameters_are_copied_and_pasted_as_text() {
 #[test]
 fn what_is_impossible_is_not_ordered_by_its_keys() {
     let mut harness = harness();
-    let items = command::items(explorer(&mut harness));
+    let items = commands::items(explorer(&mut harness));
     let redo = items.iter().find(|item| item.command == Command::Redo).expect("redo is in the table");
     assert_eq!(redo.status, Status::Impossible);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);

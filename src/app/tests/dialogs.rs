@@ -1,9 +1,9 @@
 //! Dialogs of the desktop, where there are some and where there are none.
 
-use crate::app::command::Command;
-use crate::app::dialogs::{Answer, NoDialog, Question, ask_desktop};
-use crate::app::leaving::Outgoing;
-use crate::app::panes::Pane;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::shell::file_dialogs::{Answer, NoDialog, Question, ask_desktop};
+use crate::app::storage::export::Outgoing;
 use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::process::{Command as Process, Stdio};

@@ -1,10 +1,10 @@
 //! Opening files, good and bad, and the settings file.
 
-use super::{explorer, harness, harness_with, wait};
-use crate::app::command::Command;
-use crate::app::document::EXAMPLES;
-use crate::app::state::{Settings, Stored, Theme, WindowSettings};
-use crate::app::store;
+use crate::app::shell::commands::Command;
+use crate::app::storage::settings_file;
+use crate::app::tests::{explorer, harness, harness_with, wait};
+use crate::app::work::document::EXAMPLES;
+use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings};
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Parameter, Parameters};
 use std::path::{Path, PathBuf};
@@ -129,8 +129,8 @@ fn settings_survive_a_restart() {
     let mut window = WindowSettings { theme: Theme::Dark, ..WindowSettings::default() };
     window.remember(&path);
     let settings = Stored { settings, window };
-    store::save(&path, &settings).expect("a writable folder");
-    assert_eq!(store::load_from(&path), (settings, None));
+    settings_file::save(&path, &settings).expect("a writable folder");
+    assert_eq!(settings_file::load_from(&path), (settings, None));
 }
 
 #[test]
@@ -139,8 +139,8 @@ fn sliders_that_are_no_surface_survive_a_restart_too() {
     let path = folder.path().join("settings.json");
     let settings = Settings { parameters: Parameters { n: 0.0, k: 0.0, ..Parameters::default() }, ..Settings::default() };
     let settings = Stored { settings, ..Stored::default() };
-    store::save(&path, &settings).expect("a writable folder");
-    assert_eq!(store::load_from(&path), (settings, None));
+    settings_file::save(&path, &settings).expect("a writable folder");
+    assert_eq!(settings_file::load_from(&path), (settings, None));
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn damaged_settings_are_set_aside() {
         ("\u{0}\u{1}", "line 1"),
     ] {
         let path = file(&folder, "settings.json", damage);
-        let (settings, notice) = store::load_from(&path);
+        let (settings, notice) = settings_file::load_from(&path);
         assert_eq!(settings, Stored::default());
         let notice = notice.expect("a notice");
         assert!(notice.contains("damaged") && notice.contains(place), "{damage:?}: {notice}");

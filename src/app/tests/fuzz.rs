@@ -8,26 +8,29 @@
 //!
 //! A job that panics ends no test; its message is in the output.
 
-#[path = "../../../tests/common/damage.rs"]
+#[path = "../../../core/tests/common/damage.rs"]
 mod damage;
 
-use super::{explorer, wait};
-use crate::app::command::Command;
-use crate::app::layout::Layout;
-use crate::app::leaving;
-use crate::app::lessons::Lessons;
-use crate::app::panes::{PANES, Panes};
-use crate::app::parameter_text;
-use crate::app::reading::{self, Arrived};
-use crate::app::session::Session;
-use crate::app::state::{Settings, Stored, Theme, WindowSettings, can_be_set};
-use crate::app::store;
-use crate::app::window::Explorer;
-use crate::app::worker::Opened;
+use crate::app::jobs::worker::Opened;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::{PANES, Panes};
+use crate::app::shell::lessons::Lessons;
+use crate::app::storage::export;
+use crate::app::storage::import;
+use crate::app::storage::import::Arrived;
+use crate::app::storage::session::Session;
+use crate::app::storage::settings_file;
+use crate::app::tests::{explorer, wait};
+use crate::app::work::layout::Layout;
+use crate::app::work::lesson::Lesson;
+use crate::app::work::parameter_text;
+use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings, can_be_set};
 use damage::{fuzz, texts};
 use egui_kittest::Harness;
-use pbrdf::measurement::{self, Measurement};
-use pbrdf::model::{Lesson, Parameter, ParameterSet, Parameters};
+use pbrdf::measurement;
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Parameter, ParameterSet, Parameters};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -40,7 +43,7 @@ fn read_table(bytes: &[u8]) -> Option<Measurement> {
 
 /// A window that draws a box for what its fonts lack, as the program does; other tests fail there.
 fn harness() -> Harness<'static, Option<Explorer>> {
-    let harness = super::harness();
+    let harness = crate::app::tests::harness();
     harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     harness
 }
@@ -67,7 +70,7 @@ fn session() -> Session {
     let mut harness = small();
     let explorer = explorer(&mut harness);
     explorer.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
-    leaving::session(explorer)
+    export::session(explorer)
 }
 
 fn opened(bytes: &[u8]) -> Option<Opened> {
@@ -115,13 +118,13 @@ fn settings() {
     let mut harness = harness();
     fuzz("settings", &samples, |bytes| {
         std::fs::write(&path, bytes).expect("a writable folder for temporary files");
-        let (stored, notice) = store::load_from(&path);
+        let (stored, notice) = settings_file::load_from(&path);
         if notice.is_some() {
             assert_eq!(stored, Stored::default());
             return false;
         }
-        store::save(&copy, &stored).expect("a writable folder for temporary files");
-        assert_eq!(store::load_from(&copy), (stored.clone(), None));
+        settings_file::save(&copy, &stored).expect("a writable folder for temporary files");
+        assert_eq!(settings_file::load_from(&copy), (stored.clone(), None));
         let explorer = explorer(&mut harness);
         explorer.panes = Panes::new(&stored.window.layout);
         (explorer.settings, explorer.window) = (stored.settings, stored.window);
@@ -151,10 +154,10 @@ fn foreign_files() {
         "nm\taoi\tPsi\tDelta\n650\t65\t42\t140\n650\t70\t41\t130\n",
         TABLE,
     ];
-    let samples: Vec<Vec<u8>> = texts(&samples).into_iter().chain([super::imports::tensor()]).collect();
+    let samples: Vec<Vec<u8>> = texts(&samples).into_iter().chain([crate::app::tests::imports::tensor()]).collect();
     fuzz("foreign", &samples, |bytes| {
         let go_on = &mut |_| ControlFlow::Continue(());
-        let Ok(arrived) = reading::read(bytes.to_vec(), go_on) else { return false };
+        let Ok(arrived) = import::read(bytes.to_vec(), go_on) else { return false };
         if let Arrived::Foreign(foreign) = arrived {
             let choice = foreign.first_choice();
             let (preview, whole) = (foreign.preview(&choice), foreign.import(&choice, go_on));
@@ -193,4 +196,13 @@ fn lessons_in_the_window() {
         }
         true
     });
+}
+
+#[test]
+fn bundled_lessons() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let mut paths: Vec<_> = std::fs::read_dir(folder).expect("bundled lessons").map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let samples: Vec<Vec<u8>> = paths.iter().map(|path| std::fs::read(path).expect("a bundled lesson")).collect();
+    fuzz("lessons", &samples, |bytes| Lesson::from_text(&String::from_utf8_lossy(bytes)).is_ok());
 }

@@ -1,8 +1,8 @@
 //! The pages of help.
 
-use super::{explorer, harness};
-use crate::app::command::Command;
-use crate::app::help::{DOI, Help, WORDS};
+use crate::app::shell::commands::Command;
+use crate::app::shell::help::{DOI, Help, WORDS};
+use crate::app::tests::{explorer, harness};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 

@@ -1,10 +1,10 @@
 //! The hemisphere map: what the pointer reads, what is made when, and what is not.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::panes::Pane;
-use crate::app::state::Quantity;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::settings::Quantity;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

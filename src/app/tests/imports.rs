@@ -1,9 +1,9 @@
 //! Foreign files: each asks for the choice it needs, tells what it leads to, and leaves what is open where it fails.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::reading::{Choice, bytes_of};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::storage::import::{Choice, bytes_of};
+use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::measurement::{Field, Mapping, TensorGrid, TensorResolution, Unit, write_tensor};
@@ -65,7 +65,7 @@ fn ellipsometry_at_one_wavelength_asks_nothing() {
     assert_eq!(state(&mut harness), ("au.txt".to_owned(), 2, false));
 }
 
-pub(super) fn tensor() -> Vec<u8> {
+pub(crate) fn tensor() -> Vec<u8> {
     let surface = Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters::default()).expect("parameters in the domain");
     let grid = TensorGrid::new(&surface, TensorResolution { phi_d: 3, theta_d: 4, theta_h: 4 });
     let mut bytes = Vec::new();

@@ -1,12 +1,12 @@
 //! Texts that were made while the window spoke one language, and are shown when it speaks another.
 
-use super::languages::written;
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::language::{Language, translated};
-use crate::app::panes::Pane;
-use crate::app::reading::{Choice, Foreign};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::import::{Choice, Foreign};
+use crate::app::tests::languages::written;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::{Language, translated};
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
 use pbrdf::measurement::{Mapping, Measurement, Quantity, Row};

@@ -1,9 +1,9 @@
 //! The landscape: it follows the sliders, knows what lies on it, and a click puts the sliders there.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::panes::Pane;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::fit::Weights;
@@ -135,7 +135,7 @@ fn ways_minima_and_metals_lie_on_it() {
     // Metals have no place where the axes are others.
     explorer.settings.landscape.up = Parameter::Kd;
     wait(&mut harness);
-    assert_eq!(super::explorer(&mut harness).views.landscape.marks().expect("marks").metals.len(), 0);
+    assert_eq!(crate::app::tests::explorer(&mut harness).views.landscape.marks().expect("marks").metals.len(), 0);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Both languages: no text of the window is left in English, and every control has a name.
 
-use super::imports::tensor;
-use super::{explorer, harness, wait};
-use crate::app::command::{Command, items};
-use crate::app::help::{DOI, Help, PAPER};
-use crate::app::language::{Language, MISSED};
-use crate::app::panes::{PANES, Pane};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::{Command, items};
+use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::help::{DOI, Help, PAPER};
+use crate::app::tests::imports::tensor;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::{Language, MISSED};
 use egui::Key;
 use egui::accesskit::{Action, Role};
 use egui_kittest::Harness;
@@ -39,7 +39,7 @@ fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
 }
 
 /// What is written on the screen, and what a screen reader says besides.
-pub(super) fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
+pub(crate) fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
     let mut texts = BTreeSet::new();
     let mut nodes = vec![harness.root()];
     while let Some(node) = nodes.pop() {
@@ -264,8 +264,8 @@ fn the_fonts_have_every_letter() {
     let texts = [
         include_str!("../../../assets/locales/zh_CN.po"),
         include_str!("../../../assets/locales/zh_CN.core.po"),
-        include_str!("../command.rs"),
-        include_str!("../panes.rs"),
+        include_str!("../shell/commands.rs"),
+        include_str!("../shell/docking.rs"),
     ];
     let font = egui::FontId::proportional(14.0);
     let lacking: BTreeSet<char> = harness.ctx.fonts_mut(|fonts| {

@@ -1,19 +1,19 @@
 //! Plots, curves, fits and reports as files and on the clipboard.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::leaving::{Outgoing, PLOTS, figure};
-use crate::app::panes::{PANES, Pane};
-use crate::app::reports::Subject;
-use crate::app::state::Quantity;
-use crate::app::window::Explorer;
-use crate::app::worker::Event;
+use crate::app::jobs::worker::Event;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::{PANES, Pane};
+use crate::app::storage::export::{Outgoing, PLOTS, figure};
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::settings::Quantity;
+use crate::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Facet, Geometry};
-use pbrdf::report::Surroundings;
-use pbrdf::report::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
+use pbrdf::selftest::Surroundings;
 use std::ops::ControlFlow;
 
 fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {

@@ -1,16 +1,16 @@
 //! Lessons: every step of every one is shown, and sets what it says.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::document::{EXAMPLES, Mask};
-use crate::app::language::Language;
-use crate::app::layout::Layout;
-use crate::app::leaving::Outgoing;
-use crate::app::panes::Pane;
-use crate::app::session::Session;
-use crate::app::state::Settings;
-use crate::app::store;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::export::Outgoing;
+use crate::app::storage::session::Session;
+use crate::app::storage::settings_file;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::Language;
+use crate::app::work::document::{EXAMPLES, Mask};
+use crate::app::work::layout::Layout;
+use crate::app::work::settings::Settings;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::measurement::Row;
@@ -269,7 +269,7 @@ fn what_is_kept_without_being_asked_in_a_lesson_is_the_own_work() {
     (crashed.working_file, crashed.settings_file) = (Some(working.clone()), Some(settings.clone()));
     crashed.autosave_now();
     crashed.save();
-    assert_eq!(store::load_from(&settings).0.settings, before.settings);
+    assert_eq!(settings_file::load_from(&settings).0.settings, before.settings);
     let mut second = harness();
     explorer(&mut second).working_file = Some(working);
     explorer(&mut second).resume();
@@ -425,9 +425,9 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     explorer(&mut harness).settings.parameters.k = 4.5;
     wait(&mut harness);
     // The lesson is asked for in the very frame in which the answer comes.
-    let question = crate::app::dialogs::Question::Export(Outgoing::Session, String::new());
+    let question = crate::app::shell::file_dialogs::Question::Export(Outgoing::Session, String::new());
     explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
-    explorer(&mut harness).receive(crate::app::worker::Event::Answered(question, Ok(Some(path.clone()))));
+    explorer(&mut harness).receive(crate::app::jobs::worker::Event::Answered(question, Ok(Some(path.clone()))));
     wait(&mut harness);
     let text = std::fs::read_to_string(&path).expect("a file");
     assert_eq!(Session::read(&text).expect("a session").settings.parameters.k, 4.5);
@@ -439,7 +439,7 @@ fn what_was_said_before_a_session_is_opened_is_still_there_after() {
     let path = folder.path().join("working.pbrdf.json");
     let mut harness = harness();
     let mut bytes = Vec::new();
-    crate::app::leaving::session(explorer(&mut harness)).write(&mut bytes).expect("memory takes everything");
+    crate::app::storage::export::session(explorer(&mut harness)).write(&mut bytes).expect("memory takes everything");
     std::fs::write(&path, bytes).expect("a writable folder");
     let state = explorer(&mut harness);
     state.say("The settings are damaged.".to_owned());

@@ -1,11 +1,11 @@
 //! Masks and the data table.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::language::Language;
-use crate::app::panes::Pane;
 use crate::app::plots::Range;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::Language;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

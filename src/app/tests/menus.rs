@@ -1,7 +1,7 @@
 //! Menus under the pointer.
 
-use super::{explorer, harness};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::tests::{explorer, harness};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 

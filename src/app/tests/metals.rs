@@ -1,10 +1,10 @@
 //! Tabulated metals: sources side by side, sliders that take their n and k, and finishes.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::panes::Pane;
-use crate::app::state::Tabulated;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::settings::Tabulated;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{FINISHES, Parameters};

@@ -2,6 +2,7 @@
 
 mod audit;
 mod broken;
+mod bundled_lessons;
 mod commands;
 mod dialogs;
 mod files;
@@ -33,8 +34,8 @@ mod snapshots;
 pub mod sources;
 mod typed;
 
-use super::state::{Settings, Stored, WindowSettings};
-use super::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::work::settings::{Settings, Stored, WindowSettings};
 use egui_kittest::Harness;
 use std::time::{Duration, Instant};
 

@@ -1,9 +1,9 @@
 //! The Mueller matrix: the numbers at the chosen θr, and how it is chosen.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::panes::Pane;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

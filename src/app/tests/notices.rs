@@ -1,11 +1,11 @@
 //! Sentences to the user: they move nothing, go or stay as they should, and are read out.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::dialogs::NoDialog;
-use crate::app::leaving::Outgoing;
-use crate::app::panes::Pane;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::shell::file_dialogs::NoDialog;
+use crate::app::storage::export::Outgoing;
+use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::{Live, Role};
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::Harness;

@@ -1,9 +1,9 @@
 //! Bounds, choices and the history of fits.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::state::{Settings, Stored};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::settings::{Settings, Stored};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -158,10 +158,10 @@ fn settings_with_bounds_and_choices_survive_a_restart_and_nonsense_does_not() {
     settings.choices.loss_scale = Some(0.02);
     settings.set_bounds(Parameter::C, -2.0, 0.5).expect("sound bounds");
     let settings = Stored { settings, ..Stored::default() };
-    crate::app::store::save(&path, &settings).expect("a writable folder");
-    assert_eq!(crate::app::store::load_from(&path), (settings, None));
+    crate::app::storage::settings_file::save(&path, &settings).expect("a writable folder");
+    assert_eq!(crate::app::storage::settings_file::load_from(&path), (settings, None));
     std::fs::write(&path, "{\"settings\": {\"bounds\": [[\"N\", 3.0, 1.0]]}}").expect("a writable folder");
-    let (Stored { settings, .. }, notice) = crate::app::store::load_from(&path);
+    let (Stored { settings, .. }, notice) = crate::app::storage::settings_file::load_from(&path);
     assert_eq!((settings.bounds, settings.parameters), (Vec::new(), Parameters::default()));
     assert!(notice.expect("a notice").contains("damaged"));
 }

@@ -1,11 +1,11 @@
 //! Panes: each opens, what is not on screen is not computed, and the layout survives a restart.
 
-use super::{explorer, harness, harness_of, wait};
-use crate::app::command::Command;
-use crate::app::panes::{PANES, Pane};
-use crate::app::state::{Settings, Stored, WindowSettings};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::theme;
+use crate::app::tests::{explorer, harness, harness_of, wait};
+use crate::app::work::settings::{Settings, Stored, WindowSettings};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -76,7 +76,7 @@ fn a_closed_pane_stays_closed_after_a_restart() {
     assert!(explorer(&mut again).panes.is_on_screen(Pane::Dolp));
 }
 
-fn shown(pane: Pane) -> egui_kittest::Harness<'static, Option<crate::app::window::Explorer>> {
+fn shown(pane: Pane) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>> {
     let mut harness = harness();
     if !explorer(&mut harness).panes.is_on_screen(pane) {
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
@@ -138,7 +138,7 @@ fn views_draw_whatever_the_sliders_hold() {
                     settings.shown.facets_log = logarithmic;
                     settings.shown.share = true;
                     settings.shown.filled = logarithmic;
-                    settings.shown.overlay = crate::app::state::Overlay::EqualMedian;
+                    settings.shown.overlay = crate::app::work::settings::Overlay::EqualMedian;
                     wait(&mut harness);
                 }
             }

@@ -1,29 +1,28 @@
 //! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
 
-use super::sources::{literal, literals_after, sources};
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::document::Document;
-use crate::app::language::{self, Language, phrase};
-use crate::app::leaving::Outgoing;
-use crate::app::past_fits::PastFit;
-use crate::app::reports::{Made, Subject};
-use crate::app::session::{Session, SessionError};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::{Made, Subject};
+use crate::app::shell::commands::Command;
+use crate::app::storage::export::Outgoing;
+use crate::app::storage::session::{Session, SessionError};
+use crate::app::tests::sources::{literal, literals_after, sources};
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n;
+use crate::app::text::i18n::{Language, phrase};
+use crate::app::work::document::Document;
+use crate::app::work::fit_history::PastFit;
+use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
 use crate::export::{picture_kind, report_kind};
+use crate::figure::PngError;
 use crate::open_file::open_file;
 use pbrdf::fit::{BoundsError, Contest, FitReport, PlanError, ProblemError, StopReason};
 use pbrdf::measurement::{
     Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
     WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
 };
-use pbrdf::model::{
-    AssignmentError, Domain, FINISHES, Lesson, LessonError, LessonErrorKind, PRESETS, Parameter, ParameterError, Preset,
-    assignments_from_text,
-};
+use pbrdf::model::{AssignmentError, Domain, FINISHES, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
 use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
-use pbrdf::report::Surroundings;
-use pbrdf::report::figure::PngError;
+use pbrdf::selftest::Surroundings;
 use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -136,7 +135,7 @@ const SAME: &[&str] = &[
 ];
 
 /// What is left of English in a text: words outside quotes that are no names and longer than symbols.
-pub(super) fn english(text: &str) -> Vec<String> {
+pub(crate) fn english(text: &str) -> Vec<String> {
     let mut rest = String::new();
     for (i, part) in text.split(['"', '`']).enumerate() {
         if i % 2 == 0 {
@@ -153,8 +152,8 @@ pub(super) fn english(text: &str) -> Vec<String> {
 }
 
 fn chinese() {
-    language::install();
-    language::set(Language::Chinese);
+    i18n::install();
+    i18n::set(Language::Chinese);
 }
 
 /// Texts of the core that stay in English, wholly or in part.
@@ -188,7 +187,7 @@ fn every_form_of_an_error_is_in_the_catalogue() {
         forms.retain(|form| form != both);
         forms.extend(single.map(str::to_owned));
     }
-    let missing: Vec<String> = forms.into_iter().filter(|form| !language::has_phrase(&form.replace(":?}", "}"))).collect();
+    let missing: Vec<String> = forms.into_iter().filter(|form| !i18n::has_phrase(&form.replace(":?}", "}"))).collect();
     assert!(missing.is_empty(), "not in assets/locales/zh_CN.core.po: {missing:#?}");
 }
 
@@ -427,7 +426,7 @@ fn damaged_sessions_are_refused_in_chinese() {
     }
     texts.push(SessionError::Settings("parameters: n = -1 is not allowed: expected a finite number ≥ 0".to_owned()).to_string());
     texts.push(SessionError::Settings("theta_i, dphi: theta_i = 95 is outside 0 ≤ θi < 90 degrees".to_owned()).to_string());
-    let faults = literals_after(include_str!("../fit_account.rs"), "Some(");
+    let faults = literals_after(include_str!("../storage/fit_record.rs"), "Some(");
     texts.extend(faults.into_iter().filter(|fault| fault.starts_with("account")));
     texts.push(SessionError::Fit { number: 2, reason: ProblemError::NothingToPredict.to_string() }.to_string());
     let left = untranslated(texts);
@@ -478,15 +477,15 @@ fn names_of_models_finishes_metals_and_ends_of_fits_are_there_in_chinese() {
 
 #[test]
 fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
-    let gallery = include_str!("../../../assets/reference/stability_gallery.csv");
+    let gallery = include_str!("../../../core/assets/reference/stability_gallery.csv");
     let mut texts: Vec<String> = gallery.lines().filter_map(literal).collect();
     assert!(texts.len() > 40, "{}", texts.len());
-    let fits = include_str!("../../report/stiff_fits.rs");
+    let fits = include_str!("../../../core/src/selftest/stability_fits.rs");
     texts.extend(literals_after(fits.split("impl Bar").next().unwrap_or_default(), "Self::new("));
     texts.push("converged, ΔE 1.2e-30, 2 directions open".to_owned());
-    let cost = include_str!("../../report/cost.rs");
+    let cost = include_str!("../../../core/src/selftest/cost.rs");
     texts.extend(["name: ", "left_out: ", "gauss = "].iter().flat_map(|key| literals_after(cost, key)));
-    texts.extend(literals_after(include_str!("../../report/error_vs_time.rs"), "Method { name: "));
+    texts.extend(literals_after(include_str!("../../../core/src/selftest/accuracy_vs_time.rs"), "Method { name: "));
     for kind in ["analytic Jacobian, scaled", "finite-difference Jacobian, unscaled"] {
         for starts in ["one start", "5 starts"] {
             texts.push(format!("Levenberg–Marquardt, {kind}, {starts}"));
@@ -574,6 +573,6 @@ fn english_in(html: &str, document: &Document) -> Vec<String> {
 
 #[test]
 fn every_part_of_a_phrase_is_in_its_translation() {
-    let torn = language::torn_phrases();
+    let torn = i18n::torn_phrases();
     assert!(torn.is_empty(), "{torn:#?}");
 }

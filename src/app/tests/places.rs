@@ -1,9 +1,9 @@
 //! Where things stand in the window: nothing that is wanted lies outside, and nothing jumps.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::panes::{PANES, Pane};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::{PANES, Pane};
+use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 

@@ -1,7 +1,7 @@
 //! The angle planner, and models beside each other.
 
-use super::{explorer, harness, wait};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;

@@ -1,15 +1,15 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
-use super::{PATIENCE, explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::leaving::{Outgoing, figure};
-use crate::app::panes::Pane;
-use crate::app::reports::{Made, Subject};
-use crate::app::window::Explorer;
-use crate::app::worker::Event;
+use crate::app::jobs::worker::Event;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::{Made, Subject};
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::export::{Outgoing, figure};
+use crate::app::tests::{PATIENCE, explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use pbrdf::report::{Setting, Surroundings};
+use pbrdf::selftest::{Setting, Surroundings};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 

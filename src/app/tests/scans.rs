@@ -1,8 +1,8 @@
 //! Profile and bootstrap of a finished fit.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Parameter;

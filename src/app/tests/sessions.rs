@@ -1,12 +1,13 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::leaving::{self, Outgoing};
-use crate::app::panes::Pane;
-use crate::app::session::Session;
-use crate::app::window::Explorer;
-use crate::app::worker::save_session;
+use crate::app::jobs::worker::save_session;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::export;
+use crate::app::storage::export::Outgoing;
+use crate::app::storage::session::Session;
+use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::Loss;
@@ -111,7 +112,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
 fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     let mut source = worked_in();
     let mut bytes = Vec::new();
-    leaving::session(explorer(&mut source)).write(&mut bytes).expect("memory");
+    export::session(explorer(&mut source)).write(&mut bytes).expect("memory");
     let mut old: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
     old.as_object_mut().expect("a session").remove("shown");
     old["fits"][0].as_object_mut().expect("a fit").remove("account").expect("an account");
@@ -184,7 +185,7 @@ fn saving_again_goes_into_the_same_file() {
 fn a_session_is_readable_row_by_row() {
     let mut harness = worked_in();
     let mut bytes = Vec::new();
-    leaving::session(explorer(&mut harness)).write(&mut bytes).expect("memory");
+    export::session(explorer(&mut harness)).write(&mut bytes).expect("memory");
     let text = String::from_utf8(bytes).expect("text");
     assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 1,\n"));
     assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
@@ -304,7 +305,7 @@ fn the_working_state_is_kept_and_comes_back() {
 fn a_full_disk_leaves_the_old_session() {
     // /dev/full takes nothing; a folder that is not there cannot take a temporary file either.
     let mut harness = worked_in();
-    let session = leaving::session(explorer(&mut harness));
+    let session = export::session(explorer(&mut harness));
     if Path::new("/dev/full").exists() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }

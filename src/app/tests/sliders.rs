@@ -1,7 +1,7 @@
 //! Sliders and switches.
 
-use super::{explorer, harness};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::tests::{explorer, harness};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -85,7 +85,7 @@ fn what_is_derived_is_not_made_anew_without_need() {
 }
 
 /// Clicks twice at the middle of a node.
-fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::window::Explorer>>, at: egui::Pos2) {
+fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>>, at: egui::Pos2) {
     for _ in 0..2 {
         for pressed in [true, false] {
             let button = egui::PointerButton::Primary;

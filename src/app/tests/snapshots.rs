@@ -3,20 +3,20 @@
 //! Fonts are outlines of our own and the renderer runs on the processor, so that pictures hardly differ from machine to machine.
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
-use super::phrases::english;
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::language::Language;
-use crate::app::leaving::{PLOTS, figure};
-use crate::app::panes::Pane;
-use crate::app::reports::Subject;
-use crate::app::window::Explorer;
-use crate::app::worker::Event;
+use crate::app::jobs::worker::Event;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::export::{PLOTS, figure};
+use crate::app::tests::phrases::english;
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::i18n::Language;
+use crate::figure::{Figure, Image};
 use egui_kittest::Harness;
 use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::metals;
-use pbrdf::report::Surroundings;
-use pbrdf::report::figure::{Figure, Image};
+use pbrdf::selftest::Surroundings;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 

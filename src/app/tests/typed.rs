@@ -1,10 +1,10 @@
 //! Paths typed in the menu File, and the question before a file is replaced.
 
-use super::{explorer, harness, wait};
-use crate::app::command::Command;
-use crate::app::leaving::Outgoing;
-use crate::app::panes::Pane;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Pane;
+use crate::app::storage::export::Outgoing;
+use crate::app::tests::{explorer, harness, wait};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;

@@ -4,15 +4,16 @@ mod figure;
 
 pub use figure::audit_figure;
 
-use crate::app::curves::{Pieces, pieces};
-use crate::app::language::translated;
-use crate::app::latest_job::LatestJob;
-use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::jobs::async_memo::LatestJob;
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words::short;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::text::glossary::short;
+use crate::app::text::i18n::translated;
+use crate::app::views::curves::{Pieces, pieces};
 use egui::{Label, ScrollArea, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};

@@ -1,14 +1,14 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
-use crate::app::command::Command;
-use crate::app::document::Document;
-use crate::app::language::{phrase, translated};
+use crate::app::jobs::worker::{Job, Rung};
 use crate::app::panels::significant;
-use crate::app::problem::reason;
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words;
-use crate::app::worker::{Job, Rung};
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::text::glossary;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::work::document::Document;
+use crate::app::work::fit_setup::reason;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
 use pbrdf::fit::{Contest, Estimate, FitReport, Standing};
 use pbrdf::model::{Parameter, Preset};
@@ -75,7 +75,7 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Docum
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(tr!("model"));
-        ui.strong("ΔE").on_hover_text(words::delta_e_help());
+        ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
         for (heading, help) in [
             ("χ²/dof", "Where standard deviations are used as weights"),
             ("ΔAICc", "Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"),
@@ -155,21 +155,21 @@ fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     let standing = match estimate.standing() {
         Standing::Fixed => tr!("fixed"),
         Standing::AtBound(_) => tr!("at bound"),
-        Standing::Determined(error) => format!("± {}", words::short(error)),
+        Standing::Determined(error) => format!("± {}", glossary::short(error)),
         Standing::NoFreedom => tr!("no d.o.f."),
         Standing::Open => tr!("open"),
     };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         ui.label(RichText::new(significant(estimate.value)).size(LETTERS));
-        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(words::standing_help(estimate.standing()));
+        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(glossary::standing_help(estimate.standing()));
     });
 }
 
 fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
     Grid::new("starts").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         ui.strong(tr!("model"));
-        words::minima_headings_ui(ui);
+        glossary::minima_headings_ui(ui);
         ui.end_row();
         for rung in comparison {
             let minima = rung.result.as_ref().map_or(&[][..], |report| &report.minima);

@@ -4,14 +4,15 @@ mod figure;
 
 pub use figure::convergence_figure;
 
-use crate::app::curves::{Pieces, pieces};
-use crate::app::language::translated;
-use crate::app::memo::Memo;
-use crate::app::past_fits::PastFit;
-use crate::app::plots::axis::{self, axis, decimal, logarithmic};
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::text::i18n::translated;
+use crate::app::views::curves::{Pieces, pieces};
+use crate::app::work::fit_history::PastFit;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
 use pbrdf::fit::TracePoint;

@@ -1,12 +1,12 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
-use super::report::{Heading, pages_ui, run_ui, table_ui};
-use crate::app::language::{phrase, translated};
-use crate::app::reports::Subject;
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::theme;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::{Rect, Sense, Ui, vec2};
-use pbrdf::report::Cost;
+use pbrdf::selftest::Cost;
 use tr::tr;
 
 const HEADINGS: [Heading; 9] = [

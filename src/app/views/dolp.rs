@@ -1,20 +1,22 @@
 //! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel limit, the last fit, and under it what
 //! the model misses.
 
-use super::facets::{another, sigma_of_equal_median};
-use super::residuals::{self, Residuals};
-use crate::app::band::{BandKey, Ribbons, band_key, dolp_bands};
-use crate::app::curves::{BrdfScale, CurveSet, Curves, MarkSet, Pieces, axis_values, drawn};
-use crate::app::document::Document;
-use crate::app::language::translated;
-use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{
     Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
 };
-use crate::app::state::{Overlay, Settings};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::text::i18n::translated;
+use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, dolp_bands};
+use crate::app::views::curves::{BrdfScale, CurveSet, Curves, MarkSet, Pieces, axis_values, drawn};
+use crate::app::views::facets::{another, sigma_of_equal_median};
+use crate::app::views::residuals;
+use crate::app::views::residuals::Residuals;
+use crate::app::work::document::Document;
+use crate::app::work::settings::{Overlay, Settings};
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use pbrdf::fit::Eq17;

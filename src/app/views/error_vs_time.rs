@@ -1,12 +1,12 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
 
-use super::report::{Heading, pages_ui, run_ui, table_ui};
-use crate::app::language::{phrase, translated};
-use crate::app::reports::Subject;
-use crate::app::window::Explorer;
-use crate::app::words::short;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::text::glossary::short;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::Ui;
-use pbrdf::report::TaskKind;
+use pbrdf::selftest::TaskKind;
 use tr::tr;
 
 /// The table and the figures of the report, in its order.

@@ -4,13 +4,14 @@ mod figure;
 
 pub use figure::facets_figure;
 
-use crate::app::curves::{Pieces, directions, pieces};
-use crate::app::document::Series;
-use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal, power_of_ten};
 use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, plot, round_up};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::views::curves::{Pieces, directions, pieces};
+use crate::app::work::document::Series;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle, VLine};
 use pbrdf::optics::{Degrees, Facet, SlopeDistribution};

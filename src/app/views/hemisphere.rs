@@ -6,19 +6,19 @@ mod figure;
 
 pub use figure::hemisphere_figure;
 
-use crate::app::curves::{DECADES, MOST_POINTS, SETS_AXES};
-use crate::app::document::Document;
-use crate::app::latest_job::{LatestJob, Stopped};
-use crate::app::memo::Memo;
+use crate::app::jobs::async_memo::{LatestJob, Stopped};
+use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Following, Range, color_bar, round_up};
-use crate::app::problem::dolp_gain;
-use crate::app::state::Quantity;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::views::curves::{DECADES, MOST_POINTS, SETS_AXES};
+use crate::app::work::document::Document;
+use crate::app::work::fit_setup::dolp_gain;
+use crate::app::work::settings::Quantity;
+use crate::figure::ColorMap;
 use egui::{Align2, Color32, ColorImage, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use pbrdf::fit::Eq17;
 use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
 use pbrdf::optics::{Degrees, Geometry};
-use pbrdf::report::figure::ColorMap;
 use std::sync::Arc;
 use tr::tr;
 

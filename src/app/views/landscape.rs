@@ -10,12 +10,12 @@ mod marks;
 
 pub use figure::landscape_figure;
 
-use crate::app::command::Command;
-use crate::app::latest_job::LatestJob;
-use crate::app::memo::Memo;
+use crate::app::jobs::async_memo::LatestJob;
+use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
-use crate::app::state::{OverTwo, Settings};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::work::settings::{OverTwo, Settings};
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::Drawn;
 use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};

@@ -1,15 +1,16 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
-use crate::app::band::{BandKey, Ribbons, band_key, brdf_bands};
-use crate::app::curves::{BrdfScale, Curves, DECADES, MarkSet, Pieces, axis_values};
-use crate::app::language::translated;
-use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal, power_of_ten};
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal, power_of_ten};
 use crate::app::plots::{
     Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, filled, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
 };
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::text::i18n::translated;
+use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, brdf_bands};
+use crate::app::views::curves::{BrdfScale, Curves, DECADES, MarkSet, Pieces, axis_values};
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use std::collections::BTreeSet;

@@ -4,21 +4,23 @@ mod figure;
 
 pub use figure::metals_figure;
 
-use crate::app::command::Command;
-use crate::app::curves::{Pieces, pieces};
-use crate::app::language::translated;
-use crate::app::memo::Memo;
+use crate::app::jobs::memo::Memo;
 use crate::app::panels::{Step, step_with_arrows};
-use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, plot, round_up};
-use crate::app::state::{Settings, Tabulated};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::text::i18n::translated;
+use crate::app::views::curves::{Pieces, pieces};
+use crate::app::work::settings::{Settings, Tabulated};
 use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, Points, VLine};
 use pbrdf::model::{FINISHES, Finish, Parameter};
-use pbrdf::optics::{self, Metal, RefractiveIndex, Sample, Source};
+use pbrdf::optics;
+use pbrdf::optics::{Metal, RefractiveIndex, Sample, Source};
 use tr::tr;
 
 /// What the pane keeps.

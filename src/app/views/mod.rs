@@ -2,8 +2,11 @@
 
 mod audit;
 mod comparison;
+pub mod confidence_band;
 mod convergence;
 mod cost;
+pub mod curves;
+pub mod derived;
 mod dolp;
 mod error_vs_time;
 mod facets;
@@ -36,7 +39,7 @@ pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
 pub use stability::stability_ui;
 pub use table::{table_refresh, table_text, table_ui};
 
-use super::panes::Pane;
+use crate::app::shell::docking::Pane;
 
 /// What the panes keep from frame to frame.
 #[derive(Default)]

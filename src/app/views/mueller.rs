@@ -6,17 +6,17 @@ mod figure;
 
 pub use figure::mueller_figure;
 
-use crate::app::curves::directions;
-use crate::app::document::Series;
-use crate::app::memo::Memo;
+use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::views::curves::directions;
+use crate::app::work::document::Series;
+use crate::figure::ColorMap;
 use egui::{Align2, Color32, DragValue, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Mueller;
-use pbrdf::report::figure::ColorMap;
 use tr::tr;
 
 /// What the pane keeps.

@@ -1,14 +1,15 @@
 //! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
 
-use crate::app::document::Document;
-use crate::app::language::{self, Language, phrase, translated};
-use crate::app::memo::Memo;
+use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::plan::{Plan, Prediction, STEEPEST, Span};
-use crate::app::state::Settings;
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words::{open_help, percent, short};
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::text::glossary::{open_help, percent, short};
+use crate::app::text::i18n;
+use crate::app::text::i18n::{Language, phrase, translated};
+use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
+use crate::app::work::document::Document;
+use crate::app::work::settings::Settings;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Eq17, is_loose, loose_in_words};
 use pbrdf::measurement::Columns;
@@ -29,7 +30,7 @@ pub fn planner_refresh(explorer: &mut Explorer) {
     let free = explorer.free_in_plan();
     let Explorer { settings, document, views, .. } = explorer;
     let Settings { parameters, model, choices, ref plan, .. } = *settings;
-    let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, language::current());
+    let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, i18n::current());
     views
         .planner
         .predictions

@@ -6,13 +6,13 @@ mod figure;
 
 pub use figure::polar_figure;
 
-use crate::app::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
-use crate::app::document::Series;
-use crate::app::memo::Memo;
+use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, round_up};
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::views::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
+use crate::app::work::document::Series;
 use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
 use pbrdf::fit::Eq17;

@@ -1,12 +1,12 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
-use crate::app::command::Command;
-use crate::app::language::{phrase, translated};
-use crate::app::reports::{Shown, Subject};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::{Shown, Subject};
+use crate::app::shell::commands::Command;
+use crate::app::text::i18n::{phrase, translated};
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
-use pbrdf::report::Row;
+use pbrdf::selftest::Row;
 use tr::tr;
 
 /// The line with the button and what it does, and what has come out.

@@ -1,14 +1,15 @@
 //! The strip under DoLP: model less measurement, so that a misfit too small for the curves shows.
 
-use crate::app::curves::{MOST_POINTS, MOST_SERIES, drawn};
-use crate::app::document::{Document, Mark};
-use crate::app::memo::Memo;
-use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, plot, round_up};
-use crate::app::problem::dolp_gain;
-use crate::app::state::Settings;
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::theme;
+use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
+use crate::app::work::document::{Document, Mark};
+use crate::app::work::fit_setup::dolp_gain;
+use crate::app::work::settings::Settings;
 use egui::Ui;
 use egui_plot::{AxisHints, HLine, HoverPosition, PlotPoint, PlotPoints, Points};
 use pbrdf::fit::Eq17;
@@ -53,7 +54,7 @@ impl Residuals {
 fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
     let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return Vec::new() };
     let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
-    let of_one = |series: &crate::app::document::Series| {
+    let of_one = |series: &crate::app::work::document::Series| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
         let residual = |mark: &Mark| {

@@ -1,15 +1,15 @@
 //! The stability gallery: stiff and extreme cases with the digits that are held, beside those of the textbook form. A click on a case, in the
 //! table or in the figure, loads it.
 
-use super::report::{Heading, pages_ui, run_ui, table_ui};
-use crate::app::command::Command;
-use crate::app::language::phrase;
-use crate::app::reports::Subject;
-use crate::app::theme;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::text::i18n::phrase;
+use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::Ui;
 use egui_plot::PlotResponse;
-use pbrdf::report::{Setting, Stability, digits};
+use pbrdf::selftest::{Setting, Stability, digits};
 use tr::tr;
 
 const HEADINGS: [Heading; 7] = [

@@ -1,13 +1,13 @@
 //! The measurement row by row, with what the model gives there; masks by row and by series.
 
-use crate::app::command::Command;
-use crate::app::document::{Document, Series};
-use crate::app::language::translated;
-use crate::app::memo::Memo;
+use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::problem::dolp_gain;
-use crate::app::window::Explorer;
-use crate::app::words::{mask_help, short};
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::text::glossary::{mask_help, short};
+use crate::app::text::i18n::translated;
+use crate::app::work::document::{Document, Series};
+use crate::app::work::fit_setup::dolp_gain;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::fit::Eq17;

@@ -1,8 +1,8 @@
 //! The button that fits the ladder of models; its results are in a pane of their own.
 
-use crate::app::command::Command;
+use crate::app::jobs::worker::Rung;
+use crate::app::shell::commands::Command;
 use crate::app::views::running_model_ui;
-use crate::app::worker::Rung;
 use egui::Ui;
 use tr::tr;
 

@@ -7,14 +7,14 @@ mod past;
 mod result;
 mod scans;
 
-use super::status::delta_e_text;
-use crate::app::command::Command;
-use crate::app::derived::Derived;
-use crate::app::state::Settings;
-use crate::app::theme;
-use crate::app::window::Explorer;
-use crate::app::words;
-use crate::app::worker::Job;
+use crate::app::jobs::worker::Job;
+use crate::app::panels::status::delta_e_text;
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::text::glossary;
+use crate::app::views::derived::Derived;
+use crate::app::work::settings::Settings;
 use egui::{Label, RichText, Ui};
 use pbrdf::fit::Weights;
 use pbrdf::model::{Parameter, ParameterSet};
@@ -44,7 +44,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
             }
         });
         ui.weak(free_text(free, settings));
-        if let Some(text) = derived.values().and_then(|values| words::too_few(values, free.len())) {
+        if let Some(text) = derived.values().and_then(|values| glossary::too_few(values, free.len())) {
             ui.add(Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
         }
         sigmas_ui(settings, derived, ui);
@@ -53,7 +53,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         match worker.fit.as_ref().map(Job::progress) {
             Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
             Some(None) => ui.label(tr!("Fitting…")),
-            None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))).on_hover_text(words::delta_e_help()),
+            None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))).on_hover_text(glossary::delta_e_help()),
         };
         options::options_ui(settings, &document.measurement, derived.states_sigmas(), ui);
         let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(derived.outlook(), ui));
@@ -70,7 +70,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 }
                 if fit.generation != document.generation {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."))
-                        .on_hover_text(words::mask_help());
+                        .on_hover_text(glossary::mask_help());
                 }
                 result::result_ui(fit, settings, scans.scatter.as_ref(), commands, ui);
                 scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);

@@ -1,8 +1,8 @@
 //! The choices of a fit: what is minimised, and from where.
 
-use crate::app::language::translated;
-use crate::app::state::Settings;
-use crate::app::theme;
+use crate::app::shell::theme;
+use crate::app::text::i18n::translated;
+use crate::app::work::settings::Settings;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
 use pbrdf::fit::{BrdfResiduals, Choices, Eq17, Loss, Starts, Weights};
 use pbrdf::measurement::Measurement;

@@ -1,9 +1,9 @@
 //! What a fit from the sliders would determine, before it is made.
 
-use crate::app::derived::Outlook;
-use crate::app::language::phrase;
 use crate::app::panels::parameters::significant;
-use crate::app::words::open_help;
+use crate::app::text::glossary::open_help;
+use crate::app::text::i18n::phrase;
+use crate::app::views::derived::Outlook;
 use egui::{Grid, Ui};
 use tr::tr;
 

@@ -1,9 +1,9 @@
 //! The last fits, to look at again and to return to.
 
-use crate::app::command::Command;
-use crate::app::language::translated;
-use crate::app::past_fits::{PastFit, PastFits};
-use crate::app::words::delta_e_help;
+use crate::app::shell::commands::Command;
+use crate::app::text::glossary::delta_e_help;
+use crate::app::text::i18n::translated;
+use crate::app::work::fit_history::{PastFit, PastFits};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::rc::Rc;

@@ -1,14 +1,14 @@
 //! What a fit came to: values, standard errors, minima, correlations, and what stays open.
 
-use crate::app::command::Command;
-use crate::app::language::{phrase, translated};
 use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
-use crate::app::past_fits::PastFit;
-use crate::app::scans::Bootstrap;
-use crate::app::state::Settings;
-use crate::app::theme;
-use crate::app::words;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::text::glossary;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::work::diagnostics::Bootstrap;
+use crate::app::work::fit_history::PastFit;
+use crate::app::work::settings::Settings;
 use egui::{Button, Grid, RichText, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
 use tr::tr;
@@ -36,18 +36,18 @@ pub fn result_ui(fit: &PastFit, settings: &Settings, bootstrap: Option<&Bootstra
     } else {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), capital);
     }
-    if let Some(text) = words::too_few(fit.problem.len(), fit.problem.free().len()) {
+    if let Some(text) = glossary::too_few(fit.problem.len(), fit.problem.free().len()) {
         ui.add(egui::Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
     }
     Grid::new("fit summary").num_columns(2).show(ui, |ui| {
         let minimised = tr!("What the fit made small, in place of ΔE");
         let chi2 = tr!("Squared residuals over their stated σ, per degree of freedom: near 1 where model and σ are right");
         for (name, value, help) in [
-            (tr!("Before"), delta_e_text(report.start_objective), words::delta_e_help()),
-            (tr!("After"), delta_e_text(report.objective), words::delta_e_help()),
+            (tr!("Before"), delta_e_text(report.start_objective), glossary::delta_e_help()),
+            (tr!("After"), delta_e_text(report.objective), glossary::delta_e_help()),
             (tr!("Minimised"), minimised_text(fit), minimised),
             (tr!("χ²/dof"), reduced_chi2_text(report), chi2),
-            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), words::aicc_help()),
+            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), glossary::aicc_help()),
             (tr!("Time"), effort_text(report), tr!("Of all starts together; an evaluation is the model at all rows once")),
         ] {
             if !value.is_empty() {
@@ -72,7 +72,7 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
         return;
     }
     ui.add_space(6.0);
-    ui.strong(tr!("The data leave open:")).on_hover_text(words::open_help());
+    ui.strong(tr!("The data leave open:")).on_hover_text(glossary::open_help());
     for text in &open {
         ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
     }
@@ -97,11 +97,11 @@ fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate)).on_hover_text(words::standing_help(estimate.standing()));
+            ui.label(error_text(estimate)).on_hover_text(glossary::standing_help(estimate.standing()));
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
-                ui.label(words::short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
+                ui.label(glossary::short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
             }
             ui.end_row();
         }
@@ -155,7 +155,7 @@ fn minima_ui(report: &FitReport, ui: &mut Ui) {
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
     ui.collapsing(tr!("{0} minima from {1} starts", report.minima.len(), starts), |ui| {
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
-            words::minima_headings_ui(ui);
+            glossary::minima_headings_ui(ui);
             ui.end_row();
             for minimum in report.minima.iter().take(MOST_MINIMA) {
                 ui.monospace(format!("{:.5e}", minimum.objective));
@@ -213,7 +213,7 @@ fn error_text(estimate: &Estimate) -> String {
         Standing::Fixed => tr!("fixed"),
         Standing::AtBound(Edge::Lower) => tr!("at lower bound"),
         Standing::AtBound(Edge::Upper) => tr!("at upper bound"),
-        Standing::Determined(error) => format!("{} {}", words::short(error), estimate.parameter.unit()).trim_end().to_owned(),
+        Standing::Determined(error) => format!("{} {}", glossary::short(error), estimate.parameter.unit()).trim_end().to_owned(),
         Standing::NoFreedom => tr!("no d.o.f."),
         Standing::Open => tr!("open"),
     }

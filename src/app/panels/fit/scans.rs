@@ -1,12 +1,13 @@
 //! The honest interval of one parameter, and the bootstrap, on demand.
 
-use crate::app::command::Command;
 use crate::app::panels::parameters::significant;
-use crate::app::past_fits::PastFit;
-use crate::app::plots::axis::{self, axis, decimal};
+use crate::app::plots::axis;
+use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
-use crate::app::scans::{ProfileCurve, Scans};
-use crate::app::theme;
+use crate::app::shell::commands::Command;
+use crate::app::shell::theme;
+use crate::app::work::diagnostics::{ProfileCurve, Scans};
+use crate::app::work::fit_history::PastFit;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;

@@ -1,8 +1,8 @@
 //! The reflectance of the audit for print.
 
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Figure, Panel, Rgb, SERIES, Series};
+use crate::app::shell::app::Explorer;
+use crate::figure::{Axis, Figure, Panel, Rgb, SERIES, Series};
 
 const WARNING: Rgb = Rgb(190, 30, 30);
 

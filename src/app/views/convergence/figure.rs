@@ -1,7 +1,7 @@
 //! The way of the last fit for print.
 
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
+use crate::app::shell::app::Explorer;
+use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
 pub fn convergence_figure(explorer: &Explorer) -> Option<Figure> {

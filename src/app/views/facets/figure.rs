@@ -1,12 +1,12 @@
 //! Facet densities and masking–shadowing for print.
 
-use super::name;
 use crate::app::panels::significant;
 use crate::app::plots::Range;
 use crate::app::plots::print::{FOREGROUND, over, points};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::views::facets::name;
+use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 use pbrdf::optics::SlopeDistribution;
-use pbrdf::report::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 
 pub fn facets_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, settings, .. } = explorer;

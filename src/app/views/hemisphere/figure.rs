@@ -1,10 +1,10 @@
 //! The hemisphere map for print: θr from the middle outwards in degrees, so that axes can tell it.
 
-use super::{Made, SIZE, place, values};
 use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, over};
-use crate::app::state::Quantity;
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
+use crate::app::shell::app::Explorer;
+use crate::app::views::hemisphere::{Made, SIZE, place, values};
+use crate::app::work::settings::Quantity;
+use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
 
 pub fn hemisphere_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, settings, document, .. } = explorer;

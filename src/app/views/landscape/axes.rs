@@ -1,7 +1,8 @@
 //! The axes of the landscape: where values lie on them, what of them is seen first, and their marks.
 
 use crate::app::plots::Range;
-use crate::app::plots::axis::{self, power_of_ten};
+use crate::app::plots::axis;
+use crate::app::plots::axis::power_of_ten;
 use egui_plot::{GridInput, GridMark};
 use pbrdf::fit::Axis;
 use pbrdf::model::Parameter;

@@ -1,19 +1,19 @@
 //! A landscape as it is drawn: colours of heights, and lines of equal height.
 
-use super::Key;
-use super::axes::coordinate;
-use crate::app::contours::Heights;
-use crate::app::curves::Pieces;
-use crate::app::latest_job::Stopped;
+use crate::app::jobs::async_memo::Stopped;
+use crate::app::plots::contours::Heights;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::problem::problem;
-use crate::app::state::Settings;
+use crate::app::views::curves::Pieces;
+use crate::app::views::landscape::Key;
+use crate::app::views::landscape::axes::coordinate;
+use crate::app::work::fit_setup::problem;
+use crate::app::work::settings::Settings;
+use crate::figure::ColorMap;
 use egui::{Color32, ColorImage};
 use egui_plot::PlotPoint;
 use pbrdf::fit::{Axis, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::ParameterSet;
-use pbrdf::report::figure::ColorMap;
 use std::sync::Arc;
 
 /// A landscape as it is drawn.

@@ -1,14 +1,14 @@
 //! The landscape for print, with what lies on it.
 
-use super::axes::{coordinate, value};
-use super::drawn::Drawn;
-use super::{Key, LandscapeView};
 use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, placed};
-use crate::app::state::Settings;
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::views::landscape::axes::{coordinate, value};
+use crate::app::views::landscape::drawn::Drawn;
+use crate::app::views::landscape::{Key, LandscapeView};
+use crate::app::work::settings::Settings;
+use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 use egui_plot::PlotPoint;
 use pbrdf::fit::Axis as Nodes;
-use pbrdf::report::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 
 const WAY: Rgb = Rgb(255, 96, 64);
 const MINIMA: Rgb = Rgb(255, 214, 90);

@@ -1,7 +1,7 @@
 //! What the marks on the map mean: on a dark plate in its corner, since their colours are made for the map and not for the page.
 
-use super::marks::{METALS, MINIMA, Marks, PLATE, RING, way_color, way_name};
-use crate::app::state::OverTwo;
+use crate::app::views::landscape::marks::{METALS, MINIMA, Marks, PLATE, RING, way_color, way_name};
+use crate::app::work::settings::OverTwo;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use tr::tr;
 

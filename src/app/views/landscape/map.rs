@@ -1,12 +1,12 @@
 //! The map: the landscape's image with its axes, and what lies on it.
 
-use super::axes::{coordinate, grid, logarithmic};
-use super::drawn::Drawn;
-use super::legend::legend_ui;
-use super::marks::{marks_in, sliders_in};
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{BAR_ROOM, line, plot};
-use crate::app::window::Explorer;
+use crate::app::shell::app::Explorer;
+use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
+use crate::app::views::landscape::drawn::Drawn;
+use crate::app::views::landscape::legend::legend_ui;
+use crate::app::views::landscape::marks::{marks_in, sliders_in};
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
 use pbrdf::fit::Axis;

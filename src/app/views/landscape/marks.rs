@@ -1,11 +1,12 @@
 //! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated metals, the sliders.
 
-use super::axes::coordinate;
-use crate::app::document::Document;
-use crate::app::language::{self, Language, translated};
-use crate::app::past_fits::{PastFit, PastFits};
 use crate::app::plots::line;
-use crate::app::state::{OverTwo, Settings};
+use crate::app::text::i18n;
+use crate::app::text::i18n::{Language, translated};
+use crate::app::views::landscape::axes::coordinate;
+use crate::app::work::document::Document;
+use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::settings::{OverTwo, Settings};
 use egui::{Align2, Color32, Rect, RichText};
 use egui_plot::{MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
@@ -34,7 +35,7 @@ impl MarksKey {
         let OverTwo { across, up, .. } = settings.landscape;
         let wavelength_nm = settings.tabulated.wavelength_nm;
         let (axes, shown) = ((across, up), shown.map(|fit| fit.id));
-        Self { axes, fits: past.made(), shown, number: document.number, wavelength_nm, language: language::current() }
+        Self { axes, fits: past.made(), shown, number: document.number, wavelength_nm, language: i18n::current() }
     }
 }
 

@@ -1,9 +1,9 @@
 //! n and k of a metal against the wavelength for print.
 
-use super::{PARTS, chosen};
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
+use crate::app::shell::app::Explorer;
+use crate::app::views::metals::{PARTS, chosen};
+use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 pub fn metals_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, settings, .. } = explorer;
@@ -26,6 +26,6 @@ pub fn metals_figure(explorer: &Explorer) -> Option<Figure> {
             ..Panel::default()
         }
     });
-    let title = super::name_and_symbol(metal);
+    let title = crate::app::views::metals::name_and_symbol(metal);
     Some(Figure { title, panels: panels.collect(), width_mm: 160.0, height_mm: 170.0, ..Figure::default() })
 }

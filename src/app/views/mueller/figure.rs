@@ -1,10 +1,10 @@
 //! The Mueller matrix for print: sixteen plots against θr, and all elements as numbers at the θr of the pane.
 
-use super::{REACH, normalised, number};
 use crate::app::panels::significant;
 use crate::app::plots::print::{FOREGROUND, MUTED};
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Figure, Panel, SERIES, Series};
+use crate::app::shell::app::Explorer;
+use crate::app::views::mueller::{REACH, normalised, number};
+use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 pub fn mueller_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, document, .. } = explorer;

@@ -1,9 +1,9 @@
 //! The polar lobe diagram for print. Rings are marked along both axes with the BRDF that they stand for.
 
-use super::{RIM, direction};
 use crate::app::plots::print::{FOREGROUND, MUTED, points};
-use crate::app::window::Explorer;
-use pbrdf::report::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
+use crate::app::shell::app::Explorer;
+use crate::app::views::polar::{RIM, direction};
+use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 
 pub fn polar_figure(explorer: &Explorer) -> Option<Figure> {
     let Explorer { views, document, .. } = explorer;

@@ -1,0 +1,111 @@
+//! What a choice of angles would determine, before anything is measured.
+//!
+//! Standard errors are those of a fit weighted by stated standard deviations: σ_DoLP absolute, σ_BRDF relative, `C = (JᵀJ)⁺` of the residuals in units of
+//! σ at the planned surface, without χ²/dof, which nobody knows beforehand.
+
+use crate::fit::bounds::Bounds;
+use crate::fit::intervals::band::Band;
+use crate::fit::intervals::linear::{OpenDirection, Uncertainty};
+use crate::fit::objective::{Problem, ProblemError, free_by_default};
+use crate::fit::options::{Choices, Eq17, Weights};
+use crate::measurement::{Measurement, Quantity, Row};
+use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
+use crate::optics::{Facet, Geometry};
+
+/// What is to be measured, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedNoise {
+    /// Standard deviation of DoLP, absolute, > 0; none where DoLP is not measured.
+    pub dolp: Option<f64>,
+    /// Standard deviation of the BRDF relative to its value, > 0; none where the BRDF is not measured.
+    pub brdf: Option<f64>,
+}
+
+/// A measurement to be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Which terms the surface has.
+    pub model: Model,
+    /// Its supposed values.
+    pub parameters: Parameters,
+    /// Where it is to be measured.
+    pub geometries: Vec<Geometry>,
+    /// How well.
+    pub noise: PlannedNoise,
+    /// The parameters that the fit is to find.
+    pub free: ParameterSet,
+    /// By which reading of Eq. (17).
+    pub eq17: Eq17,
+}
+
+/// What a plan would determine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Standard error of each free parameter in its own unit; none where it would stay open.
+    pub errors: Vec<(Parameter, Option<f64>)>,
+    /// What would stay open.
+    pub undetermined: Vec<OpenDirection>,
+    /// Number of directions that would be determined.
+    pub rank: usize,
+    /// Largest over smallest singular value of the scaled Jacobian; none without a determined direction.
+    pub condition: Option<f64>,
+    /// The band that the fitted curves would have.
+    pub band: Band,
+}
+
+/// Why nothing can be predicted of a plan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// The parameters are no surface.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// The data would make no fit.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl Plan {
+    /// With the parameters free that a fit of such data frees by default.
+    #[must_use]
+    pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: PlannedNoise) -> Self {
+        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, eq17: Eq17::Consistent };
+        plan.free = Pbrdf::new(model, parameters)
+            .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &Choices::default()));
+        plan
+    }
+
+    /// What it would determine.
+    pub fn predict(&self) -> Result<Prediction, PlanError> {
+        let surface = Pbrdf::new(self.model, self.parameters)?;
+        let mut bounds = Bounds::default();
+        for parameter in self.free {
+            bounds.widen_to(parameter, self.parameters[parameter]);
+        }
+        let choices = Choices { weights: Weights::Sigma, eq17: self.eq17, ..Choices::default() };
+        let problem = Problem::new(&self.measurement(&surface), self.model, self.parameters, self.free, bounds, choices);
+        let problem = problem?;
+        let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);
+        Ok(Prediction {
+            errors: problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
+            undetermined: uncertainty.open.clone(),
+            rank: uncertainty.rank,
+            condition: uncertainty.condition,
+            band: Band::new(&problem, &self.parameters, uncertainty),
+        })
+    }
+
+    /// The values to be expected, each with its standard deviation; a BRDF of 0 has none and is left out.
+    fn measurement(&self, surface: &Pbrdf) -> Measurement {
+        let rows = self.geometries.iter().map(|&geometry| {
+            let reflection = surface.reflection(&Facet::new(geometry));
+            let quantity = |value: f64, sigma: f64| (sigma > 0.0).then_some(Quantity { value, sigma: Some(sigma) });
+            Row {
+                geometry,
+                dolp: self.noise.dolp.and_then(|sigma| quantity(reflection.dolp, sigma)),
+                brdf: self.noise.brdf.and_then(|relative| quantity(reflection.brdf, relative * reflection.brdf)),
+                masked: false,
+            }
+        });
+        Measurement { rows: rows.collect(), ..Measurement::default() }
+    }
+}

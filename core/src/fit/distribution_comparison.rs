@@ -1,0 +1,144 @@
+//! Gauss against Cauchy on one data set: which distribution of slopes describes it better, and by how much.
+//!
+//! The measure is what both fits minimised, and for the evidence the difference of AICc (Burnham and Anderson, *Model Selection and Multimodel
+//! Inference*, 2002, sec. 2.6: up to 2 is no difference, from 4 on the worse one has considerably less support, from 10 on essentially none).
+//!
+//! Equal σ means different widths, so that the better of two fits may win by its width alone. Gauss is therefore fitted twice more beside
+//! Cauchy's (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where only the tail differs.
+
+use crate::fit::local::solver::Watch;
+use crate::fit::multistart::search::Starts;
+use crate::fit::objective::Problem;
+use crate::fit::result::{FitReport, fit};
+use crate::model::{Parameter, ParameterSet, Parameters};
+use crate::optics::SlopeDistribution;
+
+/// Both fits side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contest {
+    /// Sum of squares that Gauss came down to.
+    pub gauss: f64,
+    /// The same of Cauchy.
+    pub cauchy: f64,
+    /// AICc of Gauss less that of Cauchy; none where either has none.
+    pub aicc_gain: Option<f64>,
+    /// Whether the sums of squares are ΔE up to a factor that both share.
+    pub is_delta_e: bool,
+}
+
+/// Gauss with its σ held by Cauchy's fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldGauss {
+    /// Cauchy's σ, at which Gauss was held, and the sum of squares there.
+    pub equal_sigma: (f64, f64),
+    /// The σ of equal median slope, and the sum of squares there.
+    pub equal_median: (f64, f64),
+}
+
+/// Sums of squares whose ratio is nearer to 1 are the same: two descents along one flat valley end no nearer to each other.
+const SAME: f64 = 1e-4;
+
+impl Contest {
+    /// Of two fits of the same data by the same choices; none where a sum is not finite.
+    #[must_use]
+    pub fn new(gauss: &FitReport, cauchy: &FitReport) -> Option<Self> {
+        let sums = [gauss.sum_of_squares, cauchy.sum_of_squares];
+        sums.iter().all(|sum| sum.is_finite()).then(|| Self {
+            gauss: sums[0],
+            cauchy: sums[1],
+            aicc_gain: gauss.aicc.zip(cauchy.aicc).map(|(gauss, cauchy)| gauss - cauchy),
+            is_delta_e: gauss.minimises_delta_e && cauchy.minimises_delta_e,
+        })
+    }
+
+    /// The distribution with the smaller sum of squares; none where they are the same.
+    #[must_use]
+    pub fn winner(&self) -> Option<SlopeDistribution> {
+        let larger = self.gauss.max(self.cauchy);
+        if (self.gauss - self.cauchy).abs() <= SAME * larger {
+            None
+        } else if self.cauchy < self.gauss {
+            Some(SlopeDistribution::Cauchy)
+        } else {
+            Some(SlopeDistribution::Gauss)
+        }
+    }
+
+    /// The larger sum of squares over the smaller; infinite where the smaller is 0.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let (smaller, larger) = (self.gauss.min(self.cauchy), self.gauss.max(self.cauchy));
+        if larger == 0.0 { 1.0 } else { larger / smaller }
+    }
+
+    /// What the difference of AICc is worth.
+    #[must_use]
+    pub fn evidence(&self) -> &'static str {
+        match self.aicc_gain.map(f64::abs) {
+            None => "AICc is not defined for so few or so exact data",
+            Some(gain) if gain < 2.0 => "the data do not tell them apart",
+            Some(gain) if gain < 4.0 => "weak evidence",
+            Some(gain) if gain < 10.0 => "considerable evidence",
+            Some(_) => "essentially no support for the other",
+        }
+    }
+
+    /// Who wins and by how much, in a sentence.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let measure = if self.is_delta_e { "ΔE" } else { "sum of squares" };
+        let Some(winner) = self.winner() else {
+            let fewer = if self.aicc_gain.is_some_and(|gain| gain < 0.0) { ": Cauchy's tail exponent buys nothing here" } else { "" };
+            return format!("Gauss and Cauchy describe these data alike ({measure} {:.4e}){fewer}.", self.gauss);
+        };
+        let (name, other) = match winner {
+            SlopeDistribution::Gauss => ("Gauss", "Cauchy"),
+            SlopeDistribution::Cauchy => ("Cauchy", "Gauss"),
+        };
+        let by = match self.aicc_gain {
+            None => String::new(),
+            Some(gain) => {
+                let (lower, gain) = if gain > 0.0 { ("Cauchy", gain) } else { ("Gauss", -gain) };
+                format!("AICc lower by {gain:.1} for {lower}: ")
+            }
+        };
+        let ratio = if self.ratio().is_finite() { format!("{:.4} times smaller", self.ratio()) } else { "0".to_owned() };
+        // A smaller sum that AICc does not think worth its parameter is no victory.
+        let is_confirmed = self.aicc_gain.is_none_or(|gain| (gain > 0.0) == (winner == SlopeDistribution::Cauchy));
+        let verb = if is_confirmed { "wins over" } else { "comes nearer than" };
+        format!("{name} {verb} {other}: {measure} {ratio}; {by}{}.", self.evidence())
+    }
+}
+
+impl HeldGauss {
+    /// Fits Gauss again from its own solution with σ held; none where σ is not free in both fits or the equal median lies beyond f64.
+    #[must_use]
+    pub fn new(problem: &Problem, gauss: &FitReport, cauchy: &FitReport, watch: Watch<'_>) -> Option<Self> {
+        let is_free = |report: &FitReport| report.estimates.iter().any(|estimate| estimate.parameter == Parameter::Sigma && estimate.free);
+        let Parameters { sigma, q, .. } = cauchy.parameters;
+        let median = SlopeDistribution::gauss_of_equal_median(sigma, q);
+        let is_a_sigma = median.is_finite() && median > 0.0;
+        if !(is_free(gauss) && is_free(cauchy) && is_a_sigma) {
+            return None;
+        }
+        let rest: ParameterSet = problem.free().iter().copied().filter(|&parameter| parameter != Parameter::Sigma).collect();
+        let held = |sigma: f64| {
+            let start = Parameters { sigma, ..gauss.parameters };
+            (sigma, fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch).sum_of_squares)
+        };
+        Some(Self { equal_sigma: held(sigma), equal_median: held(median) })
+    }
+
+    /// In a sentence.
+    #[must_use]
+    pub fn text(&self, contest: &Contest) -> String {
+        let times =
+            |sum: f64| if contest.cauchy > 0.0 { format!("{:.4} times Cauchy's", sum / contest.cauchy) } else { format!("{sum:.4e}") };
+        let ((equal, on_equal), (median, on_median)) = (self.equal_sigma, self.equal_median);
+        format!(
+            "Gauss held at Cauchy's σ = {equal:.5}: {}; at equal median slope, σ = {median:.5}, where only the tail differs: {}.",
+            times(on_equal),
+            times(on_median)
+        )
+    }
+}

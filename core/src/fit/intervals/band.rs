@@ -1,0 +1,76 @@
+//! The band around a fitted curve: the standard error of a predicted DoLP or BRDF at any geometry.
+//!
+//! To first order (delta method; Bates and Watts, *Nonlinear Regression Analysis*, 1988, sec. 2.3) a prediction f with the gradient g by the free
+//! parameters has the variance `gᵀ C g`. C is the pseudo-inverse covariance of **all** free parameters, the undetermined ones included: a curve may be
+//! determined where its parameters are not (DoLP knows k_d/k_s, but neither k_d nor k_s). Where g itself points along a direction that the data leave open,
+//! the curve is as open as that direction, and there is no standard error.
+
+use crate::fit::intervals::linear::Uncertainty;
+use crate::fit::objective::Problem;
+use crate::fit::options::Eq17;
+use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Wanted};
+use crate::optics::Facet;
+
+/// What is needed to say how far a fitted curve can be trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Band {
+    model: Model,
+    parameters: Parameters,
+    eq17: Eq17,
+    uncertainty: Uncertainty,
+}
+
+impl Band {
+    /// Around the curves of those parameters, given what the problem's data determine there.
+    #[must_use]
+    pub fn new(problem: &Problem, parameters: &Parameters, uncertainty: Uncertainty) -> Self {
+        Self { model: problem.model(), parameters: *parameters, eq17: problem.choices().eq17, uncertainty }
+    }
+
+    /// What the data determine.
+    #[must_use]
+    pub fn uncertainty(&self) -> &Uncertainty {
+        &self.uncertainty
+    }
+
+    /// The reading of Eq. (17) that [`Self::dolp`] speaks of.
+    #[must_use]
+    pub fn eq17(&self) -> Eq17 {
+        self.eq17
+    }
+
+    /// Standard errors of the predicted DoLP (by the fit's reading of Eq. (17)) at prepared geometries; none where the data leave the
+    /// curve open or no degree of freedom is left.
+    #[must_use]
+    pub fn dolp(&self, facets: &[Facet]) -> Vec<Option<f64>> {
+        self.errors(facets, Wanted { by: self.by(), brdf: false, dolp: true }, |at| dolp_gradient(at, self.eq17, self.parameters.ks))
+    }
+
+    /// Standard errors of the predicted BRDF, in sr⁻¹, the same way.
+    #[must_use]
+    pub fn brdf(&self, facets: &[Facet]) -> Vec<Option<f64>> {
+        self.errors(facets, Wanted { by: self.by(), brdf: true, dolp: false }, |(_, gradient)| gradient.brdf)
+    }
+
+    fn by(&self) -> ParameterSet {
+        self.uncertainty.analysed.iter().copied().collect()
+    }
+
+    fn errors(&self, facets: &[Facet], wanted: Wanted, pick: impl Fn(&(Reflection, Gradient)) -> [f64; 9]) -> Vec<Option<f64>> {
+        let Ok(surface) = Pbrdf::new(self.model, self.parameters) else { return vec![None; facets.len()] };
+        let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted)));
+        facets.iter().map(error).collect()
+    }
+}
+
+/// ∂DoLP/∂p by either reading of Eq. (17): as printed it is the consistent value over k_s.
+fn dolp_gradient((reflection, gradient): &(Reflection, Gradient), eq17: Eq17, ks: f64) -> [f64; 9] {
+    match eq17 {
+        Eq17::Consistent => gradient.dolp,
+        Eq17::Printed => {
+            let mut printed = gradient.dolp.map(|derivative| derivative / ks);
+            printed[Parameter::Ks as usize] -= reflection.dolp / (ks * ks);
+            printed
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The honest interval: one parameter held on a grid, the rest fitted again at each value.
+//!
+//! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
+//! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
+
+use crate::fit::local::solver::{Effort, Watch, descend};
+use crate::fit::objective::Problem;
+use crate::fit::options::Weights;
+use crate::fit::result::FitReport;
+use crate::model::{Parameter, ParameterSet, Parameters};
+use serde::Serialize;
+
+/// The best fit with one parameter held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ProfilePoint {
+    /// Where it is held.
+    pub value: f64,
+    /// ΔE of Eq. (18) of the best fit there.
+    pub objective: f64,
+    /// Sum of squares of what was minimised.
+    pub sum_of_squares: f64,
+}
+
+/// A parameter's profile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// The scan, in ascending values.
+    pub points: Vec<ProfilePoint>,
+    /// Lower end of the interval; none where the data (within the scan) do not set one.
+    pub low: Option<f64>,
+    /// Upper end.
+    pub high: Option<f64>,
+}
+
+/// Values on either side of the best one.
+const STEPS: i32 = 15;
+/// How many standard errors the scan goes to either side.
+const REACH: f64 = 3.0;
+
+/// Scans a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
+#[must_use]
+pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watch: Watch<'_>) -> Profile {
+    let best = report.parameters[parameter];
+    let (low, high) = problem.bounds().of(parameter);
+    let error = report.estimates.iter().find(|estimate| estimate.parameter == parameter).and_then(|estimate| estimate.std_error);
+    let reach = error.map_or(high - low, |error| REACH * error);
+    let end = |bound: f64| if bound < best { bound.max(best - reach) } else { bound.min(best + reach) };
+    let rest: ParameterSet = problem.free().iter().copied().filter(|&other| other != parameter).collect();
+    let held = problem.with_free(rest);
+
+    let mut scan = Vec::new();
+    let smallest = problem.sum_of_squares(&report.parameters).unwrap_or(f64::NAN);
+    for side in [end(low), end(high)] {
+        let mut from = report.parameters;
+        for step in 1..=STEPS {
+            if (watch.cancelled)() || side == best {
+                break;
+            }
+            from[parameter] = best + (side - best) * f64::from(step) / f64::from(STEPS);
+            let descent = descend(&held.with_start(from), Effort::Full, watch);
+            from = descent.parameters;
+            scan.push((from[parameter], descent.sum_of_squares, from));
+        }
+    }
+    scan.push((best, smallest, report.parameters));
+    scan.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let limit = limit(problem, report, smallest);
+    let crossing = |side: &mut dyn Iterator<Item = &(f64, f64, Parameters)>| {
+        let mut inner = (best, smallest);
+        for &(value, sum, _) in side {
+            if sum > limit {
+                return Some(inner.0 + (value - inner.0) * (limit - inner.1) / (sum - inner.1));
+            }
+            inner = (value, sum);
+        }
+        None
+    };
+    let (low, high) =
+        (crossing(&mut scan.iter().rev().filter(|point| point.0 < best)), crossing(&mut scan.iter().filter(|point| point.0 > best)));
+    let points = scan
+        .iter()
+        .map(|(value, sum, at)| ProfilePoint {
+            value: *value,
+            objective: problem.objective(*sum, at),
+            sum_of_squares: sum * problem.sum_of_squares_scale(),
+        })
+        .collect();
+    Profile { parameter, points, low, high }
+}
+
+fn limit(problem: &Problem, report: &FitReport, smallest: f64) -> f64 {
+    match problem.choices().weights {
+        Weights::Sigma => smallest + 1.0,
+        #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
+        Weights::None => smallest * (1.0 + 1.0 / report.dof.max(1) as f64),
+    }
+}

@@ -1,0 +1,206 @@
+//! The pBRDF's residuals as a least squares problem, and the coordinates in which its valleys are straight.
+//!
+//! The height of the specular lobe goes as `h(q)/σ²` (h = 1 for Gauss, q − 1 for Cauchy). DoLP sees k_d and k_v only over that
+//! height, so that changing σ or q alone throws them off, and a descent creeps along the curved valley in which they make up for it. In
+//! the straightened coordinates `k_d σ²/h` and `k_v σ²/h` stay when σ or q move. With a measured BRDF it is k_s that makes up for them, and
+//! `k_s h/σ²` stays. Sizes are walked by factors: the coordinate of p is `ln(p − origin)`.
+
+use crate::fit::least_squares::LeastSquares;
+use crate::fit::objective::Problem;
+use crate::model::{Parameter, Parameters};
+use crate::optics::SlopeDistribution;
+use nalgebra::{DMatrix, DVector};
+
+/// Below this objective the relative misfit is 1e-13: rounding, not physics.
+const ROUNDING_OBJECTIVE: f64 = 1e-26;
+
+/// From where a parameter is walked by factors; none where by steps.
+fn origin(parameter: Parameter) -> Option<f64> {
+    match parameter {
+        // n and k may be 0, which has no logarithm.
+        Parameter::N => Some(-0.05),
+        Parameter::K => Some(-0.5),
+        Parameter::Sigma | Parameter::SigmaV => Some(0.0),
+        Parameter::Q => Some(1.0),
+        Parameter::Ks | Parameter::Kd | Parameter::Kv | Parameter::C => None,
+    }
+}
+
+impl Problem {
+    /// All nine parameters, given the free ones.
+    pub(crate) fn parameters_at(&self, x: &DVector<f64>) -> Parameters {
+        let mut parameters = *self.start();
+        for (&parameter, value) in self.free().iter().zip(x.iter()) {
+            parameters[parameter] = *value;
+        }
+        parameters
+    }
+
+    /// σ²/h.
+    fn flatness(&self, parameters: &Parameters) -> f64 {
+        parameters.sigma * parameters.sigma / self.model().distribution.height(parameters.q)
+    }
+
+    /// The power of σ²/h that a weight goes with: 0 for what goes its own way.
+    fn power(&self, parameter: Parameter) -> i32 {
+        match parameter {
+            _ if !self.model().specular => 0,
+            Parameter::Kd | Parameter::Kv if self.knows_only_ratios() => 1,
+            Parameter::Ks if !self.knows_only_ratios() => -1,
+            _ => 0,
+        }
+    }
+}
+
+impl LeastSquares for Problem {
+    fn residual_count(&self) -> usize {
+        self.len()
+    }
+
+    fn start(&self) -> DVector<f64> {
+        DVector::from_iterator(self.free().len(), self.free().iter().map(|&parameter| Self::start(self)[parameter]))
+    }
+
+    fn bounds_of(&self, unknown: usize) -> (f64, f64) {
+        self.bounds().of(self.free()[unknown])
+    }
+
+    fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool {
+        self.residuals(&self.parameters_at(x), out)
+    }
+
+    fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool {
+        self.jacobian(&self.parameters_at(x), out)
+    }
+
+    fn objective_at(&self, sum_of_squares: f64, x: &DVector<f64>) -> f64 {
+        if self.minimises_delta_e() { sum_of_squares } else { self.objective(sum_of_squares, &self.parameters_at(x)) }
+    }
+
+    fn negligible(&self) -> f64 {
+        ROUNDING_OBJECTIVE
+    }
+
+    fn straighten(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
+        for &i in moving {
+            let parameter = self.free()[i];
+            let Some(origin) = origin(parameter) else { continue };
+            jacobian.column_mut(i).scale_mut(x[i] - origin);
+            // ∂ln(σ²/h) by the coordinate.
+            let slope = match parameter {
+                Parameter::Sigma => 2.0,
+                Parameter::Q if self.model().distribution == SlopeDistribution::Cauchy => -1.0,
+                _ => continue,
+            };
+            for &j in moving {
+                let power = self.power(self.free()[j]);
+                if power != 0 && x[j] != 0.0 {
+                    let along = -slope * f64::from(power) * x[j];
+                    let weight = jacobian.column(j).clone_owned();
+                    jacobian.column_mut(i).axpy(along, &weight, 1.0);
+                }
+            }
+        }
+    }
+
+    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+        let (low, high) = self.bounds_of(unknown);
+        match origin(self.free()[unknown]) {
+            Some(origin) => {
+                let size = x[unknown] - origin;
+                (libm::log((low - origin) / size), libm::log((high - origin) / size))
+            }
+            None => (low - x[unknown], high - x[unknown]),
+        }
+    }
+
+    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+        out.copy_from(x);
+        for (&j, step) in moving.iter().zip(step) {
+            out[j] = match origin(self.free()[j]) {
+                Some(origin) => origin + (x[j] - origin) * libm::exp(*step),
+                None => x[j] + step,
+            };
+        }
+        let flatter = self.flatness(&self.parameters_at(out)) / self.flatness(&self.parameters_at(x));
+        for &j in moving {
+            match self.power(self.free()[j]) {
+                0 => {}
+                power if power > 0 => out[j] /= flatter,
+                _ => out[j] *= flatter,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LeastSquares;
+    use crate::fit::{Bounds, Choices, Problem};
+    use crate::measurement::{Columns, Simulation};
+    use crate::model::{Model, Parameters, Pbrdf};
+    use crate::optics::SlopeDistribution;
+    use crate::optics::SlopeDistribution::{Cauchy, Gauss};
+    use nalgebra::{DMatrix, DVector};
+
+    /// All parameters of the model free, on simulated data.
+    fn problem(distribution: SlopeDistribution, columns: Columns) -> Problem {
+        let model = Model::full(distribution);
+        let measurement = Simulation {
+            model_name: distribution.key().to_owned(),
+            surface: Pbrdf::new(model, Parameters::default()).unwrap(),
+            theta_i: vec![30.0, 60.0],
+            theta_r: vec![0.0, 20.0, 40.0, 60.0, 70.0],
+            dphi: 180.0,
+            columns,
+            noise: 0.0,
+            brdf_noise: 0.0,
+            seed: 1,
+        }
+        .run()
+        .unwrap();
+        let start = Parameters { n: 1.4, k: 2.2, sigma: 0.4, ks: 0.8, kd: 0.2, kv: 0.3, q: 2.6, c: -0.3, sigma_v: 0.7 };
+        Problem::new(&measurement, model, start, model.parameters(), Bounds::default(), Choices::default()).unwrap()
+    }
+
+    #[test]
+    fn straightened_derivatives_are_those_along_the_steps() {
+        // Central differences: h² of a third derivative of order 1, and rounding over h.
+        const STEP: f64 = 1e-5;
+        const NEAR: f64 = 1e-8;
+        for (distribution, columns) in [(Gauss, Columns::Dolp), (Cauchy, Columns::Dolp), (Cauchy, Columns::Brdf), (Cauchy, Columns::Both)] {
+            let problem = problem(distribution, columns);
+            let x = LeastSquares::start(&problem);
+            let moving: Vec<usize> = (0..x.len()).collect();
+            let mut jacobian = DMatrix::zeros(problem.residual_count(), x.len());
+            assert!(problem.jacobian_at(&x, &mut jacobian));
+            problem.straighten(&x, &moving, &mut jacobian);
+            for j in 0..x.len() {
+                let residuals_after = |h: f64| {
+                    let step: Vec<f64> = (0..x.len()).map(|i| if i == j { h } else { 0.0 }).collect();
+                    let (mut there, mut residuals) = (x.clone(), DVector::zeros(problem.residual_count()));
+                    problem.advance(&x, &moving, &step, &mut there);
+                    assert!(problem.residuals_at(&there, &mut residuals));
+                    residuals
+                };
+                let along = (residuals_after(STEP) - residuals_after(-STEP)) / (2.0 * STEP);
+                let column = jacobian.column(j).clone_owned();
+                assert!((&along - &column).amax() <= NEAR * column.amax().max(1.0), "{distribution:?} {columns:?} {j}: {along} {column}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_longest_steps_end_on_the_edges_of_the_box() {
+        let problem = problem(Cauchy, Columns::Dolp);
+        let x = LeastSquares::start(&problem);
+        for j in 0..x.len() {
+            let (down, up) = problem.reach(&x, j);
+            for (step, edge) in [(down, problem.bounds_of(j).0), (up, problem.bounds_of(j).1)] {
+                let mut there = x.clone();
+                problem.advance(&x, &[j], &[step], &mut there);
+                assert!((there[j] - edge).abs() <= 1e-13 * (1.0 + edge.abs()), "{j}: {} instead of {edge}", there[j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The kernel for DoLP and its derivatives by the nine parameters, as `model::gradient` has them.
+//!
+//! With `T = B W² Z` (so that r = H/(H + T) is the specular share of the radiance and 1 − r = T/(H + T)) and the reflectance
+//! `R = E H/(W² Z)`:
+//!
+//! - by n and k: `r ∂DoLP_s + DoLP_s r (1 − r) ∂ln R`
+//! - by σ, q, k_s: `DoLP_s r (1 − r)` times the logarithmic slope of the specular lobe
+//! - by k_d, k_v: `−DoLP T₁/(H + T)`, T₁ being T of the lobe of unit weight; by c and σ_v that times weight and logarithmic slope
+
+use crate::model::Parameter;
+use crate::model::batch::coefficients::Coefficients;
+use crate::model::batch::elementary::exp;
+use crate::model::batch::kernels::{Fresnel, MINNAERT, NONE, STEEPEST, Slopes, diffuse_exponent, over_geometric, volume_exponent};
+use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
+use fearless_simd::prelude::*;
+
+/// Depolarised terms beyond this multiple of the specular one go the scalar way: their products near the end of f64.
+const DARKEST: f64 = 1e280;
+
+/// DoLP, then its derivatives in the order of [`Parameter::ALL`].
+pub(crate) struct DolpGradient<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool>(pub &'a Coefficients);
+
+/// Where the column of a parameter is.
+const fn column(parameter: Parameter) -> usize {
+    1 + parameter as usize
+}
+
+impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for DolpGradient<'_, CAUCHY, DIFFUSE, VOLUME> {
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; 10], Mask<S>) {
+        let of = self.0;
+        let p = &of.parameters;
+        let zero = number(simd, 0.0);
+        let fresnel = Fresnel::new(simd, points, of);
+        let slopes = Slopes::new::<CAUCHY>(simd, points, of);
+        let gain = over_geometric(points, of) * fresnel.w_sq_z();
+        let mut steepest = slopes.exponent;
+        let (mut diffuse, mut volume) = (zero, zero);
+        if DIFFUSE != NONE {
+            let exponent = if DIFFUSE == MINNAERT { diffuse_exponent(points, of) + slopes.exponent } else { slopes.exponent };
+            steepest = steepest.max(exponent);
+            diffuse = exp(simd, exponent) * of.diffuse_over_specular * gain;
+        }
+        if VOLUME {
+            volume = exp(simd, volume_exponent(points, of) + slopes.exponent) * of.volume_over_specular * gain;
+        }
+        let depolarised = diffuse.mul_add(number(simd, p.kd), volume * p.kv);
+        let total = fresnel.h + depolarised;
+        let one_over = number(simd, 1.0) / total;
+        let dolp = fresnel.polarised * one_over;
+        let share = fresnel.h * one_over;
+        let rest = depolarised * one_over;
+        let both = dolp * rest;
+
+        let mut out = [zero; 10];
+        out[0] = dolp;
+        let ([mean_n, mean_k], [limit_n, limit_k]) = index_slopes(simd, &fresnel, of);
+        out[column(Parameter::N)] = share.mul_add(limit_n, both * mean_n);
+        out[column(Parameter::K)] = share.mul_add(limit_k, both * mean_k);
+        out[column(Parameter::Ks)] = both * (1.0 / p.ks);
+        if CAUCHY {
+            let slope = number(simd, p.q - 1.0).mul_sub(slopes.w, number(simd, 1.0)) / (slopes.w + 1.0);
+            out[column(Parameter::Sigma)] = both * slope * (2.0 / p.sigma);
+            out[column(Parameter::Q)] = both * (number(simd, 1.0 / (p.q - 1.0)) - slopes.ln);
+        } else {
+            out[column(Parameter::Sigma)] = both * (slopes.w - 1.0) * (2.0 / p.sigma);
+        }
+        let darkening = -(dolp * one_over);
+        if DIFFUSE != NONE {
+            let by_weight = darkening * diffuse;
+            out[column(Parameter::Kd)] = by_weight;
+            if DIFFUSE == MINNAERT {
+                out[column(Parameter::C)] = by_weight * p.kd * points.load(|eight| &eight.ln_cosines);
+            }
+        }
+        if VOLUME {
+            let by_weight = darkening * volume;
+            out[column(Parameter::Kv)] = by_weight;
+            let slope = volume_exponent(points, of) * 2.0 + 1.0;
+            out[column(Parameter::SigmaV)] = by_weight * slope * (-p.kv / p.sigma_v);
+        }
+        let doubtful = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero) | total.simd_gt(number(simd, DARKEST));
+        (out, doubtful)
+    }
+}
+
+/// Derivatives of ln R, the reflectance, and of DoLP_s by n and k.
+#[inline(always)]
+fn index_slopes<S: Simd>(simd: S, fresnel: &Fresnel<S>, of: &Coefficients) -> ([V<S>; 2], [V<S>; 2]) {
+    let (n, k) = (of.parameters.n, of.parameters.k);
+    let splat = |value| number(simd, value);
+    let Fresnel { sin_sq, u, a_sq, larger, smaller, dense, .. } = *fresnel;
+    let v = choose::<S>(dense, smaller, larger);
+    let one_over_a_sq = splat(1.0) / a_sq;
+    // ∂u/∂n and ∂u/∂k, the latter without the difference v² − k² (`optics::fresnel`).
+    let along = u.mul_add(splat(n), v * k) * one_over_a_sq;
+    let size_sq = v.mul_add(v, splat(of.n_sq));
+    let across = choose::<S>(size_sq.simd_gt(splat(0.0)), sin_sq * v * n / size_sq, splat(0.0)) * one_over_a_sq;
+    let modulus_sq = of.n_sq + k * k;
+    let by_n = IndexSlope { u: along, a_sq: (splat(modulus_sq) - sin_sq) * (2.0 * n) * one_over_a_sq, ln_e: of.ln_e_slopes[0] };
+    let by_k = IndexSlope { u: across, a_sq: (sin_sq + modulus_sq) * (2.0 * k) * one_over_a_sq, ln_e: of.ln_e_slopes[1] };
+    let shared = Shared::new(simd, fresnel, of);
+    let (mean_n, limit_n) = shared.slopes(simd, fresnel, &by_n);
+    let (mean_k, limit_k) = shared.slopes(simd, fresnel, &by_k);
+    ([mean_n, mean_k], [limit_n, limit_k])
+}
+
+/// Derivatives of u, |a|² and ln E by one of n and k.
+struct IndexSlope<S: Simd> {
+    u: V<S>,
+    a_sq: V<S>,
+    ln_e: f64,
+}
+
+/// What the derivatives by n and by k share.
+struct Shared<S: Simd> {
+    over_h: V<S>,
+    over_z: V<S>,
+    over_w: V<S>,
+    /// R, and where it is so large that the form of `1 − R` keeps more digits.
+    mean: V<S>,
+    bright: Mask<S>,
+    /// (1 − R)/4u and its parts: cos β/W, cos β sin²β/2Z, Rs.
+    s_part: V<S>,
+    p_part: V<S>,
+    rs: V<S>,
+}
+
+impl<S: Simd> Shared<S> {
+    #[inline(always)]
+    fn new(simd: S, fresnel: &Fresnel<S>, of: &Coefficients) -> Self {
+        let one = number(simd, 1.0);
+        let (over_h, over_z, over_w) = (one / fresnel.h, one / fresnel.z, one / fresnel.w);
+        let rs = over_w * over_w * of.e;
+        let mean = rs * fresnel.h * over_z;
+        Self {
+            over_h,
+            over_z,
+            over_w,
+            mean,
+            bright: mean.simd_ge(number(simd, 0.5)),
+            s_part: fresnel.cos * over_w,
+            p_part: fresnel.cos * fresnel.sin_sq * over_z * 0.5,
+            rs,
+        }
+    }
+
+    /// ∂ln R and ∂DoLP_s.
+    #[inline(always)]
+    fn slopes(&self, simd: S, fresnel: &Fresnel<S>, by: &IndexSlope<S>) -> (V<S>, V<S>) {
+        let Self { over_h, over_z, over_w, mean, bright, s_part, p_part, rs } = *self;
+        let Fresnel { cos, cos_sq, sin_sq, u, .. } = *fresnel;
+        let two_cos_du = cos * by.u * 2.0;
+        let dh = cos_sq * by.a_sq;
+        let ln_dh = dh * over_h;
+        let ln_dw = (two_cos_du + by.a_sq) * over_w;
+        let ln_dz = two_cos_du.mul_add(sin_sq, dh) * over_z;
+        let of_dim = ln_dh - ln_dw * 2.0 - ln_dz + by.ln_e;
+        // A strong reflector hardly changes: 1 − R = 4u (cos β/W + Rs cos β sin²β/2Z) keeps the digits.
+        let absorbed = rs.mul_add(p_part, s_part);
+        let ln_drs = number(simd, by.ln_e) - ln_dw * 2.0;
+        let dabsorbed = (rs * p_part).mul_add(ln_drs - ln_dz, -(s_part * ln_dw));
+        let of_bright = u.mul_add(dabsorbed, by.u * absorbed) * -4.0 / mean;
+        let limit = cos * sin_sq * 2.0 * over_h * (by.u - u * ln_dh);
+        (choose::<S>(bright, of_bright, of_dim), limit)
+    }
+}

@@ -1,0 +1,246 @@
+//! Which instructions carry the lanes, and points and results on their way through them.
+//!
+//! Every kernel is lane-wise: a point's result depends on that point alone, not on its neighbours, on the width of the vectors or on how
+//! the points were shared among threads. With fused multiply–add (AVX2, AVX-512, NEON) it is the same to the bit; without (SSE2, WebAssembly)
+//! the same formulas round once more here and there.
+
+use crate::model::batch::prepared::{Eight, LANES};
+use fearless_simd::{Level, prelude::*};
+use std::ops::Range;
+
+/// Points that one thread takes at once: some 20 µs of work, ten times what handing it over costs.
+#[cfg(feature = "threads")]
+const GRAIN: usize = 4096;
+
+/// A vector of the width that the instructions have.
+pub(crate) type V<S> = <S as Simd>::f64s;
+/// Its bits.
+pub(crate) type Bits<S> = <V<S> as SimdFloat<S>>::Bits;
+/// One truth value per lane.
+pub(crate) type Mask<S> = <S as Simd>::mask64s;
+
+/// The same number in every lane.
+#[inline(always)]
+pub(crate) fn number<S: Simd>(simd: S, value: f64) -> V<S> {
+    value.simd_into(simd)
+}
+
+/// The instructions to use. What the processor lacks is replaced by the widest it has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Instructions {
+    /// The widest that the processor has.
+    #[default]
+    Widest,
+    /// Not AVX-512, even where it is there.
+    Avx2,
+    /// What every processor of its kind has: SSE2, NEON or WebAssembly's 128 bits.
+    Portable,
+}
+
+impl Instructions {
+    /// What is used on this machine, for people: `AVX-512`, `AVX2`, `SSE2`, `NEON`, `portable`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.level() {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx512(_) => "AVX-512",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(_) => "AVX2",
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(_) => "SSE2",
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(_) => "NEON",
+            _ => "portable",
+        }
+    }
+
+    fn level(self) -> Level {
+        let widest = Level::new();
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            let avx512 = if self == Self::Widest { widest.as_avx512() } else { None };
+            let avx2 = if self == Self::Portable { None } else { widest.as_avx2() };
+            // SSE4.2 adds nothing that the kernels use.
+            match (avx512, avx2, widest.as_sse2()) {
+                (Some(avx512), ..) => return Level::Avx512(avx512),
+                (None, Some(avx2), _) => return Level::Avx2(avx2),
+                (None, None, Some(sse2)) => return Level::Sse2(sse2),
+                (None, None, None) => {}
+            }
+        }
+        widest
+    }
+}
+
+/// What is computed of a point, `OUT` numbers.
+pub(crate) trait Kernel<const OUT: usize>: Sync {
+    /// The numbers, and where they are not to be trusted: there the scalar form is asked.
+    fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; OUT], Mask<S>);
+}
+
+/// As many prepared points as a vector has lanes.
+pub(crate) struct Points<'a, S: Simd> {
+    simd: S,
+    eight: &'a Eight,
+    first: usize,
+}
+
+impl<S: Simd> Points<'_, S> {
+    /// A column of [`Eight`].
+    #[inline(always)]
+    pub(crate) fn load(&self, column: impl Fn(&Eight) -> &[f64; LANES]) -> V<S> {
+        V::<S>::from_slice(self.simd, &column(self.eight)[self.first..self.first + V::<S>::LEN])
+    }
+}
+
+/// Points to be evaluated: whole and broken eights, where the results go, and the scalar form.
+pub(crate) struct Job<'a, const OUT: usize> {
+    pub eights: &'a [Eight],
+    pub columns: [&'a mut [f64]; OUT],
+    /// Number of the first point.
+    pub first: usize,
+    /// By the number of the point.
+    pub scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
+}
+
+impl<const OUT: usize> Job<'_, OUT> {
+    /// How many points.
+    fn len(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.len())
+    }
+
+    /// Evaluates all points with those instructions, on several threads where that pays.
+    #[cfg(feature = "threads")]
+    pub(crate) fn spread<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
+        if self.len() <= GRAIN {
+            return self.run(kernel, instructions);
+        }
+        let middle = (self.len() / 2).next_multiple_of(LANES);
+        let (left, right) = self.split(middle);
+        rayon::join(|| left.spread(kernel, instructions), || right.spread(kernel, instructions));
+    }
+
+    /// Evaluates all points with those instructions.
+    #[cfg(not(feature = "threads"))]
+    pub(crate) fn spread<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
+        self.run(kernel, instructions);
+    }
+
+    /// Two jobs: the points before `middle`, a multiple of [`LANES`], and the others.
+    #[cfg(feature = "threads")]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let (left_eights, right_eights) = self.eights.split_at(middle / LANES);
+        let mut right_columns = Vec::with_capacity(OUT);
+        let left_columns = self.columns.map(|column| {
+            let (left, right) = column.split_at_mut(middle);
+            right_columns.push(right);
+            left
+        });
+        let mut right_columns = right_columns.into_iter();
+        let right_columns = std::array::from_fn(|_| right_columns.next().unwrap_or_default());
+        (
+            Self { eights: left_eights, columns: left_columns, ..self },
+            Self { eights: right_eights, columns: right_columns, first: self.first + middle, scalar: self.scalar },
+        )
+    }
+
+    /// Evaluates all points with those instructions on this thread.
+    pub(crate) fn run<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
+        match instructions.level() {
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx512(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.run_on(simd, kernel),
+            ),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Avx2(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.run_on(simd, kernel),
+            ),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Level::Sse2(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.run_on(simd, kernel),
+            ),
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.run_on(simd, kernel),
+            ),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Level::WasmSimd128(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.run_on(simd, kernel),
+            ),
+            _ => self.run_scalar(),
+        }
+    }
+
+    #[inline(always)]
+    fn run_on<S: Simd, K: Kernel<OUT>>(mut self, simd: S, kernel: &K) {
+        let count = self.len();
+        let whole = count / LANES;
+        for (i, eight) in self.eights.iter().enumerate().take(whole) {
+            for first in (0..LANES).step_by(V::<S>::LEN) {
+                let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
+                let at = LANES * i + first;
+                for (column, value) in self.columns.iter_mut().zip(values) {
+                    value.store_slice(&mut column[at..at + V::<S>::LEN]);
+                }
+                if doubtful.any_true() {
+                    self.repair(at..at + V::<S>::LEN, doubtful.to_bitmask());
+                }
+            }
+        }
+        if let Some(eight) = self.eights.get(whole) {
+            self.run_tail(simd, kernel, eight, LANES * whole..count);
+        }
+    }
+
+    /// The last eight, of which only a part is wanted.
+    #[inline(always)]
+    fn run_tail<S: Simd, K: Kernel<OUT>>(&mut self, simd: S, kernel: &K, eight: &Eight, wanted: Range<usize>) {
+        for first in (0..wanted.len()).step_by(V::<S>::LEN) {
+            let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
+            let at = wanted.start + first;
+            let end = wanted.end.min(at + V::<S>::LEN);
+            for (column, value) in self.columns.iter_mut().zip(values) {
+                column[at..end].copy_from_slice(&value.as_slice()[..end - at]);
+            }
+            if doubtful.any_true() {
+                self.repair(at..end, doubtful.to_bitmask());
+            }
+        }
+    }
+
+    /// Puts the scalar form's numbers where the lane of that bit is doubtful.
+    #[cold]
+    #[inline(never)]
+    fn repair(&mut self, points: Range<usize>, doubtful: u64) {
+        for (lane, point) in points.enumerate() {
+            if doubtful >> lane & 1 == 1 {
+                self.put(point);
+            }
+        }
+    }
+
+    /// Evaluates all points by the scalar form.
+    #[cold]
+    pub(crate) fn run_scalar(mut self) {
+        for point in 0..self.len() {
+            self.put(point);
+        }
+    }
+
+    fn put(&mut self, point: usize) {
+        for (column, value) in self.columns.iter_mut().zip((self.scalar)(self.first + point)) {
+            column[point] = value;
+        }
+    }
+}
+
+/// The first where the mask is true, else the second.
+#[inline(always)]
+pub(crate) fn choose<S: Simd>(mask: Mask<S>, yes: V<S>, no: V<S>) -> V<S> {
+    mask.select(yes, no)
+}

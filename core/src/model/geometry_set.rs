@@ -1,0 +1,186 @@
+//! A list of geometries prepared once for many evaluations, and, where the index stays the same, their Fresnel reflection as well.
+
+use crate::model::prepared::AtHand;
+use crate::model::{Gradient, Pbrdf, Reflection, Wanted};
+use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex, SharpFacet};
+use std::sync::{Arc, OnceLock};
+
+/// Geometries, prepared.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    facets: Vec<Facet>,
+    /// Of each facet, for surfaces of that index.
+    fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
+    /// Of each facet, from when it was first asked for, and room for it from when any was; the copies of a scene have it in common.
+    sharp: Arc<OnceLock<Box<[OnceLock<SharpFacet>]>>>,
+}
+
+/// Equal where the geometries are: what else is prepared changes no result.
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        self.facets == other.facets
+    }
+}
+
+impl Scene {
+    /// Prepares geometries, keeping their order.
+    #[must_use]
+    pub fn new(geometries: impl IntoIterator<Item = Geometry>) -> Self {
+        Self::from_facets(geometries.into_iter().map(Facet::new).collect())
+    }
+
+    /// From geometries that are prepared already.
+    #[must_use]
+    pub fn from_facets(facets: Vec<Facet>) -> Self {
+        Self { facets, ..Self::default() }
+    }
+
+    /// With the Fresnel reflection of all facets prepared for surfaces of one index; others are evaluated as before.
+    #[must_use]
+    pub fn with_index(self, index: RefractiveIndex) -> Self {
+        if self.fresnel.as_ref().is_some_and(|(prepared, _)| *prepared == index) {
+            return self;
+        }
+        let fresnel = self.facets.iter().map(|facet| Fresnel::new(index, facet)).collect();
+        Self { fresnel: Some((index, fresnel)), ..self }
+    }
+
+    /// Without any Fresnel reflection prepared.
+    #[must_use]
+    pub fn without_index(self) -> Self {
+        Self { fresnel: None, ..self }
+    }
+
+    /// How many geometries.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.facets.is_empty()
+    }
+
+    /// The prepared geometries.
+    #[must_use]
+    pub fn facets(&self) -> &[Facet] {
+        &self.facets
+    }
+
+    /// DoLP of the geometry of that number, as [`Pbrdf::dolp`] has it.
+    #[must_use]
+    pub fn dolp(&self, surface: &Pbrdf, point: usize) -> f64 {
+        surface.dolp_with(&self.at(point))
+    }
+
+    /// BRDF, DoLP and terms of the geometry of that number, as [`Pbrdf::reflection`] has them.
+    #[must_use]
+    pub fn reflection(&self, surface: &Pbrdf, point: usize) -> Reflection {
+        surface.reflection_with(&self.at(point))
+    }
+
+    /// The same with derivatives, as [`Pbrdf::reflection_and_gradient`] has them.
+    #[must_use]
+    pub fn reflection_and_gradient(&self, surface: &Pbrdf, point: usize, wanted: Wanted) -> (Reflection, Gradient) {
+        surface.reflection_and_gradient_with(&self.at(point), wanted)
+    }
+
+    /// BRDF, DoLP and terms of each.
+    pub fn reflections<'a>(&'a self, surface: &'a Pbrdf) -> impl Iterator<Item = Reflection> + 'a {
+        (0..self.len()).map(|point| self.reflection(surface, point))
+    }
+
+    /// The same with derivatives.
+    pub fn reflections_and_gradients<'a>(
+        &'a self,
+        surface: &'a Pbrdf,
+        wanted: Wanted,
+    ) -> impl Iterator<Item = (Reflection, Gradient)> + 'a {
+        (0..self.len()).map(move |point| self.reflection_and_gradient(surface, point, wanted))
+    }
+
+    fn at(&self, point: usize) -> Place<'_> {
+        Place { scene: self, point }
+    }
+}
+
+/// One geometry of a scene.
+struct Place<'a> {
+    scene: &'a Scene,
+    point: usize,
+}
+
+impl AtHand for Place<'_> {
+    fn facet(&self) -> &Facet {
+        &self.scene.facets[self.point]
+    }
+
+    fn fresnel(&self, wanted: RefractiveIndex) -> Fresnel {
+        match &self.scene.fresnel {
+            Some((index, fresnel)) if *index == wanted => fresnel[self.point],
+            _ => Fresnel::new(wanted, self.facet()),
+        }
+    }
+
+    fn sharp(&self) -> SharpFacet {
+        let all = self.scene.sharp.get_or_init(|| self.scene.facets.iter().map(|_| OnceLock::new()).collect());
+        *all[self.point].get_or_init(|| SharpFacet::new(self.facet().geometry))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Scene;
+    use crate::model::{Batch, Model, Parameters, Pbrdf, Wanted};
+    use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
+
+    #[test]
+    fn a_prepared_index_serves_its_own_surfaces_and_no_others() {
+        let geometries = [(30.0, 50.0, 180.0), (0.0, 0.0, 0.0), (80.0, 10.0, 75.0)];
+        let geometries = geometries.map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
+        let defaults = Parameters::default();
+        let index = RefractiveIndex::new(defaults.n, defaults.k).expect("an index");
+        let scene = Scene::new(geometries).with_index(index);
+        for parameters in [defaults, Parameters { sigma: 0.1, ..defaults }, Parameters { n: 1.5, ..defaults }] {
+            let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), parameters).expect("in range");
+            for (point, geometry) in geometries.into_iter().enumerate() {
+                let facet = Facet::new(geometry);
+                assert_eq!(scene.dolp(&surface, point), surface.dolp(&facet));
+                assert_eq!(scene.reflection(&surface, point), surface.reflection(&facet));
+                let expected = surface.reflection_and_gradient(&facet, Wanted::ALL);
+                assert_eq!(scene.reflection_and_gradient(&surface, point, Wanted::ALL), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn far_tails_are_the_same_in_a_scene() {
+        let surface =
+            Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters { sigma: 0.02, kd: 1e-200, kv: 0.0, ..Parameters::default() })
+                .expect("in range");
+        let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
+        let (scene, facet) = (Scene::new([geometry]), Facet::new(geometry));
+        let copy = scene.clone();
+        assert!(surface.dolp(&facet) > 0.0);
+        assert_eq!(scene.dolp(&surface, 0), surface.dolp(&facet));
+        assert_eq!(copy.reflection(&surface, 0), surface.reflection(&facet));
+        let sharp = copy.sharp.get().expect("a far tail was asked for");
+        assert!(sharp[0].get().is_some(), "both copies have it from the first that asked");
+    }
+
+    #[test]
+    fn a_batch_takes_far_tails_from_its_scene() {
+        let extreme = Parameters { sigma: 1e-200, ..Parameters::default() };
+        for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
+            let surface = Pbrdf::new(Model::full(distribution), extreme).expect("in range");
+            let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
+            let scene = Scene::new([geometry]);
+            let mut dolp = Vec::new();
+            Batch::from_scene(scene.clone()).dolp(&surface, &mut dolp);
+            assert_eq!(dolp, [surface.dolp(&Facet::new(geometry))]);
+            assert!(scene.sharp.get().is_some_and(|sharp| sharp[0].get().is_some()), "made once, for all that share the scene");
+        }
+    }
+}

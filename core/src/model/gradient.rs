@@ -1,0 +1,266 @@
+//! Analytic partial derivatives of BRDF and DoLP by each of the nine parameters.
+//!
+//! With the lobes of unit weight U (specular, without reflectance), D and V, the mean reflectance R and `b = (k_d D + k_v V)/U`:
+//!
+//! - `BRDF = k_s R U + k_d D + k_v V`
+//! - `DoLP = DoLP_s r`, `r = k_s R/(k_s R + b)`, `1 − r = b/(k_s R + b)`
+//!
+//! so that `∂r = r (1 − r) ∂ln(k_s R U)` by what is specular and `∂r = −r ∂b/(k_s R + b)` by what is not; products are
+//! formed so that none of them is 0/0 at k_s, k_d, k_v, k = 0 or N = 1, nor where a lobe underflows. At k, k_d, k_v = 0 the
+//! derivatives are one-sided; one beyond f64 is infinite.
+
+use crate::model::hyde_diffuse::Loss;
+use crate::model::lobes::Lobe;
+use crate::model::pbrdf::{Lobes, Pbrdf, Reflection};
+use crate::model::prepared::AtHand;
+use crate::model::{Diffuse, Parameter, ParameterSet};
+use crate::optics::{Facet, Fresnel, FresnelGradient};
+
+/// Partial derivatives of BRDF (sr⁻¹ per unit of the parameter) and DoLP, in the order of [`Parameter::ALL`].
+///
+/// Those by parameters that play no part in the model are 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gradient {
+    /// ∂BRDF/∂p.
+    pub brdf: [f64; 9],
+    /// ∂DoLP/∂p.
+    pub dolp: [f64; 9],
+}
+
+/// Which derivatives are wanted; the others are left out and stay 0, and so do BRDF with its terms, or DoLP, where no derivative of them is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// By these parameters.
+    pub by: ParameterSet,
+    /// Of the BRDF.
+    pub brdf: bool,
+    /// Of DoLP.
+    pub dolp: bool,
+}
+
+impl Wanted {
+    /// Everything.
+    pub const ALL: Self = Self { by: ParameterSet::ALL, brdf: true, dolp: true };
+}
+
+/// A product that is 0 wherever a factor is, however large the other.
+fn fading(value: f64, slope: f64) -> f64 {
+    if value == 0.0 || slope == 0.0 { 0.0 } else { value * slope }
+}
+
+/// Adds to a derivative; one that lies beyond f64 already stays there, even against another.
+fn join(derivative: &mut f64, other: f64) {
+    if derivative.is_finite() {
+        *derivative += other;
+    }
+}
+
+/// What the derivatives of DoLP share.
+struct Mixture {
+    /// R, the mean reflectance.
+    mean: f64,
+    /// DoLP_s.
+    limit: f64,
+    /// r, the specular share of the radiance.
+    share: f64,
+    /// 1 − r, formed without a difference.
+    rest: f64,
+    /// k_s R + b.
+    total: f64,
+}
+
+impl Pbrdf {
+    /// BRDF, DoLP and terms with their derivatives at a prepared geometry: those that are wanted.
+    #[must_use]
+    pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
+        self.reflection_and_gradient_with(facet, wanted)
+    }
+
+    /// The same of a geometry of which more may be at hand.
+    pub(crate) fn reflection_and_gradient_with(&self, at: &impl AtHand, wanted: Wanted) -> (Reflection, Gradient) {
+        let p = self.parameters();
+        let facet = at.facet();
+        let lobes = self.lobes(at);
+        let mut reflection = Reflection::default();
+        let mut gradient = Gradient::default();
+        if wanted.brdf {
+            reflection.diffuse = lobes.diffuse.weighted(self.diffuse_weight());
+            reflection.volume = lobes.volume.weighted(p.kv);
+        }
+        if self.model().specular {
+            let fresnel = at.fresnel(self.index());
+            let mean = fresnel.mean();
+            let by_index = if wanted.by.contains(Parameter::N) || wanted.by.contains(Parameter::K) {
+                fresnel.gradient()
+            } else {
+                FresnelGradient { mean: [0.0; 2], dolp: [0.0; 2] }
+            };
+            if wanted.brdf {
+                reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
+                self.specular_brdf_gradient(&lobes, mean, reflection.specular, by_index, wanted.by, &mut gradient.brdf);
+            }
+            if wanted.dolp {
+                let mixture = self.mixture(&lobes, &fresnel, mean);
+                reflection.dolp = mixture.limit * mixture.share;
+                if self.reflects_or_depolarises(&lobes) {
+                    self.dolp_gradient(&lobes, facet, &mixture, by_index, wanted.by, &mut gradient.dolp);
+                }
+            }
+        }
+        if wanted.brdf {
+            reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
+            self.depolarised_brdf_gradient(&lobes, facet, &reflection, wanted.by, &mut gradient.brdf);
+        }
+        mask(&mut gradient, wanted.by);
+        (reflection, gradient)
+    }
+
+    /// Specular and depolarised light.
+    fn mixture(&self, lobes: &Lobes, fresnel: &Fresnel, mean: f64) -> Mixture {
+        let depolarised = self.depolarised_over_specular(lobes);
+        let share = self.specular_share(mean, depolarised);
+        let total = self.raised(self.parameters().ks) * mean + depolarised;
+        let rest = if depolarised == 0.0 {
+            1.0 - share
+        } else if total.is_finite() {
+            depolarised / total
+        } else {
+            1.0
+        };
+        Mixture { mean, limit: fresnel.dolp(), share, rest, total }
+    }
+
+    /// Whether there is any light, so that DoLP has a derivative.
+    fn reflects_or_depolarises(&self, lobes: &Lobes) -> bool {
+        let p = self.parameters();
+        self.reflects_specularly() || self.diffuse_weight() * lobes.diffuse.factor > 0.0 || p.kv * lobes.volume.factor > 0.0
+    }
+
+    fn specular_brdf_gradient(
+        &self,
+        lobes: &Lobes,
+        mean: f64,
+        specular: f64,
+        by_index: FresnelGradient,
+        by: ParameterSet,
+        out: &mut [f64; 9],
+    ) {
+        let p = self.parameters();
+        let distribution = self.model().distribution;
+        if by.contains(Parameter::N) || by.contains(Parameter::K) {
+            let weighted = lobes.specular.weighted(p.ks);
+            out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
+            out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
+        }
+        out[Parameter::Sigma as usize] = fading(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        if by.contains(Parameter::Ks) {
+            out[Parameter::Ks as usize] = lobes.specular.value() * mean;
+        }
+        if by.contains(Parameter::Q) {
+            let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
+            out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q));
+        }
+    }
+
+    fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, by: ParameterSet, out: &mut [f64; 9]) {
+        let p = self.parameters();
+        let value = |parameter: Parameter, lobe: Lobe| if by.contains(parameter) { lobe.value() } else { 0.0 };
+        out[Parameter::Kv as usize] = value(Parameter::Kv, lobes.volume);
+        match self.model().diffuse {
+            Diffuse::Absent => {}
+            Diffuse::Lambert => out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse),
+            Diffuse::Minnaert => {
+                out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse);
+                out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
+            }
+            Diffuse::Hyde if self.model().specular => {
+                let loss = self.loss(facet);
+                out[Parameter::Ks as usize] += lobes.diffuse.value();
+                join(&mut out[Parameter::Sigma as usize], fading(reflection.diffuse, loss.by_sigma));
+                join(&mut out[Parameter::Q as usize], fading(reflection.diffuse, loss.by_q));
+            }
+            Diffuse::Hyde => {}
+        }
+        if self.model().volume {
+            out[Parameter::SigmaV as usize] = fading(reflection.volume, volume_slope(lobes.volume, p.sigma_v));
+        }
+    }
+
+    fn dolp_gradient(
+        &self,
+        lobes: &Lobes,
+        facet: &Facet,
+        mixture: &Mixture,
+        by_index: FresnelGradient,
+        by: ParameterSet,
+        out: &mut [f64; 9],
+    ) {
+        let p = self.parameters();
+        let &Mixture { mean, limit, share, rest, total } = mixture;
+        let distribution = self.model().distribution;
+        // ∂r/∂R and ∂r/∂k_s, without r/R or r/k_s, which are 0/0 in the dark.
+        let by_mean = fading(rest * self.raised(p.ks), 1.0 / total);
+        for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
+            out[parameter as usize] = fading(share, by_index.dolp[j]) + fading(limit * by_mean, by_index.mean[j]);
+        }
+        out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
+        let both = limit * (share * rest);
+        out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        if by.contains(Parameter::Q) {
+            out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q) / distribution.height(p.q));
+        }
+
+        // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
+        let gains = [-limit * share, 1.0 / total];
+        let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gains);
+        let darken_for = |parameter: Parameter, lobe: Lobe, weight: f64| if by.contains(parameter) { darken(lobe, weight) } else { 0.0 };
+        out[Parameter::Kv as usize] = darken_for(Parameter::Kv, lobes.volume, 1.0);
+        match self.model().diffuse {
+            Diffuse::Absent => {}
+            Diffuse::Lambert => out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0),
+            Diffuse::Minnaert => {
+                out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0);
+                out[Parameter::C as usize] = darken_for(Parameter::C, lobes.diffuse, p.kd) * facet.ln_cosines;
+            }
+            Diffuse::Hyde => {
+                let loss = self.loss(facet);
+                let balance = darken(lobes.diffuse, p.ks);
+                join(&mut out[Parameter::Sigma as usize], fading(balance, loss.by_sigma));
+                join(&mut out[Parameter::Q as usize], fading(balance, loss.by_q));
+                // Specular lobe and balance rise together: against the volume lobe alone k_s counts.
+                let others = lobes.volume.scaled(self.raised(p.kv)).over(lobes.specular);
+                let rest = if others == 0.0 { 0.0 } else { (others / total).min(1.0) };
+                out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
+            }
+        }
+        if self.model().volume {
+            out[Parameter::SigmaV as usize] =
+                fading(darken_for(Parameter::SigmaV, lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
+        }
+    }
+}
+
+impl Pbrdf {
+    /// What single reflection loses, for Hyde's term.
+    fn loss(&self, facet: &Facet) -> Loss {
+        Loss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)
+    }
+}
+
+/// `∂ln F^v/∂σ_v = (θr²/σ_v² − 1)/σ_v`.
+fn volume_slope(volume: Lobe, sigma_v: f64) -> f64 {
+    (2.0 * volume.exponent - 1.0) / sigma_v
+}
+
+/// Clears the derivatives that nobody asked for.
+fn mask(gradient: &mut Gradient, wanted: ParameterSet) {
+    if wanted == ParameterSet::ALL {
+        return;
+    }
+    for parameter in Parameter::ALL {
+        if !wanted.contains(parameter) {
+            gradient.brdf[parameter as usize] = 0.0;
+            gradient.dolp[parameter as usize] = 0.0;
+        }
+    }
+}

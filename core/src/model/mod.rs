@@ -1,0 +1,33 @@
+//! Floor 2: the nine-parameter polarimetric BRDF.
+//!
+//! `F = k_s F^s + k_d F^d + k_v F^v`, Eqs. (3, 14) of Wang et al., Acta Opt. Sin. 41, 1129002 (2021): a
+//! Torrance–Sparrow lobe of Fresnel-reflecting microfacets, a Minnaert lobe and a volume lobe. Which terms are there is part of
+//! the [`Model`]; how strong they are is in the [`Parameters`].
+
+mod assignment;
+mod audit;
+mod batch;
+mod far_tail;
+mod finishes;
+mod geometry_set;
+mod gradient;
+mod hemisphere;
+mod hyde_diffuse;
+mod lobes;
+mod parameters;
+mod pbrdf;
+mod prepared;
+mod presets;
+
+pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
+pub use audit::{Audit, Check, Finding, Reflectance};
+pub use batch::{Batch, DolpGradients, Instructions, Radiances};
+pub use finishes::{FINISHES, Finish};
+pub use geometry_set::Scene;
+pub use gradient::{Gradient, Wanted};
+pub use hemisphere::{Hemisphere, HemisphereMap};
+pub(crate) use hyde_diffuse::lost_by_single_reflection;
+pub use lobes::Lobe;
+pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
+pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
+pub use presets::{PRESETS, Preset};

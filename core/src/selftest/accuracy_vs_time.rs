@@ -1,0 +1,287 @@
+//! Error against run time: of evaluations against the 60-digit table, and along fits.
+
+use crate::model::{Batch, Model, Parameters, Pbrdf, Radiances, Scene};
+use crate::optics::{Facet, Geometry, SlopeDistribution};
+use crate::selftest::model_benchmark::LADDER;
+use crate::selftest::reference::{Reference, golden, relative_error};
+use crate::selftest::solver_benchmark::{Extent, Race, Step};
+use crate::selftest::table::Curves;
+use crate::selftest::textbook::{textbook_f32, textbook_f64};
+use crate::selftest::{Cell, Machine, Report, Row, Surroundings, Timing, quantile};
+use serde_json::{Map, Value, json};
+use std::cell::RefCell;
+use std::hint::black_box;
+
+/// What was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TaskKind {
+    /// Values of BRDF and DoLP.
+    Evaluate,
+    /// Parameters from data.
+    Fit,
+}
+
+impl TaskKind {
+    /// Its name in the table.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Evaluate => "evaluate",
+            Self::Fit => "fit",
+        }
+    }
+}
+
+/// A method: how long it takes and how far off it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorVsTime {
+    /// What was done.
+    pub task: TaskKind,
+    /// By which method.
+    pub method: String,
+    /// Median time: nanoseconds of an evaluated point, milliseconds of a fit.
+    pub time: f64,
+    /// Half the distance between the quartiles of the time over its median; NaN where there is one time alone.
+    pub spread: f64,
+    /// Largest relative error.
+    pub worst_relative_error: f64,
+    /// Its median.
+    pub median_relative_error: f64,
+    /// Share of fits that reached the best objective known.
+    pub success_rate: Option<f64>,
+}
+
+impl Row for ErrorVsTime {
+    const COLUMNS: &'static [&'static str] =
+        &["task", "method", "ns_per_point", "elapsed_ms", "worst_relative_error", "median_relative_error", "success_rate"];
+
+    fn cells(&self) -> Vec<Cell> {
+        let time_of = |task: TaskKind| if self.task == task { Cell::Number(self.time) } else { Cell::Absent };
+        vec![
+            Cell::Text(self.task.key().to_owned()),
+            Cell::Text(self.method.clone()),
+            time_of(TaskKind::Evaluate),
+            time_of(TaskKind::Fit),
+            Cell::Number(self.worst_relative_error),
+            Cell::Number(self.median_relative_error),
+            Cell::maybe(self.success_rate),
+        ]
+    }
+}
+
+impl ErrorVsTime {
+    /// Makes the report.
+    #[must_use]
+    pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+        Self::to_extent(Extent::WHOLE, machine, date, surroundings)
+    }
+
+    fn to_extent(extent: Extent, machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+        let golden = golden();
+        let mut rows = evaluations(&golden, surroundings);
+        (surroundings.progress)(0.05);
+        let mut race = if (surroundings.cancelled)() { Race::default() } else { Race::run(extent, surroundings) };
+        rows.append(&mut race.rows);
+        let notes = notes(golden.len(), extent, &rows);
+        let further = curves(&rows, &race);
+        Report {
+            further,
+            curves: Curves { fits: race.curves, models: race.ladder, profiles: race.profiles },
+            ..Report::new("Error against run time", machine, date, rows, notes)
+        }
+    }
+}
+
+fn notes(golden: usize, extent: Extent, rows: &[ErrorVsTime]) -> Vec<String> {
+    let Extent { starts, repetitions, repetitions_of_many } = extent;
+    let spreads = rows.iter().filter(|row| row.spread.is_finite());
+    let spreads: Vec<String> = spreads.map(|row| format!("{} {:.1} %", row.method, 100.0 * row.spread)).collect();
+    vec![
+        format!(
+            "Evaluation: BRDF and DoLP of the nine-parameter model on the {golden} rows of the 60-digit table; times with one Cauchy surface under all \
+             its geometries, on one thread: median of 11 repetitions after a warm-up. An error of 1 means not a single digit."
+        ),
+        format!(
+            "Fits: eight simulated DoLP data sets of steel (Gauss and Cauchy; 144 dense angles or the paper's 27; noise 0 or 0.005) from {starts} \
+             starts each, which \"{starts} starts\" takes one after the other. Times are medians of {repetitions} repetitions after a warm-up, of \
+             {repetitions_of_many} for many starts (all threads); elapsed_ms is the median over the fits; success is the best objective known \
+             within a factor 1 + 1e-6, or 1e-20; the errors are the largest relative distance of a parameter from the truth where dense angles \
+             without noise tell it."
+        ),
+        "Models: each of the ladder fitted with many starts to the dense Cauchy data with noise 0.005; the errors are those of its DoLP against the \
+         noise-free one where that is above 0.001."
+            .to_owned(),
+        format!("Spread of the repetitions, half the distance between the quartiles over the median: {}.", spreads.join("; ")),
+    ]
+}
+
+/// Times with their spread, curves and profiles, for the file.
+fn curves(rows: &[ErrorVsTime], race: &Race) -> Map<String, Value> {
+    let column = |steps: &[Step], i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
+    let timing = |row: &ErrorVsTime| json!({ "task": row.task.key(), "method": row.method, "spread": row.spread });
+    let curve = |(method, steps): &(String, Vec<Step>)| json!({ "method": method, "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
+    let profile = |(method, steps): &(String, Vec<[f64; 2]>)| {
+        let of = |i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
+        json!({ "method": method, "time_over_fastest": of(0), "share_solved": of(1) })
+    };
+    let mut map = Map::new();
+    map.insert("spreads".to_owned(), rows.iter().map(timing).collect());
+    map.insert("curves".to_owned(), race.curves.iter().chain(&race.ladder).map(curve).collect());
+    map.insert("profiles".to_owned(), race.profiles.iter().map(profile).collect());
+    map
+}
+
+impl ErrorVsTime {
+    /// The method's name where there is little room.
+    #[must_use]
+    pub fn short_method(&self) -> String {
+        short_method(&self.method)
+    }
+
+    /// Whether it compares models, not methods.
+    #[must_use]
+    pub fn is_model(&self) -> bool {
+        self.task == TaskKind::Fit && self.method.starts_with(LADDER)
+    }
+}
+
+/// A method's name as a legend has room for it.
+#[must_use]
+pub fn short_method(method: &str) -> String {
+    method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "")
+}
+
+/// BRDF and DoLP.
+type Values = (f64, f64);
+
+/// A way to evaluate the model.
+struct Method<'a> {
+    name: &'static str,
+    /// At a row of the table.
+    values: &'a dyn Fn(&Reference) -> Values,
+    /// Under all geometries, for its time.
+    all: &'a dyn Fn(),
+}
+
+fn evaluations(golden: &[Reference], surroundings: Surroundings<'_>) -> Vec<ErrorVsTime> {
+    let model = Model::full(SlopeDistribution::Cauchy);
+    let parameters = Parameters::default();
+    let geometries: Vec<Geometry> = golden.iter().map(|row| row.geometry).collect();
+    let scene = Scene::new(geometries.iter().copied());
+    let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
+    let double = |row: &Reference| textbook_f64(row.surface.model(), row.surface.parameters(), row.geometry);
+    let single = |row: &Reference| {
+        let (brdf, dolp) = textbook_f32(row.surface.model(), row.surface.parameters(), row.geometry);
+        (f64::from(brdf), f64::from(dolp))
+    };
+    let scalar = |row: &Reference| {
+        let reflection = row.surface.reflection(&Facet::new(row.geometry));
+        (reflection.brdf, reflection.dolp)
+    };
+    let each = |body: &dyn Fn(Geometry)| {
+        for &geometry in &geometries {
+            body(black_box(geometry));
+        }
+    };
+    let double_all = || each(&|geometry| _ = black_box(textbook_f64(model, &parameters, geometry)));
+    let single_all = || each(&|geometry| _ = black_box(textbook_f32(model, &parameters, geometry)));
+    let scalar_all = || each(&|geometry| _ = black_box(surface.reflection(&Facet::new(geometry))));
+    let prepared_all = || scene.reflections(black_box(&surface)).for_each(|reflection| _ = black_box(reflection));
+    let batch = Batch::new(geometries.iter().copied()).single_threaded();
+    let radiances = RefCell::new(Radiances::default());
+    let batch_all = || {
+        batch.radiances(black_box(&surface), &mut radiances.borrow_mut());
+        black_box(&radiances);
+    };
+    let batched = |row: &Reference| {
+        let mut one = Radiances::default();
+        Batch::new([row.geometry]).radiances(&row.surface, &mut one);
+        let first = |of: &[f64]| of.first().copied().unwrap_or(f64::NAN);
+        (first(&one.brdf), first(&one.dolp))
+    };
+    let methods = [
+        Method { name: "textbook, f32", values: &single, all: &single_all },
+        Method { name: "textbook, f64", values: &double, all: &double_all },
+        Method { name: "cancellation-free, from angles", values: &scalar, all: &scalar_all },
+        Method { name: "cancellation-free, prepared scene", values: &scalar, all: &prepared_all },
+        Method { name: "batch kernel, prepared scene", values: &batched, all: &batch_all },
+    ];
+    let mut rows = Vec::new();
+    for Method { name, values, all } in methods {
+        if (surroundings.cancelled)() {
+            break;
+        }
+        let mut errors: Vec<f64> = golden.iter().map(|row| error_of(values(row), row)).collect();
+        errors.sort_by(f64::total_cmp);
+        #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
+        let points = golden.len() as f64;
+        let time = Timing::of(surroundings.clock, all);
+        rows.push(ErrorVsTime {
+            task: TaskKind::Evaluate,
+            method: name.to_owned(),
+            time: time.median_ns / points,
+            spread: time.spread,
+            worst_relative_error: quantile(&errors, 1.0),
+            median_relative_error: quantile(&errors, 0.5),
+            success_rate: None,
+        });
+    }
+    rows
+}
+
+fn error_of((brdf, dolp): Values, row: &Reference) -> f64 {
+    relative_error(brdf, row.brdf).max(relative_error(dolp, row.dolp))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ErrorVsTime, Extent};
+    use crate::selftest::{Machine, Surroundings};
+    use serde_json::Value;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    /// One start of each problem, everything once, by a clock that goes on by a long repetition whenever it is looked at.
+    fn small() -> Value {
+        let looks = AtomicU32::new(0);
+        let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
+        let surroundings = Surroundings { clock: &clock, cancelled: &|| false, progress: &|_| {} };
+        let extent = Extent { starts: 1, repetitions: 1, repetitions_of_many: 1 };
+        ErrorVsTime::to_extent(extent, Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), surroundings).json_with_curves()
+    }
+
+    #[test]
+    fn every_row_and_every_curve_has_what_the_file_promises() {
+        let json = small();
+        let rows = json["rows"].as_array().expect("rows");
+        for row in rows {
+            let is_fit = row["task"] == "fit";
+            assert!(is_fit || row["task"] == "evaluate", "{row}");
+            assert_eq!((row["ns_per_point"].is_number(), row["elapsed_ms"].is_number()), (!is_fit, is_fit), "{row}");
+            assert!(
+                row["method"].is_string() && row["worst_relative_error"].is_number() && row["median_relative_error"].is_number(),
+                "{row}"
+            );
+            let is_model = row["method"].as_str().is_some_and(|method| method.starts_with("model "));
+            assert_eq!(row["success_rate"].is_number(), is_fit && !is_model, "{row}");
+        }
+        let named = |part: &str| rows.iter().filter(|row| row["method"].as_str().is_some_and(|method| method.contains(part))).count();
+        let counts =
+            ["analytic Jacobian", "finite-difference Jacobian", ", unscaled", ", scaled", "this program", "model ", "textbook", "batch"]
+                .map(named);
+        // One start and all starts of each of the four; ten models.
+        assert_eq!(counts, [4, 4, 4, 4, 2, 10, 2, 1]);
+        let curves = json["curves"].as_array().expect("curves");
+        assert_eq!(curves.len(), 20);
+        for curve in curves {
+            let [times, objectives, distances] = ["elapsed_ms", "objective", "distance"].map(|key| curve[key].as_array().expect("a list"));
+            assert!(!times.is_empty() && times.len() == objectives.len() && times.len() == distances.len(), "{curve}");
+        }
+        let profiles = json["profiles"].as_array().expect("profiles");
+        assert!(
+            profiles.len() == 10
+                && profiles.iter().any(|profile| profile["share_solved"].as_array().is_some_and(|shares| !shares.is_empty()))
+        );
+        let shape: Vec<&str> = json.as_object().expect("an object").keys().map(String::as_str).collect();
+        assert_eq!(shape, ["curves", "date", "machine", "profiles", "rows", "spreads"]);
+    }
+}

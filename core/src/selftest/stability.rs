@@ -1,0 +1,201 @@
+//! Stability: a gallery of named stiff and extreme cases, and whether the program holds its digits, or its word, in each.
+//!
+//! Evaluation cases come from `assets/reference/stability_gallery.csv`, values and derivatives to 60 digits; fits from [`crate::selftest::stability_fits`].
+
+use crate::fit::Watch;
+use crate::measurement::Measurement;
+use crate::model::{Gradient, Model, Parameters, Reflection, Wanted};
+use crate::optics::{Facet, Geometry};
+use crate::selftest::reference::{Reference, critical_angle_factor, gradient_error, references, relative_error};
+use crate::selftest::stability_fits::StiffFit;
+use crate::selftest::textbook::textbook_f64;
+use crate::selftest::{Cell, Machine, Report, Row, Surroundings};
+
+/// The evaluation cases.
+const GALLERY: &str = include_str!("../../assets/reference/stability_gallery.csv");
+
+/// Bar on the relative error of BRDF and DoLP.
+pub const VALUE_BAR: f64 = 1e-13;
+/// Bar on the error of the gradient.
+pub const GRADIENT_BAR: f64 = 1e-12;
+
+/// What has to be set to see a case in the window.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Setting {
+    /// A surface under one pair of directions.
+    Evaluation {
+        /// Which terms there are.
+        model: Model,
+        /// The values.
+        parameters: Parameters,
+        /// The directions.
+        geometry: Geometry,
+    },
+    /// A fit of a measurement.
+    Fit {
+        /// Which terms there are.
+        model: Model,
+        /// Where it begins.
+        start: Parameters,
+        /// What is fitted.
+        measurement: Measurement,
+    },
+}
+
+/// A case and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stability {
+    /// Its name.
+    pub case: String,
+    /// How to see it.
+    pub setting: Setting,
+    /// Relative error of the BRDF; evaluation cases only, as the three below.
+    pub brdf_error: Option<f64>,
+    /// Relative error of DoLP.
+    pub dolp_error: Option<f64>,
+    /// Error of the nine derivatives of either, the larger.
+    pub gradient_error: Option<f64>,
+    /// The larger relative error of BRDF and DoLP by the textbook form.
+    pub textbook_error: Option<f64>,
+    /// Of an evaluation: the largest |∂ln f/∂ln p|. Of a fit: largest over smallest singular value of the scaled Jacobian.
+    pub condition: f64,
+    /// Decimal digits held by values, by the gradient and by the textbook form, 16 at most; or how a fit ended.
+    pub outcome: String,
+    /// Whether that meets the bar.
+    pub pass: bool,
+}
+
+impl Row for Stability {
+    const COLUMNS: &'static [&'static str] =
+        &["case", "brdf_error", "dolp_error", "gradient_error", "textbook_error", "condition", "outcome", "pass"];
+
+    fn cells(&self) -> Vec<Cell> {
+        vec![
+            Cell::Text(self.case.clone()),
+            Cell::maybe(self.brdf_error),
+            Cell::maybe(self.dolp_error),
+            Cell::maybe(self.gradient_error),
+            Cell::maybe(self.textbook_error),
+            Cell::Number(self.condition),
+            Cell::Text(self.outcome.clone()),
+            Cell::Flag(self.pass),
+        ]
+    }
+}
+
+impl Stability {
+    /// Makes the report.
+    #[must_use]
+    pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+        let (evaluations, fits) = (references(GALLERY), StiffFit::all());
+        #[expect(clippy::cast_precision_loss, reason = "a number of fits")]
+        let whole = fits.len() as f64;
+        let mut rows: Vec<Self> = evaluations.iter().map(Self::of_evaluation).collect();
+        let watch = Watch { clock: surroundings.clock, cancelled: surroundings.cancelled, progress: &|_| {} };
+        for (done, fit) in fits.into_iter().enumerate() {
+            if (surroundings.cancelled)() {
+                break;
+            }
+            rows.push(fit.run(watch));
+            #[expect(clippy::cast_precision_loss, reason = "a number of fits")]
+            let done = (done + 1) as f64;
+            (surroundings.progress)(done / whole);
+        }
+        let notes = vec![
+            format!(
+                "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {VALUE_BAR:.0e}; error of the nine derivatives by the \
+                 smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {GRADIENT_BAR:.0e}; both limits times sin²β/|N² − sin²β| where that is \
+                 above 1, near the critical angle. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. \
+                 condition: the largest |∂ln f/∂ln p| of BRDF and DoLP."
+            ),
+            "Fits: condition is the largest over the smallest singular value of the Jacobian scaled by max(|p|, 1e-3); a fit passes if it does what its name \
+             asks for: reach the exact minimum, name what the data leave open, mark a bound, keep the truth within four standard errors, or \
+             end with a typed reason."
+                .to_owned(),
+        ];
+        Report::new("Stability in stiff and extreme cases", machine, date, rows, notes)
+    }
+
+    fn of_evaluation(reference: &Reference) -> Self {
+        let Reference { case, surface, geometry, .. } = reference;
+        let (model, parameters) = (surface.model(), *surface.parameters());
+        let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(*geometry), Wanted::ALL);
+        let error = |brdf: f64, dolp: f64| (relative_error(brdf, reference.brdf), relative_error(dolp, reference.dolp));
+        let (brdf_error, dolp_error) = error(reflection.brdf, reflection.dolp);
+        let of_gradient = |[brdf, dolp]: [[f64; 9]; 2]| {
+            gradient_error(&gradient.brdf, &brdf, &parameters).max(gradient_error(&gradient.dolp, &dolp, &parameters))
+        };
+        let gradient_error = reference.gradient.map(of_gradient);
+        let (brdf, dolp) = textbook_f64(model, &parameters, *geometry);
+        let (textbook_brdf, textbook_dolp) = error(brdf, dolp);
+        let textbook = textbook_brdf.max(textbook_dolp);
+        let factor = critical_angle_factor(&parameters, *geometry);
+        let worst = brdf_error.max(dolp_error);
+        Self {
+            case: format!("{case} ({})", model.distribution.key()),
+            setting: Setting::Evaluation { model, parameters, geometry: *geometry },
+            brdf_error: Some(brdf_error),
+            dolp_error: Some(dolp_error),
+            gradient_error,
+            textbook_error: Some(textbook),
+            condition: condition(&reflection, &gradient, &parameters),
+            outcome: format!(
+                "{:.1} digits, gradient {:.1}, textbook {:.1}",
+                digits(worst),
+                digits(gradient_error.unwrap_or(1.0)),
+                digits(textbook)
+            ),
+            pass: worst <= VALUE_BAR * factor && gradient_error.is_some_and(|error| error <= GRADIENT_BAR * factor),
+        }
+    }
+}
+
+/// Decimal digits that an error leaves, 0 to 16.
+#[must_use]
+pub fn digits(error: f64) -> f64 {
+    // Adding 0 turns -0 into 0.
+    -libm::log10(error.clamp(1e-16, 1.0)) + 0.0
+}
+
+/// The largest `|p ∂f/∂p|/|f|` of BRDF and DoLP, where these are not 0.
+fn condition(reflection: &Reflection, gradient: &Gradient, parameters: &Parameters) -> f64 {
+    let of = |value: f64, slopes: &[f64; 9]| {
+        let relative = slopes.iter().zip(parameters.to_array()).map(|(slope, parameter)| (slope * parameter / value).abs());
+        relative.filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    of(reflection.brdf, &gradient.brdf).max(of(reflection.dolp, &gradient.dolp))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GALLERY, Stability, references};
+    use crate::fit::Watch;
+    use crate::selftest::stability_fits::StiffFit;
+
+    #[test]
+    fn every_row_of_the_gallery_is_read_and_every_evaluation_case_passes() {
+        let rows = references(GALLERY);
+        assert_eq!(rows.len(), GALLERY.lines().filter(|line| !line.starts_with('#')).count() - 1);
+        for row in &rows {
+            let judged = Stability::of_evaluation(row);
+            assert!(judged.pass, "{judged:?}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_derivative_fails() {
+        let mut row = references(GALLERY).swap_remove(0);
+        let mut gradient = row.gradient.expect("the gallery has derivatives");
+        gradient[1][0] *= 1.0 + 1e-11;
+        row.gradient = Some(gradient);
+        assert!(!Stability::of_evaluation(&row).pass);
+    }
+
+    #[test]
+    fn every_fit_does_what_its_name_asks_for() {
+        for fit in StiffFit::all() {
+            let row = fit.run(Watch::NOBODY);
+            assert!(row.pass, "{}: {}", row.case, row.outcome);
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! What differs between a desktop and a browser.
+
+pub mod heap;

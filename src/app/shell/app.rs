@@ -1,0 +1,707 @@
+//! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
+
+use crate::app::jobs::async_memo::Background;
+use crate::app::jobs::kind::Task;
+use crate::app::jobs::worker::{Event, Rung, Worker};
+use crate::app::panels;
+use crate::app::shell::benchmarks::Reports;
+use crate::app::shell::command_palette::{Palette, palette_ui};
+use crate::app::shell::commands;
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::{Pane, Panes, panes_ui};
+use crate::app::shell::file_dialogs::NoDialog;
+use crate::app::shell::frame_times::FrameTimes;
+use crate::app::shell::help::Help;
+use crate::app::shell::import_dialog::Import;
+use crate::app::shell::lesson_session::Aside;
+use crate::app::shell::lessons;
+use crate::app::shell::lessons::Lessons;
+use crate::app::shell::path_entry::{Replacing, Typed};
+use crate::app::shell::theme;
+use crate::app::shell::toasts::Notices;
+use crate::app::storage::autosave::Working;
+use crate::app::storage::export::Outgoing;
+use crate::app::storage::import::Arrived;
+use crate::app::storage::{export, settings_file};
+use crate::app::text::i18n;
+use crate::app::text::i18n::phrase;
+use crate::app::views::Views;
+use crate::app::views::derived::Derived;
+use crate::app::work::diagnostics::{Bootstrap, ProfileCurve, Scans};
+use crate::app::work::document::{Document, EXAMPLES, Mask};
+use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::fit_setup::{problem, reason};
+use crate::app::work::history::History;
+use crate::app::work::layout::Layout;
+use crate::app::work::parameter_text;
+use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings};
+use pbrdf::fit::{Choices, Eq17, FitReport, Problem};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
+use pbrdf::selftest::Setting;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+use tr::tr;
+
+/// What a step of undo brings back: everything the user sets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    pub settings: Settings,
+    /// Of the measurement of that number.
+    pub mask: Mask,
+    pub number: u64,
+}
+
+/// The window.
+pub struct Explorer {
+    pub settings: Settings,
+    pub window: WindowSettings,
+    /// Where the settings go; nowhere in tests.
+    pub settings_file: Option<PathBuf>,
+    pub document: Document,
+    pub derived: Derived,
+    pub worker: Worker,
+    /// The fit that is shown.
+    pub last_fit: Option<Rc<PastFit>>,
+    /// The fits before it.
+    pub past_fits: PastFits,
+    /// The ladder of models on the open measurement.
+    pub comparison: Vec<Rung>,
+    /// What the program found out about itself.
+    pub reports: Reports,
+    /// What was asked about the fit that is shown.
+    pub scans: Scans,
+    pub history: History<Setup>,
+    /// Whether the panel shows what the data would determine.
+    pub outlook_is_shown: bool,
+    /// Where the last refit left the sliders: what differs from it was moved since.
+    pub(crate) refitted: Option<Parameters>,
+    pub notices: Notices,
+    pub views: Views,
+    pub panes: Panes,
+    pub palette: Palette,
+    /// The page of help that is open.
+    pub help: Option<Help>,
+    /// A foreign file that waits for a choice.
+    pub import: Option<Import>,
+    pub lessons: Lessons,
+    /// The user's own work, while a lesson is on.
+    pub(crate) aside: Option<Box<Aside>>,
+    /// Where panes make what takes longer than a frame.
+    pub background: Background,
+    /// Whether a button of the mouse is down: axes then grow and do not shrink.
+    pub dragging: bool,
+    /// Paths typed by hand, where there is no file dialog.
+    pub typed: Typed,
+    /// A file that is asked about before it is replaced.
+    pub replacing: Option<Replacing>,
+    /// The file of the session that is open.
+    pub session_file: Option<PathBuf>,
+    /// Where the working state goes; nowhere in tests.
+    pub working_file: Option<PathBuf>,
+    /// The working state as it was written last.
+    pub(crate) autosaved: Option<Working>,
+    /// Since when it is another one.
+    pub(crate) unsaved_since: Option<Instant>,
+    pub commands: Vec<Command>,
+    pub frame_times: FrameTimes,
+    generation: u64,
+    saved: Stored,
+    changed_at: Option<Instant>,
+}
+
+/// How long settings rest before they are written.
+pub(crate) const SAVE_AFTER: Duration = Duration::from_millis(1500);
+
+impl Explorer {
+    pub fn new(ctx: &egui::Context, stored: Stored) -> Self {
+        theme::install(ctx);
+        i18n::install();
+        i18n::set(stored.window.language);
+        set_theme(ctx, stored.window.theme);
+        let saved = stored.clone();
+        let Stored { settings, window } = stored;
+        Self {
+            saved,
+            panes: Panes::new(&window.layout),
+            settings,
+            window,
+            settings_file: None,
+            document: Document::new(String::new(), Measurement::default(), 0),
+            derived: Derived::default(),
+            worker: Worker::new(ctx),
+            last_fit: None,
+            past_fits: PastFits::default(),
+            comparison: Vec::new(),
+            reports: Reports::default(),
+            scans: Scans::default(),
+            history: History::default(),
+            outlook_is_shown: false,
+            refitted: None,
+            notices: Notices::default(),
+            views: Views::default(),
+            palette: Palette::default(),
+            help: None,
+            import: None,
+            lessons: Lessons::default(),
+            aside: None,
+            background: Background::new(ctx),
+            dragging: false,
+            typed: Typed::default(),
+            replacing: None,
+            session_file: None,
+            working_file: None,
+            autosaved: None,
+            unsaved_since: None,
+            commands: Vec::new(),
+            frame_times: FrameTimes::default(),
+            generation: 0,
+            changed_at: None,
+        }
+    }
+
+    /// Opens the first example, and then the file if there is one: if that cannot be read, the example stays.
+    pub fn begin(&mut self, file: Option<PathBuf>) {
+        // Tests read no folders of the user.
+        let own = self.settings_file.as_ref().and_then(|_| lessons::own_folder());
+        self.read_lessons(own.as_deref());
+        let example = &EXAMPLES[0];
+        match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
+            Ok(measurement) => self.take(example.name.to_owned(), measurement),
+            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", phrase(&error))),
+        }
+        self.commands.extend(file.map(Command::OpenMeasurement));
+    }
+
+    /// The bundled lessons and those of a folder, and a sentence for each that is none.
+    pub(crate) fn read_lessons(&mut self, own: Option<&std::path::Path>) {
+        let (lessons, faults) = Lessons::load(own);
+        self.lessons = lessons;
+        faults.into_iter().for_each(|sentence| self.say(sentence));
+    }
+
+    /// Shows a sentence over the plots until it is dismissed.
+    pub fn say(&mut self, sentence: String) {
+        self.notices.say(sentence);
+    }
+
+    /// Puts a measurement in the place of the one that is open.
+    pub fn take(&mut self, name: String, measurement: Measurement) {
+        self.generation += 1;
+        self.import = None;
+        if !measurement.ignored_columns.is_empty() {
+            self.say(format!("{name}: {}.", measurement.ignored_notice()));
+        }
+        self.document = Document::new(name, measurement, self.generation);
+        self.settings.suit(&self.document);
+        self.last_fit = None;
+        self.scans.forget();
+        self.comparison.clear();
+        self.views = Views::default();
+        // What is set because of the new measurement is no step of its own.
+        self.history.replace(self.setup());
+        self.worker.abandon();
+    }
+
+    /// Before each frame: results of jobs, dropped files, commands, what is derived, settings.
+    pub fn logic(&mut self, ctx: &egui::Context) {
+        for file in ctx.input(|input| input.raw.dropped_files.clone()) {
+            self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
+        }
+        i18n::set(self.window.language);
+        self.listen_to_keys(ctx);
+        while let Some(event) = self.worker.next() {
+            self.receive(event);
+        }
+        for command in std::mem::take(&mut self.commands) {
+            if let Err(sentence) = self.carry_out(ctx, command) {
+                self.say(sentence);
+            }
+        }
+        self.dragging = ctx.input(|input| input.pointer.any_down());
+        self.refit_if_moved();
+        if !self.dragging && self.worker.refit.is_none() {
+            self.history.rest(self.setup());
+        }
+        self.refresh();
+        self.remember_window(ctx);
+        self.save_when_rested(ctx);
+        self.autosave_when_rested(ctx);
+    }
+
+    /// Everything the user has set.
+    pub(crate) fn setup(&self) -> Setup {
+        Setup { settings: self.settings.clone(), mask: self.document.mask().clone(), number: self.document.number }
+    }
+
+    /// Makes anew what is on screen and has other inputs than before.
+    fn refresh(&mut self) {
+        self.derived.refresh_status(&self.settings, &self.document);
+        let free = self.free();
+        self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
+        self.refresh_import();
+        self.panes.settle();
+        let on_screen = self.panes.on_screen();
+        self.views.rest(&on_screen);
+        for pane in on_screen {
+            (pane.entry().refresh)(self);
+        }
+    }
+
+    pub(crate) fn receive(&mut self, event: Event) {
+        match event {
+            // It was asked before whatever waits to be carried out, and is about the work of then.
+            Event::Answered(question, Ok(path)) => drop(self.commands.splice(..0, path.map(|path| question.command(path)))),
+            Event::Answered(question, Err(NoDialog)) => self.say(question.without_dialog()),
+            Event::Exported(what, result) => self.exported(what, result),
+            Event::Autosaved(result) => {
+                if let Err(sentence) = result {
+                    self.working_file = None;
+                    self.say(sentence);
+                }
+            }
+            Event::SessionRead { path, result } => self.session_read(&path, result),
+            Event::Saved(Ok(path)) => {
+                self.typed.served(&path);
+                self.notices.say_briefly(tr!("The measurement is saved to {}.", path.display()));
+            }
+            Event::Saved(Err(sentence)) => self.say(sentence),
+            Event::Loaded { origin, result: Ok(Arrived::Measurement(imported)) } => self.loaded(origin, *imported),
+            Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => {
+                origin.path.iter().for_each(|path| self.typed.served(path));
+                self.import = Some(Import::new(origin, foreign));
+            }
+            Event::Loaded { origin, result: Err(sentence) } => {
+                origin.path.iter().for_each(|path| self.window.forget(path));
+                self.notices.say_of_reading(sentence);
+            }
+            Event::Imported(result) => self.imported(result),
+            Event::Refitted(report) => {
+                // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
+                for parameter in self.free() {
+                    self.settings.parameters[parameter] = report.parameters[parameter];
+                }
+                if self.settings.parameters == report.parameters {
+                    self.refitted = Some(report.parameters);
+                }
+            }
+            Event::Compared(rungs) => self.comparison = rungs,
+            Event::Reported { made, is_part } => {
+                self.reports.take(*made, is_part);
+                self.go_on_with_reports();
+            }
+            Event::Broken(task) => self.broken(task),
+            Event::Profiled(profile) => {
+                let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
+                self.scans.profile = self.last_fit.as_ref().map(curve);
+            }
+            Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
+            Event::Fitted { report, problem, generation, mask } => {
+                let before = self.settings.parameters;
+                self.settings.parameters = report.parameters;
+                self.refitted = Some(report.parameters);
+                let Document { name, number, .. } = &self.document;
+                let (document, number) = (name.clone(), *number);
+                // The list of past fits numbers them.
+                let fit = PastFit { id: 0, report: *report, problem, before, document, number, generation, mask };
+                let fit = self.past_fits.push(fit);
+                self.show_fit(Some(fit));
+            }
+        }
+    }
+
+    /// A job panicked.
+    fn broken(&mut self, task: Task) {
+        self.say(task.broken());
+        if task == Task::Report {
+            self.reports.give_up();
+            self.go_on_with_reports();
+        }
+    }
+
+    fn go_on_with_reports(&mut self) {
+        if let Err(sentence) = self.reports.go_on(&mut self.worker) {
+            self.say(sentence);
+        }
+    }
+
+    fn listen_to_keys(&mut self, ctx: &egui::Context) {
+        // Keys belong to the field that is being typed into, or to the question that is asked.
+        if ctx.text_edit_focused() || self.import.is_some() || self.replacing.is_some() {
+            return;
+        }
+        self.commands.extend(commands::pressed(self, ctx));
+        let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };
+        let pasted = ctx.input(|input| input.events.iter().find_map(text));
+        self.commands.extend(pasted.map(Command::PasteParameters));
+    }
+
+    /// Fits what is free again after a slider was moved, one fit at a time.
+    fn refit_if_moved(&mut self) {
+        let parameters = self.settings.parameters;
+        if !self.settings.refit_live || self.worker.refit.is_some() || self.worker.fit.is_some() || self.refitted == Some(parameters) {
+            return;
+        }
+        self.refitted = Some(parameters);
+        if parameters.validate(self.settings.model.parameters()).is_err() || self.free().is_empty() {
+            return;
+        }
+        let Settings { model, choices, .. } = self.settings;
+        // Why a fit is not possible is said when one is asked for.
+        if let Ok(problem) = problem(&self.settings, &self.document.measurement, model, self.free(), choices)
+            && let Err(sentence) = self.worker.start_refit(problem)
+        {
+            self.say(sentence);
+        }
+    }
+
+    fn compare_models(&mut self) -> Result<(), String> {
+        let Self { settings, document, .. } = self;
+        let problems = PRESETS.iter().map(|preset| {
+            let choices = Choices { dolp_only: preset.dolp_only, ..settings.choices };
+            let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
+            let problem = problem(settings, &document.measurement, preset.model, free, choices);
+            (preset, problem)
+        });
+        let problems = problems.collect();
+        self.comparison.clear();
+        self.worker.start_comparison(problems, self.settings.starts, self.settings.seed)
+    }
+
+    pub(crate) fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+        match command {
+            Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
+                self.choose(&command)?;
+            }
+            Command::OpenMeasurement(path) if export::Outgoing::Session.check(&path).is_ok() => {
+                self.worker.open_session(path)?;
+            }
+            Command::OpenMeasurement(path) => self.worker.open(path)?,
+            Command::OpenSession(path) => self.worker.open_session(path)?,
+            Command::SaveSession => self.save_session(ctx)?,
+            Command::Export(what, path) => self.export(what, path)?,
+            Command::CopyPlot(pane) => ctx.copy_image(export::image(self, pane)?),
+            Command::CopyTable => self.copy_table(ctx),
+            Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
+            Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
+            Command::Mask { rows, masked } => {
+                self.document.set_masked(&rows, masked);
+                self.refitted = None;
+            }
+            Command::OpenExample(index) => self.open_example(index)?,
+            Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
+            Command::CloseLesson => self.end_lesson()?,
+            Command::KeepLesson => self.keep_lesson(),
+            Command::Import => self.start_import()?,
+            Command::CancelImport => self.cancel_import(),
+            Command::CancelLoading => self.worker.load.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::StartFit => self.start_fit()?,
+            Command::CancelFit => self.worker.fit.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::UseFit => self.use_fit(),
+            Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
+            Command::DismissNotices => self.notices.clear(),
+            Command::Undo => {
+                let step = self.history.undo();
+                self.go_to(step);
+            }
+            Command::Redo => {
+                let step = self.history.redo();
+                self.go_to(step);
+            }
+            Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.settings.parameters)),
+            Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+            Command::PasteParameters(text) => self.settings.parameters = parameter_text::read(&text, self.settings.parameters)?,
+            Command::SetParameters(values) => self.set_parameters(values),
+            Command::UseFinish(index) => self.use_finish(index),
+            Command::ResetParameters => self.settings.parameters = Parameters::default(),
+            Command::UseModel(key) => self.use_model(key),
+            Command::ReturnTo(index) => self.return_to(index),
+            Command::Profile(parameter) => self.start_profile(parameter)?,
+            Command::Bootstrap => self.start_bootstrap()?,
+            Command::CancelScan => self.worker.scan.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::UseRung(index) => self.use_rung(index),
+            Command::CompareModels => {
+                self.panes.show(Pane::Models);
+                self.compare_models()?;
+            }
+            Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
+            Command::ForgetReport(subject) => self.reports.forget(subject),
+            Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
+            Command::UseCase(index) => self.use_case(index),
+            Command::CancelComparison => self.worker.comparison.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::Toggle(switch) => {
+                let on = switch.of(self);
+                *on = !*on;
+            }
+            Command::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
+            Command::TogglePane(pane) => self.panes.show(pane),
+            Command::ClosePane(pane) => self.panes.close(pane),
+            Command::ResetLayout => self.panes = Panes::new(&Layout::default()),
+            Command::ForgetRecent => self.window.recent.clear(),
+            Command::OpenPalette => self.palette.open(),
+            Command::ShowHelp(page) => self.help = Some(page),
+            Command::CloseHelp => self.help = None,
+            Command::SetLanguage(language) => self.window.language = language,
+            Command::SetTheme(theme) => {
+                self.window.theme = theme;
+                set_theme(ctx, theme);
+            }
+            Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+        }
+        Ok(())
+    }
+
+    fn export(&mut self, what: Outgoing, path: PathBuf) -> Result<(), String> {
+        what.check(&path)?;
+        let write = what.taken_from(self)?;
+        self.worker.export(what, path, write)
+    }
+
+    fn open_example(&mut self, index: usize) -> Result<(), String> {
+        EXAMPLES.get(index).map_or(Ok(()), |example| self.worker.open_text(example.name.to_owned(), example.text))
+    }
+
+    fn set_parameters(&mut self, values: Vec<(Parameter, f64)>) {
+        values.into_iter().for_each(|(parameter, value)| self.settings.parameters[parameter] = value);
+    }
+
+    fn use_finish(&mut self, index: usize) {
+        let parameters = self.settings.parameters;
+        self.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
+    }
+
+    /// The values of the last fit, and the model that they belong to.
+    fn use_fit(&mut self) {
+        if let Some(fit) = &self.last_fit {
+            self.settings.parameters = fit.report.parameters;
+            self.settings.model = fit.report.model;
+        }
+    }
+
+    fn use_model(&mut self, key: &str) {
+        let preset = PRESETS.iter().find(|preset| preset.key == key);
+        self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
+    }
+
+    /// The table of the pane Data to the clipboard.
+    fn copy_table(&mut self, ctx: &egui::Context) {
+        ctx.copy_text(crate::app::views::table_text(self));
+        self.notices.say_briefly(tr!("{} rows are copied; paste them into a spreadsheet.", self.document.measurement.rows.len()));
+    }
+
+    /// Everything the user sets as a step of undo has it.
+    fn go_to(&mut self, step: Option<Setup>) {
+        let Some(Setup { settings, mask, number }) = step else { return };
+        self.settings = settings;
+        self.refitted = Some(self.settings.parameters);
+        // The rows of another measurement are other rows.
+        if number == self.document.number {
+            self.document.restore_mask(&mask);
+        }
+        self.history.replace(self.setup());
+    }
+
+    fn start_bootstrap(&mut self) -> Result<(), String> {
+        self.scans.scatter = None;
+        match self.shown_fit() {
+            Some((problem, report)) => self.worker.start_bootstrap(problem, report, self.scans.replicates, self.settings.seed),
+            None => Ok(()),
+        }
+    }
+
+    fn start_profile(&mut self, parameter: Parameter) -> Result<(), String> {
+        self.scans.profile = None;
+        match self.shown_fit() {
+            Some((problem, report)) => self.worker.start_profile(problem, report, parameter),
+            None => Ok(()),
+        }
+    }
+
+    /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
+    pub fn free(&self) -> ParameterSet {
+        self.free_with(self.document.measurement.has_brdf()).without_all(self.settings.locked)
+    }
+
+    /// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
+    pub fn free_in_plan(&self) -> ParameterSet {
+        let (has_brdf, planned) = (self.document.measurement.has_brdf(), self.settings.plan.has_brdf());
+        let locked = match self.settings.locked {
+            locked if has_brdf == planned => locked,
+            locked if planned || self.settings.choices.eq17 == Eq17::Printed => locked.without(Parameter::Ks),
+            locked => locked.with(Parameter::Ks),
+        };
+        self.free_with(planned).without_all(locked)
+    }
+
+    fn free_with(&self, has_brdf: bool) -> ParameterSet {
+        let model = self.settings.model;
+        match self.settings.choices.eq17 {
+            _ if has_brdf => model.parameters(),
+            Eq17::Consistent => model.dolp_parameters(),
+            // As printed, k_s is a gain of its own.
+            Eq17::Printed => model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks))),
+        }
+    }
+
+    /// Sliders, model and results as an earlier fit left them.
+    fn return_to(&mut self, index: usize) {
+        if let Some(fit) = self.past_fits.get(index) {
+            self.settings.parameters = fit.report.parameters;
+            self.settings.model = fit.report.model;
+            self.refitted = Some(fit.report.parameters);
+            self.show_fit(Some(fit).filter(|fit| fit.number == self.document.number));
+        }
+    }
+
+    /// Shows a fit; scans around another one end.
+    pub(crate) fn show_fit(&mut self, fit: Option<Rc<PastFit>>) {
+        self.last_fit = fit;
+        self.scans.forget();
+        self.worker.abandon_scan();
+    }
+
+    /// Sliders and terms of a model that was compared.
+    fn use_rung(&mut self, index: usize) {
+        if let Some(Rung { result: Ok(report), .. }) = self.comparison.get(index) {
+            self.settings.parameters = report.parameters;
+            self.settings.model = report.model;
+            self.refitted = Some(report.parameters);
+        }
+    }
+
+    /// Sliders, terms and angles of a case of the stability gallery; of a fit, its data as well.
+    fn use_case(&mut self, index: usize) {
+        let Some(row) = self.reports.stability.as_ref().and_then(|shown| shown.report.rows.get(index)) else { return };
+        let (case, setting) = (row.case.clone(), row.setting.clone());
+        match setting {
+            Setting::Evaluation { model, parameters, geometry } => {
+                self.settings.model = model;
+                self.settings.parameters = parameters;
+                self.settings.theta_i = geometry.theta_i().0;
+                self.settings.dphi = geometry.dphi().0;
+            }
+            Setting::Fit { model, start, measurement } => {
+                self.settings.model = model;
+                self.settings.parameters = start;
+                self.take(case, measurement);
+                self.session_file = None;
+            }
+        }
+        // The sliders are where the case wants them: nothing is fitted again from there.
+        self.refitted = Some(self.settings.parameters);
+    }
+
+    /// The fit that is shown, with the problem that it solved.
+    fn shown_fit(&self) -> Option<(Problem, FitReport)> {
+        let fit = self.last_fit.as_ref()?;
+        // An automatic scale of the loss belongs to the fit, not to its problem.
+        Some((fit.problem.with_loss_scales(fit.report.loss_scales), fit.report.clone()))
+    }
+
+    fn start_fit(&mut self) -> Result<(), String> {
+        let Settings { model, parameters, choices, starts, seed, .. } = self.settings;
+        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", phrase(&error)))?;
+        let measurement = &self.document.measurement;
+        match problem(&self.settings, measurement, model, self.free(), choices) {
+            Ok(problem) => self.worker.start_fit(problem, &self.document, starts, seed),
+            Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, measurement))),
+        }
+    }
+
+    fn remember_window(&mut self, ctx: &egui::Context) {
+        let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
+        self.window.maximized = maximized.unwrap_or(false);
+        if let Some(size) = size.filter(|_| !self.window.maximized) {
+            self.window.size = [size.x.round(), size.y.round()];
+        }
+        // While all panes are closed, the arrangement before that is kept; that of a lesson goes with it.
+        if let Some(layout) = self.panes.layout().filter(|_| self.aside.is_none()) {
+            self.window.layout = layout;
+        }
+    }
+
+    fn save_when_rested(&mut self, ctx: &egui::Context) {
+        if !self.is_changed() {
+            self.changed_at = None;
+            return;
+        }
+        let begun = *self.changed_at.get_or_insert_with(Instant::now);
+        if begun.elapsed() >= SAVE_AFTER {
+            self.save();
+        } else {
+            ctx.request_repaint_after(SAVE_AFTER);
+        }
+    }
+
+    fn is_changed(&self) -> bool {
+        *self.own_settings() != self.saved.settings || self.window != self.saved.window
+    }
+
+    /// Writes the settings now.
+    pub fn save(&mut self) {
+        self.changed_at = None;
+        self.saved = Stored { settings: self.own_settings().clone(), window: self.window.clone() };
+        if let Some(path) = &self.settings_file
+            && let Err(error) = settings_file::save(path, &self.saved)
+        {
+            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), phrase(&error));
+            self.settings_file = None;
+            self.say(sentence);
+        }
+    }
+
+    /// One frame.
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        egui::Panel::top("menu").show(ui, |ui| panels::menu_ui(self, ui));
+        egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
+        egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| panels::parameters_ui(self, ui));
+        egui::Panel::right("fit")
+            .default_size(if ui.ctx().content_rect().width() < 1200.0 { 270.0 } else { 320.0 })
+            .min_size(250.0)
+            .show(ui, |ui| panels::fit_ui(self, ui));
+        egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
+            panels::lesson_panel(self, ui);
+            let room = ui.available_rect_before_wrap();
+            panes_ui(self, ui);
+            panels::notices_ui(self, ui, room);
+        });
+        palette_ui(self, ui);
+        panels::import_ui(self, ui);
+        panels::replace_ui(self, ui);
+        panels::help_ui(self, ui);
+    }
+}
+
+fn set_theme(ctx: &egui::Context, theme: Theme) {
+    ctx.set_theme(match theme {
+        Theme::System => egui::ThemePreference::System,
+        Theme::Light => egui::ThemePreference::Light,
+        Theme::Dark => egui::ThemePreference::Dark,
+    });
+}
+
+impl eframe::App for Explorer {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        Self::logic(self, ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        if let Some(seconds) = frame.info().cpu_usage {
+            self.frame_times.push(seconds, self.views.frames_behind(&self.panes.on_screen()));
+        }
+        Self::ui(self, ui);
+    }
+
+    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.window.show_frame_times {
+            // Where drawing is too slow, or switched off, to read the status line.
+            let _ = writeln!(std::io::stderr(), "{}", self.frame_times.text());
+        }
+        if self.is_changed() {
+            self.save();
+        }
+        self.autosave_now();
+    }
+}

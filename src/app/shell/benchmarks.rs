@@ -1,0 +1,168 @@
+//! The reports of the program about itself, made in the background one after the other, since each measures times, and kept until they are made again.
+
+use crate::app::jobs::worker::{Job, Worker};
+use crate::app::plots::Drawing;
+use crate::app::shell::docking::Pane;
+use crate::export::{machine, now};
+use crate::figure::Figure;
+use crate::report::BenchmarkFigures;
+use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
+
+/// Which report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    ErrorVsTime,
+    Stability,
+    Cost,
+}
+
+impl Subject {
+    pub const ALL: [Self; 3] = [Self::ErrorVsTime, Self::Stability, Self::Cost];
+
+    /// Where it is shown.
+    pub fn pane(self) -> Pane {
+        match self {
+            Self::ErrorVsTime => Pane::ErrorVsTime,
+            Self::Stability => Pane::Stability,
+            Self::Cost => Pane::Cost,
+        }
+    }
+
+    /// The report shown in that pane.
+    pub fn of(pane: Pane) -> Option<Self> {
+        Self::ALL.into_iter().find(|subject| subject.pane() == pane)
+    }
+
+    /// Makes it; takes seconds to a minute.
+    pub fn make(self, surroundings: Surroundings<'_>) -> Made {
+        match self {
+            Self::ErrorVsTime => Made::ErrorVsTime(ErrorVsTime::run(machine(), now(), surroundings)),
+            Self::Stability => Made::Stability(Stability::run(machine(), now(), surroundings)),
+            Self::Cost => Made::Cost(Cost::run(machine(), now(), surroundings)),
+        }
+    }
+}
+
+/// A report of one kind or another.
+pub enum Made {
+    ErrorVsTime(Report<ErrorVsTime>),
+    Stability(Report<Stability>),
+    Cost(Report<Cost>),
+}
+
+/// A report as it is shown.
+pub struct Shown<R> {
+    pub report: Report<R>,
+    /// Whether it was stopped before its end.
+    pub is_part: bool,
+    /// The table, row by row.
+    pub cells: Vec<Vec<String>>,
+    /// Its figures.
+    figures: Vec<Figure>,
+    /// The same, ready to be painted.
+    pub drawings: Vec<Drawing>,
+    /// 0 is the table, then the figures.
+    pub page: usize,
+}
+
+impl<R: Row> Shown<R>
+where
+    Report<R>: BenchmarkFigures,
+{
+    fn new(report: Report<R>, is_part: bool, page: usize) -> Self {
+        let cells = report.rows.iter().map(|row| row.cells().iter().map(ToString::to_string).collect()).collect();
+        let figures: Vec<Figure> = report.figures().into_iter().map(|(_, figure)| figure).collect();
+        let drawings: Vec<Drawing> = figures.iter().map(Drawing::new).collect();
+        let page = page.min(drawings.len());
+        Self { report, is_part, cells, figures, drawings, page }
+    }
+
+    /// The figure that is in front.
+    fn figure(&self) -> Option<&Figure> {
+        // Of the table it is the first.
+        self.figures.get(self.page.saturating_sub(1))
+    }
+}
+
+/// The reports that there are, and the one that is being made.
+#[derive(Default)]
+pub struct Reports {
+    pub running: Option<(Subject, Job<f64>)>,
+    /// Those that come next.
+    waiting: Vec<Subject>,
+    pub error_vs_time: Option<Shown<ErrorVsTime>>,
+    pub stability: Option<Shown<Stability>>,
+    pub cost: Option<Shown<Cost>>,
+}
+
+impl Reports {
+    /// Begins one, or puts it behind the one that is being made: the two would disturb each other.
+    pub fn start(&mut self, subject: Subject, worker: &mut Worker) -> Result<(), String> {
+        if self.running.is_none() {
+            self.running = Some((subject, worker.start_report(subject)?));
+        } else if self.can_start(subject) {
+            self.waiting.push(subject);
+        }
+        Ok(())
+    }
+
+    /// Begins the one that waits longest, once nothing is being made.
+    pub fn go_on(&mut self, worker: &mut Worker) -> Result<(), String> {
+        if self.running.is_some() || self.waiting.is_empty() {
+            return Ok(());
+        }
+        let next = self.waiting.remove(0);
+        self.start(next, worker)
+    }
+
+    /// Whether it is neither being made nor waiting.
+    pub fn can_start(&self, subject: Subject) -> bool {
+        !self.is_waiting(subject) && self.running.as_ref().is_none_or(|(running, _)| *running != subject)
+    }
+
+    /// Whether it comes after another one.
+    pub fn is_waiting(&self, subject: Subject) -> bool {
+        self.waiting.contains(&subject)
+    }
+
+    /// Takes it out of the row of those that wait.
+    pub fn forget(&mut self, subject: Subject) {
+        self.waiting.retain(|other| *other != subject);
+    }
+
+    /// Takes the report that was being made in the place of the one before.
+    pub fn take(&mut self, made: Made, is_part: bool) {
+        self.running = None;
+        fn again<R: Row>(slot: &mut Option<Shown<R>>, report: Report<R>, is_part: bool)
+        where
+            Report<R>: BenchmarkFigures,
+        {
+            let page = slot.as_ref().map_or(0, |before| before.page);
+            *slot = Some(Shown::new(report, is_part, page));
+        }
+        match made {
+            Made::ErrorVsTime(report) => again(&mut self.error_vs_time, report, is_part),
+            Made::Stability(report) => again(&mut self.stability, report, is_part),
+            Made::Cost(report) => again(&mut self.cost, report, is_part),
+        }
+    }
+
+    /// The one that was being made came to nothing.
+    pub fn give_up(&mut self) {
+        self.running = None;
+    }
+
+    /// The figure in front of a report that was made.
+    pub fn figure(&self, subject: Subject) -> Option<&Figure> {
+        match subject {
+            Subject::ErrorVsTime => self.error_vs_time.as_ref()?.figure(),
+            Subject::Stability => self.stability.as_ref()?.figure(),
+            Subject::Cost => self.cost.as_ref()?.figure(),
+        }
+    }
+
+    /// How far the one that is being made is.
+    pub fn progress(&self) -> Option<(Subject, f64)> {
+        self.running.as_ref().map(|(subject, job)| (*subject, job.progress().unwrap_or(0.0)))
+    }
+}

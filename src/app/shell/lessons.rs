@@ -1,0 +1,123 @@
+//! The lessons: those that are bundled, those in the user's own folder, and where in one of them the user is.
+
+use crate::app::storage::settings_file;
+use crate::app::text::i18n::phrase;
+use crate::app::work::lesson::{Lesson, Step};
+use pbrdf::model::Parameter;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use tr::tr;
+
+/// The bundled lessons, in their order; a test sees to it that none of the folder is missing.
+const BUNDLED: [&str; 12] = [
+    include_str!("../../../assets/lessons/01-pseudo-brewster.txt"),
+    include_str!("../../../assets/lessons/02-fresnel-limit.txt"),
+    include_str!("../../../assets/lessons/03-what-dolp-forgets.txt"),
+    include_str!("../../../assets/lessons/04-ratios-only.txt"),
+    include_str!("../../../assets/lessons/05-what-q-does.txt"),
+    include_str!("../../../assets/lessons/06-ggx-and-beckmann.txt"),
+    include_str!("../../../assets/lessons/07-three-angles.txt"),
+    include_str!("../../../assets/lessons/08-masking-shadowing.txt"),
+    include_str!("../../../assets/lessons/09-not-reciprocal.txt"),
+    include_str!("../../../assets/lessons/10-minnaert-and-energy.txt"),
+    include_str!("../../../assets/lessons/11-out-of-plane.txt"),
+    include_str!("../../../assets/lessons/12-colour-of-copper.txt"),
+];
+
+/// Own lessons that are read at most, and the largest file that is taken for one.
+const MOST: usize = 100;
+const LARGEST: u64 = 1 << 18;
+
+/// All lessons, and which step of which is open.
+#[derive(Default)]
+pub struct Lessons {
+    pub all: Vec<Lesson>,
+    /// Lesson and step.
+    pub open: Option<(usize, usize)>,
+}
+
+impl Lessons {
+    /// The bundled ones, those of a folder, and a sentence for each file of the folder that is no lesson.
+    pub fn load(own: Option<&Path>) -> (Self, Vec<String>) {
+        let mut all: Vec<Lesson> = BUNDLED.iter().filter_map(|text| Lesson::from_text(text).ok()).collect();
+        let mut faults = Vec::new();
+        for path in own.map(text_files).unwrap_or_default() {
+            match std::fs::read_to_string(&path).map_err(|error| phrase(&error)).and_then(|text| lesson(&text)) {
+                Ok(lesson) => all.push(lesson),
+                Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
+            }
+        }
+        (Self { all, open: None }, faults)
+    }
+
+    /// The ends of a parameter's slider: as the open step wants them, else its own.
+    pub fn range(&self, parameter: Parameter) -> RangeInclusive<f64> {
+        let ranges = self.current().map_or(&[][..], |(_, step)| &step.ranges);
+        let stated = ranges.iter().find(|(other, ..)| *other == parameter);
+        stated.map_or_else(|| parameter.range(), |&(_, low, high)| low..=high)
+    }
+
+    /// The open step with its lesson.
+    pub fn current(&self) -> Option<(&Lesson, &Step)> {
+        let (lesson, step) = self.open?;
+        let lesson = self.all.get(lesson)?;
+        Some((lesson, lesson.steps.get(step)?))
+    }
+}
+
+/// Where a user's own lessons lie.
+pub fn own_folder() -> Option<std::path::PathBuf> {
+    directories::ProjectDirs::from("", "", settings_file::APP).map(|folders| folders.data_dir().join("lessons"))
+}
+
+fn lesson(text: &str) -> Result<Lesson, String> {
+    Lesson::from_text(text).map_err(|error| phrase(&error))
+}
+
+/// The text files of a folder that are small enough, in the order of their names.
+fn text_files(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_text = |entry: &std::fs::DirEntry| {
+        entry.path().extension().is_some_and(|extension| extension == "txt") && entry.metadata().is_ok_and(|data| data.len() <= LARGEST)
+    };
+    let mut paths: Vec<_> = entries.filter(is_text).map(|entry| entry.path()).take(MOST).collect();
+    paths.sort();
+    paths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BUNDLED, Lessons};
+    use crate::app::work::document::EXAMPLES;
+    use crate::app::work::lesson::Data;
+
+    #[test]
+    fn every_file_of_the_folder_is_bundled() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+        assert_eq!(std::fs::read_dir(folder).expect("the folder of lessons").count(), BUNDLED.len());
+        assert_eq!(Lessons::load(None).0.all.len(), BUNDLED.len());
+    }
+
+    #[test]
+    fn lessons_name_examples_that_exist() {
+        for lesson in Lessons::load(None).0.all {
+            for step in &lesson.steps {
+                if let Some(Data::Example(name)) = &step.data {
+                    assert!(EXAMPLES.iter().any(|example| example.name == name), "{name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_damaged_lesson_is_named_and_the_others_are_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("a.txt"), "title: Mine\nstep: One\nset: n=1.5\n").expect("a file");
+        std::fs::write(folder.path().join("b.txt"), "title: Mine\nstep: One\nset: n=x\n").expect("a file");
+        std::fs::write(folder.path().join("c.csv"), "theta_i").expect("a file");
+        let (lessons, faults) = Lessons::load(Some(folder.path()));
+        assert_eq!(lessons.all.len(), BUNDLED.len() + 1);
+        assert_eq!(faults.len(), 1);
+        assert!(faults[0].contains("b.txt") && faults[0].contains("line 3"), "{faults:?}");
+    }
+}

@@ -1,0 +1,17 @@
+//! The window as a whole: app, commands, docking, dialogs, toasts, theme, lessons.
+
+pub mod app;
+pub mod benchmarks;
+pub mod command_palette;
+pub mod commands;
+pub mod docking;
+pub mod file_dialogs;
+pub mod frame_times;
+pub mod help;
+pub mod import_dialog;
+pub mod lesson_session;
+pub mod lesson_step;
+pub mod lessons;
+pub mod path_entry;
+pub mod theme;
+pub mod toasts;

@@ -1,0 +1,116 @@
+//! Paths typed by hand, for where the desktop has no dialog. A box keeps its path until that has served; a file that is there is
+//! replaced only after a question, which elsewhere the desktop's own dialog asks.
+
+use crate::app::shell::app::Explorer;
+use crate::app::shell::commands::Command;
+use crate::app::storage::export::Outgoing;
+use std::path::{Path, PathBuf};
+
+/// The boxes of the menu File.
+#[derive(Debug, Default)]
+pub struct Typed {
+    pub open: String,
+    pub save: String,
+    pub export: String,
+}
+
+/// A file that is there, and what would be written in its place.
+#[derive(Debug)]
+pub struct Replacing {
+    pub path: PathBuf,
+    pub command: Command,
+}
+
+/// The path in a box, if there is one; `~/` is the folder of the user, as in a shell.
+pub fn path_in(text: &str) -> Option<PathBuf> {
+    let text = Some(text.trim()).filter(|text| !text.is_empty())?;
+    let own = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
+    Some(own.unwrap_or_else(|| PathBuf::from(text)))
+}
+
+impl Typed {
+    /// The measurement or the session into the typed path, as its ending says.
+    pub fn save_command(&self) -> Option<Command> {
+        let path = path_in(&self.save)?;
+        let is_session = Outgoing::Session.check(&path).is_ok();
+        Some(if is_session { Command::ExportNew(Outgoing::Session, path) } else { Command::SaveNew(path) })
+    }
+
+    /// An export into the typed path, which then has an ending.
+    pub fn export_command(&mut self, what: Outgoing) -> Option<Command> {
+        let path = what.with_ending(path_in(&self.export)?);
+        self.export = path.display().to_string();
+        Some(Command::ExportNew(what, path))
+    }
+
+    /// Empties the boxes with that path: it was read or written.
+    pub fn served(&mut self, path: &Path) {
+        for text in [&mut self.open, &mut self.save, &mut self.export] {
+            if path_in(text).is_some_and(|typed| typed == path) {
+                text.clear();
+            }
+        }
+    }
+}
+
+impl Explorer {
+    /// Writes into a file that was typed, or asks first; or takes the answer.
+    pub(crate) fn write_typed(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+        let (path, command) = match command {
+            Command::SaveNew(path) => (path.clone(), Command::SaveMeasurement(path)),
+            Command::ExportNew(what, path) => {
+                what.check(&path)?;
+                (path.clone(), Command::Export(what, path))
+            }
+            answer => {
+                let asked = self.replacing.take().filter(|_| answer == Command::Replace);
+                return asked.map_or(Ok(()), |asked| self.carry_out(ctx, asked.command));
+            }
+        };
+        if path.is_file() {
+            self.replacing = Some(Replacing { path, command });
+            return Ok(());
+        }
+        self.carry_out(ctx, command)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Command, Outgoing, Typed, path_in};
+    use std::path::Path;
+
+    #[test]
+    fn a_typed_path_says_by_its_ending_what_is_saved() {
+        let command = |name: &str| Typed { save: format!(" {name} "), ..Typed::default() }.save_command();
+        for name in ["a.pbrdf.json", "a.JSON"] {
+            assert_eq!(command(name), Some(Command::ExportNew(Outgoing::Session, name.into())));
+        }
+        for name in ["a.csv", "a", "a.json.csv"] {
+            assert_eq!(command(name), Some(Command::SaveNew(name.into())));
+        }
+        assert_eq!(command(" "), None);
+    }
+
+    #[test]
+    fn a_tilde_is_the_folder_of_the_user() {
+        let home = std::env::home_dir().expect("whoever runs tests has a folder");
+        assert_eq!(path_in(" ~/data/a.csv"), Some(home.join("data/a.csv")));
+        for text in ["/a/~/b", "~b.csv", "a~/b"] {
+            assert_eq!(path_in(text), Some(text.into()));
+        }
+        let mut typed = Typed { open: "~/a.csv".to_owned(), ..Typed::default() };
+        typed.served(&home.join("a.csv"));
+        assert_eq!(typed.open, "");
+    }
+
+    #[test]
+    fn a_box_is_emptied_by_its_own_path_alone() {
+        let mut typed = Typed { open: "/a.csv".to_owned(), save: " /b.csv".to_owned(), export: "/c".to_owned() };
+        assert_eq!(typed.export_command(Outgoing::Curves), Some(Command::ExportNew(Outgoing::Curves, "/c.csv".into())));
+        for path in ["/b.csv", "/c.csv", "/d.csv"] {
+            typed.served(Path::new(path));
+        }
+        assert_eq!((typed.open.as_str(), typed.save.as_str(), typed.export.as_str()), ("/a.csv", "", ""));
+    }
+}

@@ -1,0 +1,163 @@
+//! Sessions in the window: opened, saved, and the working state kept without being asked.
+
+use crate::app::jobs::worker::{Opened, save_session};
+use crate::app::shell::app::{Explorer, SAVE_AFTER};
+use crate::app::shell::commands::Command;
+use crate::app::shell::docking::Panes;
+use crate::app::storage::export;
+use crate::app::storage::export::Outgoing;
+use crate::app::storage::session::Again;
+use crate::app::text::i18n::{phrase, translated};
+use crate::app::work::fit_history::PastFit;
+use crate::app::work::layout::Layout;
+use crate::app::work::settings::Settings;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+use tr::tr;
+
+/// What the working state depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Working {
+    settings: Settings,
+    layout: Layout,
+    generation: u64,
+    fits: usize,
+}
+
+/// Rows that are kept without being asked: more would be written again and again at every change.
+const MOST_ROWS: usize = 20_000;
+
+impl Explorer {
+    /// Goes on where the program ended the last time, if it left something.
+    pub fn resume(&mut self) {
+        if let Some(path) = self.working_file.clone().filter(|path| path.exists()) {
+            self.commands.push(Command::OpenSession(path));
+        }
+    }
+
+    fn working(&self) -> Working {
+        Working {
+            settings: self.own_settings().clone(),
+            layout: self.window.layout.clone(),
+            generation: self.own_document().generation,
+            fits: self.own_fits().made(),
+        }
+    }
+
+    /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
+    fn due(&self) -> Option<(PathBuf, Working)> {
+        let path = self.working_file.clone().filter(|_| self.own_document().measurement.rows.len() <= MOST_ROWS)?;
+        let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
+        let working = self.working();
+        (!is_waiting && self.autosaved.as_ref() != Some(&working)).then_some((path, working))
+    }
+
+    pub fn autosave_when_rested(&mut self, ctx: &egui::Context) {
+        let Some((path, working)) = self.due() else {
+            self.unsaved_since = None;
+            return;
+        };
+        let begun = *self.unsaved_since.get_or_insert_with(Instant::now);
+        if begun.elapsed() < SAVE_AFTER {
+            ctx.request_repaint_after(SAVE_AFTER);
+            return;
+        }
+        self.unsaved_since = None;
+        self.autosaved = Some(working);
+        if let Err(sentence) = self.worker.autosave(path, export::own_session(self)) {
+            self.say(sentence);
+        }
+    }
+
+    /// Writes the working state before the window closes.
+    pub fn autosave_now(&mut self) {
+        if let Some((path, working)) = self.due()
+            && save_session(&path, &export::own_session(self)).is_ok()
+        {
+            self.autosaved = Some(working);
+        }
+    }
+
+    pub fn save_session(&mut self, ctx: &egui::Context) -> Result<(), String> {
+        let what = Outgoing::Session;
+        let command = self.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
+        self.carry_out(ctx, command)
+    }
+
+    pub fn exported(&mut self, what: Outgoing, result: Result<PathBuf, String>) {
+        match result {
+            Ok(path) => {
+                self.typed.served(&path);
+                self.notices.say_briefly(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
+                // What was saved out of a lesson is no file of the work that comes back.
+                if what == Outgoing::Session && self.aside.is_none() {
+                    self.session_file = Some(path);
+                }
+            }
+            Err(sentence) => self.say(sentence),
+        }
+    }
+
+    /// Puts a session in the place of everything there is; where it cannot be read, all stays.
+    pub fn session_read(&mut self, path: &Path, result: Result<Box<Opened>, String>) {
+        let is_working = self.working_file.as_deref() == Some(path);
+        match result {
+            Ok(opened) => {
+                self.notices.reading_succeeded();
+                self.typed.served(path);
+                let left_out: Vec<String> = opened.session.left_out.iter().map(phrase).collect();
+                self.show_session(*opened);
+                if !left_out.is_empty() {
+                    self.say(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out.join("; ")));
+                }
+                self.session_file = (!is_working).then(|| path.to_owned());
+                if is_working {
+                    self.autosaved = Some(self.working());
+                } else {
+                    self.window.remember(path);
+                }
+            }
+            Err(sentence) if is_working => {
+                // The next autosave would write over it.
+                let aside = path.with_extension("damaged.json");
+                let kept = std::fs::rename(path, &aside).map_or_else(
+                    |error| tr!("it could not be set aside ({})", phrase(&error)),
+                    |()| tr!("it is kept as {}", aside.display()),
+                );
+                self.say(tr!("The state of the last time cannot be restored; {0}. {1}", kept, sentence));
+            }
+            Err(sentence) => {
+                self.window.forget(path);
+                self.notices.say_of_reading(sentence);
+            }
+        }
+    }
+
+    fn show_session(&mut self, opened: Opened) {
+        // It takes the place of a lesson, and of what that would give back.
+        self.lessons.open = None;
+        self.aside = None;
+        let Opened { session, fits } = opened;
+        let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
+        self.take(session.name, measurement);
+        self.document.sha256 = session.sha256;
+        self.settings = session.settings;
+        self.window.layout = session.layout;
+        self.panes = Panes::new(&self.window.layout);
+        self.refitted = Some(self.settings.parameters);
+        let shown = session.shown;
+        for (index, Again { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
+            let (document, number) = (self.document.name.clone(), self.document.number);
+            // None of this document, where the mask was another one.
+            let generation = if mask == *self.document.mask() { self.document.generation } else { 0 };
+            let fit = PastFit { id: 0, report, problem, before, document, number, generation, mask };
+            let fit = self.past_fits.push(fit);
+            if Some(index) == shown {
+                self.show_fit(Some(fit));
+            }
+        }
+        let setup = self.setup();
+        self.history.replace(setup);
+    }
+}

@@ -1,0 +1,8 @@
+//! What is kept or leaves the program: sessions, autosave, settings, imports, exports.
+
+pub mod autosave;
+pub mod export;
+pub mod fit_record;
+pub mod import;
+pub mod session;
+pub mod settings_file;

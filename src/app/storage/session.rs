@@ -1,0 +1,301 @@
+//! A session as a file: everything that the user set, the data with their masks, and the fits, so that it opens on another machine.
+//!
+//! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurement` and `fits`. The
+//! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
+//! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
+
+use crate::app::storage::fit_record::{Account, on_one_line};
+use crate::app::work::document::{Mask, masked_rows};
+use crate::app::work::fit_history::PastFit;
+use crate::app::work::layout::Layout;
+use crate::app::work::settings::{Settings, can_be_set};
+use crate::export::program;
+use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watch, fit};
+use pbrdf::measurement;
+use pbrdf::measurement::{Measurement, ReadError};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+const FORMAT: &str = "pbrdf-session";
+/// Files of a later version are refused: they may mean something else.
+const VERSION: u32 = 1;
+
+/// What the first look at a file asks.
+#[derive(Deserialize)]
+struct Header {
+    format: Option<String>,
+    version: Option<u32>,
+}
+
+/// The file, key by key.
+#[derive(Serialize, Deserialize)]
+struct Contents<F> {
+    format: String,
+    version: u32,
+    program: String,
+    settings: Settings,
+    #[serde(deserialize_with = "Layout::lenient")]
+    layout: Layout,
+    measurement: Option<Data>,
+    fits: Vec<F>,
+    /// Which of them was shown, from 0.
+    #[serde(default = "newest")]
+    shown: Option<usize>,
+}
+
+/// Files that do not say which fit was shown show the newest.
+#[expect(clippy::unnecessary_wraps, reason = "the type of the key")]
+fn newest() -> Option<usize> {
+    Some(0)
+}
+
+#[derive(Serialize, Deserialize)]
+struct Data {
+    name: String,
+    sha256: Option<String>,
+    /// The lines of a measurement file.
+    table: Vec<String>,
+}
+
+/// What a fit was about, and where it ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recipe {
+    model: Model,
+    start: Parameters,
+    free: Vec<Parameter>,
+    bounds: Vec<(Parameter, f64, f64)>,
+    choices: Choices,
+    /// The solution.
+    parameters: Parameters,
+    /// The sliders before it.
+    before: Parameters,
+    /// How it came about; older files do not tell.
+    #[serde(default)]
+    account: Option<Account>,
+    /// The rows that were masked, from 0, where no account tells; without, those that the measurement has masked.
+    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
+    masked: Option<Vec<usize>>,
+}
+
+/// A fit of a session, made again.
+pub struct Again {
+    pub report: FitReport,
+    pub problem: Arc<Problem>,
+    /// The sliders before it.
+    pub before: Parameters,
+    /// The rows that were masked.
+    pub mask: Mask,
+}
+
+/// A session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    pub settings: Settings,
+    pub layout: Layout,
+    /// Name of the measurement.
+    pub name: String,
+    /// Hash of the file that the measurement came from.
+    pub sha256: Option<String>,
+    pub measurement: Option<Arc<Measurement>>,
+    /// The newest first.
+    pub fits: Vec<Recipe>,
+    /// Which of them is shown.
+    pub shown: Option<usize>,
+    /// Why fits of its file are not among them; none of it is written.
+    pub left_out: Vec<String>,
+}
+
+/// Why a file is no session.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    #[error("this is no session: expected JSON with \"format\": \"{FORMAT}\"")]
+    Format,
+    #[error("the session is of version {found}; this program reads version {VERSION}")]
+    Version { found: u32 },
+    #[error("line {line}, column {column}{at}: {reason}")]
+    Json { line: usize, column: usize, at: String, reason: String },
+    #[error("settings.{0}")]
+    Settings(String),
+    #[error("measurement.table: {0}")]
+    Measurement(#[from] ReadError),
+    #[error("fits, number {number}: {reason}")]
+    Fit { number: usize, reason: String },
+}
+
+impl SessionError {
+    fn json(path: &str, error: &serde_json::Error) -> Self {
+        let text = error.to_string();
+        // The place stands at the end of serde's sentence; here it comes first.
+        let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason).to_owned();
+        let at = if path.is_empty() || path == "." || path == "?" { String::new() } else { format!(", {path}") };
+        Self::Json { line: error.line(), column: error.column(), at, reason }
+    }
+}
+
+impl Recipe {
+    pub fn new(fit: &PastFit) -> Self {
+        let problem = &fit.problem;
+        let bounds = problem.free().iter().map(|&parameter| {
+            let (low, high) = problem.bounds().of(parameter);
+            (parameter, low, high)
+        });
+        let account = Account::new(fit);
+        Self {
+            masked: account.is_none().then(|| fit.mask.to_vec()),
+            model: problem.model(),
+            start: *problem.start(),
+            free: problem.free().to_vec(),
+            bounds: bounds.collect(),
+            choices: *problem.choices(),
+            parameters: fit.report.parameters,
+            before: fit.before,
+            account,
+        }
+    }
+
+    /// A fit of a file, if it can be one of this measurement.
+    fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, String> {
+        let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| match error.path().to_string().as_str() {
+            "." => error.inner().to_string(),
+            place => format!("{place}: {}", error.inner()),
+        })?;
+        // Some files have an account that tells of the mask alone.
+        if let Some(account) = recipe.account.take_if(|account| account.is_empty()) {
+            recipe.masked = Some(account.into_mask());
+        }
+        recipe.problem(measurement).map(|_| recipe)
+    }
+
+    /// The rows that were masked, where the file tells.
+    fn mask(&self) -> Option<&[usize]> {
+        self.account.as_ref().map(Account::mask).or(self.masked.as_deref())
+    }
+
+    /// The measurement with the mask that it had.
+    fn masked<'a>(&self, measurement: &'a Measurement) -> Cow<'a, Measurement> {
+        let mut masked = Cow::Borrowed(measurement);
+        let Some(mask) = self.mask() else { return masked };
+        let is_masked = |row: usize| mask.binary_search(&row).is_ok();
+        if measurement.rows.iter().enumerate().any(|(i, row)| row.masked != is_masked(i)) {
+            masked.to_mut().rows.iter_mut().enumerate().for_each(|(i, row)| row.masked = is_masked(i));
+        }
+        masked
+    }
+
+    fn problem(&self, measurement: &Measurement) -> Result<Problem, String> {
+        let mut bounds = Bounds::default();
+        for &(parameter, low, high) in &self.bounds {
+            bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
+        }
+        if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
+            return Err(fault.to_owned());
+        }
+        if self.mask().is_some_and(|mask| !is_mask(mask, measurement.rows.len())) {
+            return Err("masked: the rows are not in their order, or not all in the table".to_owned());
+        }
+        let places = self.account.iter().flat_map(|account| account.places(self.start, &self.free));
+        for parameters in [self.start, self.parameters, self.before].into_iter().chain(places) {
+            can_be_set(&parameters, self.model.parameters()).map_err(|error| error.to_string())?;
+        }
+        let free: ParameterSet = self.free.iter().copied().collect();
+        let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.choices);
+        problem.map_err(|error: ProblemError| error.to_string())
+    }
+
+    /// The fit again. None where the data of the session are no longer such that there is one.
+    pub fn again(&self, measurement: &Measurement) -> Option<Again> {
+        let problem = self.problem(measurement).ok()?;
+        let report = match &self.account {
+            Some(account) => account.report(&problem, &self.free)?,
+            None => self.without_account(&problem),
+        };
+        let mask = self.mask().map_or_else(|| masked_rows(&measurement.rows), Mask::from);
+        Some(Again { report, problem: Arc::new(problem), before: self.before, mask })
+    }
+
+    /// From its solution, where it stays; how it got there is not known.
+    fn without_account(&self, problem: &Problem) -> FitReport {
+        let mut report = fit(&problem.with_start(self.parameters), Starts::One, 0, Watch::NOBODY);
+        for estimate in &mut report.estimates {
+            estimate.start = self.start[estimate.parameter];
+        }
+        report.start_objective = problem.delta_e(&self.start);
+        report.start_sum_of_squares = problem.sum_of_squares(&self.start).map(|sum| sum * problem.sum_of_squares_scale());
+        report.evaluations = 0;
+        report.minima.clear();
+        report.trace.clear();
+        report.path.clear();
+        report
+    }
+}
+
+/// Whether these are rows of a table of so many, each once and in their order.
+fn is_mask(rows: &[usize], of: usize) -> bool {
+    rows.is_sorted_by(|one, next| one < next) && rows.last().is_none_or(|&last| last < of)
+}
+
+impl Session {
+    /// Writes it: one key, and one row of the table, a line.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let table = |measurement: &Arc<Measurement>| -> io::Result<Vec<String>> {
+            let mut bytes = Vec::new();
+            measurement::write(measurement, &mut bytes)?;
+            Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
+        };
+        let data = |measurement| -> io::Result<Data> {
+            Ok(Data { name: self.name.clone(), sha256: self.sha256.clone(), table: table(measurement)? })
+        };
+        let contents = Contents {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            program: program(),
+            settings: self.settings.clone(),
+            layout: self.layout.clone(),
+            measurement: self.measurement.as_ref().map(data).transpose()?,
+            fits: self.fits.iter().collect(),
+            shown: self.shown,
+        };
+        serde_json::to_writer_pretty(&mut *out, &contents)?;
+        writeln!(out)
+    }
+
+    /// Reads it, and checks that every value means something; a fit that does not is left out.
+    pub fn read(text: &str) -> Result<Self, SessionError> {
+        let header: Header = serde_json::from_str(text).map_err(|error| SessionError::json("", &error))?;
+        match (header.format.as_deref(), header.version) {
+            (Some(FORMAT), Some(VERSION)) => {}
+            (Some(FORMAT), Some(found)) => return Err(SessionError::Version { found }),
+            _ => return Err(SessionError::Format),
+        }
+        let mut json = serde_json::Deserializer::from_str(text);
+        let contents: Contents<serde_json::Value> =
+            serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
+        if let Some(fault) = contents.settings.fault() {
+            return Err(SessionError::Settings(fault));
+        }
+        let (name, sha256, measurement) = match contents.measurement {
+            Some(Data { name, sha256, table }) => {
+                let text = table.join("\n");
+                (name, sha256, Some(measurement::read(text.as_bytes(), &mut |_| ControlFlow::Continue(()))?))
+            }
+            None => (String::new(), None, None),
+        };
+        let measurement = measurement.map(Arc::new);
+        let Contents { settings, layout, fits: stored, shown: stored_shown, .. } = contents;
+        let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
+        for (index, value) in stored.into_iter().enumerate() {
+            match Recipe::read(value, measurement.as_deref().unwrap_or(&Measurement::default())) {
+                Ok(recipe) => {
+                    shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
+                    fits.push(recipe);
+                }
+                Err(reason) => left_out.push(SessionError::Fit { number: index + 1, reason }.to_string()),
+            }
+        }
+        Ok(Self { settings, layout, name, sha256, measurement, fits, shown, left_out })
+    }
+}

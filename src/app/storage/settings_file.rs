@@ -1,0 +1,67 @@
+//! The settings file: read at start, written in one move, set aside when damaged.
+
+use crate::app::text::i18n::{Language, phrase};
+use crate::app::work::settings::{Stored, WindowSettings};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use tr::tr;
+
+/// Name of the program in the folders of the desktop.
+pub const APP: &str = "pbrdf-explorer";
+
+/// Where the settings are, if the machine has a place for them.
+pub fn path() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", APP).map(|folders| folders.config_dir().join("settings.json"))
+}
+
+/// Where the working state is, if the machine has a place for it.
+pub fn working_path() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", APP).map(|folders| folders.data_local_dir().join("working.pbrdf.json"))
+}
+
+/// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
+pub fn load() -> (Stored, Option<String>) {
+    path().map_or_else(|| (Stored::default(), None), |path| load_from(&path))
+}
+
+pub fn load_from(path: &Path) -> (Stored, Option<String>) {
+    let reason = match std::fs::read(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let window = WindowSettings { language: Language::of_environment(), ..WindowSettings::default() };
+            return (Stored { window, ..Stored::default() }, None);
+        }
+        Err(error) => {
+            return (
+                Stored::default(),
+                Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", phrase(&error))),
+            );
+        }
+        Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
+            Ok(settings) => match settings.fault() {
+                None => return (settings, None),
+                Some(fault) => fault,
+            },
+            Err(error) => error.to_string(),
+        },
+    };
+    let aside = path.with_extension("damaged.json");
+    let kept = match std::fs::rename(path, &aside) {
+        Ok(()) => tr!("it is kept as {}", aside.display()),
+        Err(error) => tr!("it could not be set aside ({})", phrase(&error)),
+    };
+    (
+        Stored::default(),
+        Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), phrase(&reason), kept)),
+    )
+}
+
+/// Writes the settings; a crash leaves the old file or the new one.
+pub fn save(path: &Path, settings: &Stored) -> std::io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    serde_json::to_writer_pretty(&mut file, settings)?;
+    file.flush()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}

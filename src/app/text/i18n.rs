@@ -1,0 +1,327 @@
+//! The language of the window, switchable while it runs.
+//!
+//! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
+//! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
+//! `tr!("{} rows", count)`. A text that comes out of a table goes through [`translated`]: `translated(parameter.help())`.
+//! A sentence that the core made, an error say, goes through [`phrase`]; its forms stand in `zh_CN.core.po`, with named holes.
+//! Names of parameters, models and files are the same in all languages.
+
+use crate::app::text::phrases::Phrases;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::sync::OnceLock;
+use tr::{Translator, tr};
+
+/// A language of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Language {
+    English,
+    Chinese,
+}
+
+impl Language {
+    pub const ALL: [Self; 2] = [Self::English, Self::Chinese];
+
+    /// Its name in itself.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::Chinese => "简体中文",
+        }
+    }
+
+    /// Its name in English.
+    pub fn english_name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::Chinese => "Chinese",
+        }
+    }
+
+    /// Its code in lessons.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Chinese => "zh",
+        }
+    }
+
+    /// That of the environment; English unless it says Chinese.
+    pub fn of_environment() -> Self {
+        let said =
+            ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
+        if said.is_some_and(|value| value.starts_with("zh")) { Self::Chinese } else { Self::English }
+    }
+}
+
+const CHINESE: &str = include_str!("../../../assets/locales/zh_CN.po");
+/// What the core says.
+const CORE: &str = include_str!("../../../assets/locales/zh_CN.core.po");
+
+/// Texts in Chinese under those in English.
+struct Catalogue {
+    chinese: HashMap<String, String>,
+    phrases: Phrases,
+}
+
+/// The catalogue, once it is made known.
+static CATALOGUE: OnceLock<Catalogue> = OnceLock::new();
+
+/// Entries of gettext's text form that have a translation; none where it is damaged, which a test rules out.
+fn entries(po: &str) -> Option<impl Iterator<Item = (String, String)>> {
+    let file = rspolib::pofile(po).ok()?;
+    Some(file.entries.into_iter().filter_map(|entry| Some((entry.msgid, entry.msgstr.filter(|text| !text.is_empty())?))))
+}
+
+impl Catalogue {
+    fn from_po(window: &str, core: &str) -> Option<Self> {
+        Some(Self { chinese: entries(window)?.collect(), phrases: Phrases::new(entries(core)?) })
+    }
+}
+
+impl Translator for &'static Catalogue {
+    fn translate<'a>(&'a self, text: &'a str, _context: Option<&'a str>) -> Cow<'a, str> {
+        let translated = match current() {
+            Language::English => None,
+            Language::Chinese => self.chinese.get(text),
+        };
+        #[cfg(test)]
+        if current() == Language::Chinese && translated.is_none() {
+            MISSED.with_borrow_mut(|missed| missed.insert(text.to_owned()));
+        }
+        Cow::Borrowed(translated.map_or(text, String::as_str))
+    }
+
+    /// Chinese has no plural: the text is looked up under the English one of many.
+    fn ntranslate<'a>(&'a self, n: u64, singular: &'a str, plural: &'a str, context: Option<&'a str>) -> Cow<'a, str> {
+        self.translate(if n == 1 && current() == Language::English { singular } else { plural }, context)
+    }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Texts that were looked up in vain, those out of tables among them.
+    pub static MISSED: std::cell::RefCell<std::collections::BTreeSet<String>> = const { std::cell::RefCell::new(std::collections::BTreeSet::new()) };
+}
+
+/// A text out of a table, in the language of the window.
+pub fn translated(text: &str) -> String {
+    // An empty text is the head of the catalogue.
+    if text.is_empty() { String::new() } else { tr!(text) }
+}
+
+/// A sentence of the core in the language of the window, in English where that does not know it. It is looked for among all forms of
+/// sentences, once: labels ask for the same in every frame.
+pub fn phrase(text: &(impl std::fmt::Display + ?Sized)) -> String {
+    let text = text.to_string();
+    match (current(), CATALOGUE.get()) {
+        (Language::Chinese, Some(catalogue)) => {
+            let word = |word: &str| catalogue.chinese.get(word).map(String::as_str);
+            SAID.with_borrow_mut(|said| {
+                if let Some(known) = said.get(&text) {
+                    return known.clone();
+                }
+                if said.len() >= MOST_SAID {
+                    said.clear();
+                }
+                let translation = catalogue.phrases.translate(&text, &word).unwrap_or_else(|| text.clone());
+                said.entry(text).or_insert(translation).clone()
+            })
+        }
+        _ => text,
+    }
+}
+
+/// Sentences that are remembered at most: some panes full of them.
+const MOST_SAID: usize = 4096;
+
+thread_local! {
+    /// Sentences that were asked for, in Chinese.
+    static SAID: RefCell<HashMap<String, String>> = RefCell::default();
+}
+
+/// Whether there is an entry for sentences of that form.
+#[cfg(test)]
+pub fn has_phrase(form: &str) -> bool {
+    install();
+    CATALOGUE.get().is_some_and(|catalogue| catalogue.phrases.has(form))
+}
+
+/// Sentences of the core whose translation lacks a part.
+#[cfg(test)]
+pub fn torn_phrases() -> Vec<String> {
+    install();
+    CATALOGUE.get().map_or_else(Vec::new, |catalogue| catalogue.phrases.torn())
+}
+
+/// Makes the catalogue known.
+pub fn install() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        if let Some(catalogue) = Catalogue::from_po(CHINESE, CORE) {
+            let catalogue: &'static Catalogue = CATALOGUE.get_or_init(|| catalogue);
+            tr::set_translator!(catalogue);
+        }
+    });
+}
+
+pub use switch::set;
+
+thread_local! { static IN_ENGLISH: Cell<bool> = const { Cell::new(false) }; }
+
+/// The language of the window; English inside [`in_english`].
+pub fn current() -> Language {
+    if IN_ENGLISH.get() { Language::English } else { switch::current() }
+}
+
+/// What texts are in English, whatever the window speaks.
+pub fn in_english<R>(texts: impl FnOnce() -> R) -> R {
+    IN_ENGLISH.set(true);
+    let result = texts();
+    IN_ENGLISH.set(false);
+    result
+}
+
+/// One language for the whole program: jobs write sentences too.
+#[cfg(not(test))]
+mod switch {
+    use super::Language;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    static IS_CHINESE: AtomicBool = AtomicBool::new(false);
+
+    pub fn current() -> Language {
+        if IS_CHINESE.load(Ordering::Relaxed) { Language::Chinese } else { Language::English }
+    }
+
+    pub fn set(language: Language) {
+        IS_CHINESE.store(language == Language::Chinese, Ordering::Relaxed);
+    }
+}
+
+/// One language for each test: they run side by side.
+#[cfg(test)]
+mod switch {
+    use super::Language;
+    use std::cell::Cell;
+
+    thread_local! { static CURRENT: Cell<Language> = const { Cell::new(Language::English) }; }
+
+    pub fn current() -> Language {
+        CURRENT.get()
+    }
+
+    pub fn set(language: Language) {
+        CURRENT.set(language);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CHINESE, CORE, Catalogue, Language, MOST_SAID, SAID, install, phrase, set};
+    use crate::app::tests::sources::{literals_after, sources};
+    use std::collections::{BTreeSet, HashMap};
+    use tr::tr;
+
+    #[test]
+    fn texts_follow_the_language() {
+        install();
+        assert_eq!(tr!("File"), "File");
+        set(Language::Chinese);
+        assert_eq!(tr!("File"), "文件");
+        set(Language::English);
+        assert_eq!(tr!("File"), "File");
+    }
+
+    #[test]
+    fn sentences_are_remembered_and_not_without_end() {
+        install();
+        set(Language::Chinese);
+        for number in 0..=MOST_SAID {
+            assert_eq!(phrase(&format!("line {number}: ?")), format!("第 {number} 行：?"));
+        }
+        assert_eq!(SAID.with_borrow(HashMap::len), 1);
+        for (language, said) in [(Language::English, "line 7: ?"), (Language::Chinese, "第 7 行：?"), (Language::Chinese, "第 7 行：?")]
+        {
+            set(language);
+            assert_eq!(phrase("line 7: ?"), said);
+        }
+        assert_eq!(SAID.with_borrow(HashMap::len), 2);
+    }
+
+    #[test]
+    fn every_text_of_the_window_is_translated() {
+        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
+        let of = |source: &str| TEXTS.iter().flat_map(|words| literals_after(source, words)).collect::<Vec<_>>();
+        let texts: BTreeSet<String> = of_window().iter().flat_map(|(_, source)| of(source)).filter(|text| !text.is_empty()).collect();
+        let missing: Vec<String> = texts.into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
+        assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
+    }
+
+    #[test]
+    fn no_control_has_a_bare_text() {
+        let mut bare = Vec::new();
+        for (name, source) in of_window() {
+            for call in CALLS {
+                for (at, _) in source.match_indices(call) {
+                    let text = source[at + call.len()..].split('"').next().unwrap_or_default();
+                    // Symbols and names are the same in all languages.
+                    if text.split(|letter: char| !letter.is_ascii_alphabetic()).any(|word| word.len() > 3) {
+                        bare.push(format!("{name}: {call}{text}"));
+                    }
+                }
+            }
+        }
+        assert!(bare.is_empty(), "without tr!: {bare:#?}");
+    }
+
+    /// What shows a text: a literal right behind it is not translated.
+    const CALLS: [&str; 17] = [
+        ".label(\"",
+        ".weak(\"",
+        ".strong(\"",
+        ".heading(\"",
+        ".small(\"",
+        ".button(\"",
+        ".small_button(\"",
+        ".menu_button(\"",
+        ".hint_text(\"",
+        ".on_hover_text(\"",
+        ".on_disabled_hover_text(\"",
+        "Button::new(\"",
+        "RichText::new(\"",
+        "CollapsingHeader::new(\"",
+        ".collapsing(\"",
+        ".say(\"",
+        ".say_briefly(\"",
+    ];
+
+    /// The sources of the window, without this file.
+    fn of_window() -> Vec<(String, String)> {
+        sources("src/app").into_iter().filter(|(path, _)| !path.ends_with("language.rs")).collect()
+    }
+
+    /// Behind what stands a text of the window: in the program, or in a table out of which it goes through `translated`.
+    const TEXTS: [&str; 5] = ["tr!(", "translated(", "text: ", "help: ", "tooltip: "];
+
+    /// Behind what a text may stand that goes out through `phrase`.
+    const PHRASES: [&str; 4] = ["format!(", "Some(", "Err(", "Ok("];
+
+    #[test]
+    fn no_sentence_is_put_together_without_a_translation() {
+        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
+        let is_word = |word: &str| word.len() > 2 && word.chars().all(|letter| letter.is_ascii_alphabetic());
+        // Two words beside each other are no symbol and no key.
+        let is_sentence = |text: &String| text.split(' ').zip(text.split(' ').skip(1)).any(|(one, other)| is_word(one) && is_word(other));
+        let is_known = |text: &String| catalogue.phrases.has(text) || catalogue.chinese.contains_key(text);
+        let mut missing = Vec::new();
+        // What main says has no window around it.
+        for (path, source) in of_window().into_iter().filter(|(path, _)| path != "src/app/mod.rs") {
+            let said = PHRASES.iter().flat_map(|words| literals_after(&source, words));
+            missing.extend(said.filter(|text| is_sentence(text) && !is_known(text)).map(|text| format!("{path}: {text}")));
+        }
+        assert!(missing.is_empty(), "without tr!, and not in assets/locales/zh_CN.core.po: {missing:#?}");
+    }
+}

@@ -1,0 +1,5 @@
+//! Texts: two languages, the glossary, numbers.
+
+pub mod glossary;
+pub mod i18n;
+pub mod phrases;

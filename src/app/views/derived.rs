@@ -1,0 +1,107 @@
+//! What more than one part of the window shows and none computes while it draws: curves, points, ΔE, what the data determine.
+
+use crate::app::jobs::memo::Memo;
+use crate::app::views::curves::{BrdfScale, CurveKey, CurveSet, MarkSet};
+use crate::app::work::document::Document;
+use crate::app::work::fit_setup::problem;
+use crate::app::work::settings::Settings;
+use pbrdf::fit::{Choices, Eq17, Loss, OpenDirection, Problem, Uncertainty, Weights};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+
+/// Everything derived that has more than one reader; a pane keeps what it alone shows.
+#[derive(Default)]
+pub struct Derived {
+    /// Measured points, by generation of the document and how a BRDF is drawn.
+    pub marks: Memo<(u64, BrdfScale), MarkSet>,
+    /// The model along θr.
+    pub curves: Memo<CurveKey, CurveSet>,
+    problem: Memo<(u64, Model, Eq17), Option<Problem>>,
+    delta_e: Memo<(Parameters, u64, Model, Eq17), Option<f64>>,
+    /// Whether every value that counts comes with its standard deviation, by generation of the document.
+    states_sigmas: Memo<u64, bool>,
+    fault: Memo<(Parameters, Model), Option<String>>,
+    outlook: Memo<(Settings, ParameterSet, u64), Option<Outlook>>,
+}
+
+impl Derived {
+    /// The measured points and the curves, for the panes that draw them.
+    pub fn refresh_curves(&mut self, settings: &Settings, document: &Document) {
+        let scale = BrdfScale::new(settings);
+        self.marks.refresh((document.generation, scale), |_| MarkSet::new(document, scale));
+        self.curves.refresh(CurveKey::new(settings, document), |key| CurveSet::new(key, document));
+    }
+
+    /// What is on screen whatever the panes are: ΔE, and why there is no curve.
+    pub fn refresh_status(&mut self, settings: &Settings, document: &Document) {
+        let Settings { parameters, model, .. } = *settings;
+        self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err().map(|error| error.to_string()));
+        // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
+        let eq17 = settings.choices.eq17;
+        self.problem.refresh((document.generation, model, eq17), |_| {
+            problem(settings, &document.measurement, model, ParameterSet::EMPTY, Choices { eq17, ..Choices::default() }).ok()
+        });
+        self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
+        let problem = self.problem.get().and_then(Option::as_ref);
+        self.delta_e.refresh((parameters, document.generation, model, eq17), |_| problem?.delta_e(&parameters));
+    }
+
+    /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
+    pub fn refresh_outlook(&mut self, settings: &Settings, document: &Document, free: ParameterSet, is_shown: bool) {
+        if is_shown {
+            self.outlook.refresh((settings.clone(), free, document.generation), |_| Outlook::new(settings, document, free));
+        } else {
+            self.outlook.clear();
+        }
+    }
+
+    /// ΔE of the sliders.
+    pub fn delta_e(&self) -> Option<f64> {
+        self.delta_e.get().copied().flatten()
+    }
+
+    /// How many measured values a fit has; none where the model predicts nothing of them.
+    pub fn values(&self) -> Option<usize> {
+        Some(self.problem.get()?.as_ref()?.len())
+    }
+
+    /// Whether every value that counts comes with its standard deviation.
+    pub fn states_sigmas(&self) -> bool {
+        self.states_sigmas.get().is_some_and(|states| *states)
+    }
+
+    /// Why there is no curve.
+    pub fn fault(&self) -> Option<&str> {
+        self.fault.get()?.as_deref()
+    }
+
+    /// What the open data determine at the sliders, while that is on screen.
+    pub fn outlook(&self) -> Option<&Outlook> {
+        self.outlook.get()?.as_ref()
+    }
+}
+
+/// What data would determine, seen from the sliders before any fit.
+pub struct Outlook {
+    /// Standard error of each free parameter; none where it would stay open.
+    pub errors: Vec<(Parameter, Option<f64>)>,
+    pub open: Vec<OpenDirection>,
+    /// Whether the errors come from stated standard deviations rather than from the present misfit.
+    pub from_stated: bool,
+}
+
+impl Outlook {
+    fn new(settings: &Settings, document: &Document, free: ParameterSet) -> Option<Self> {
+        let parameters = settings.parameters;
+        let with = |weights| {
+            let choices = Choices { weights, loss: Loss::Linear, ..settings.choices };
+            problem(settings, &document.measurement, settings.model, free, choices).ok()
+        };
+        let stated = with(Weights::Sigma);
+        let from_stated = stated.is_some();
+        let problem = stated.or_else(|| with(Weights::None))?;
+        let misfit = problem.sum_of_squares(&parameters)?;
+        let uncertainty = Uncertainty::at(&problem, &parameters, misfit, ParameterSet::EMPTY);
+        let errors = free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect();
+        Some(Self { errors, open: uncertainty.open, from_stated })
+    }
+}

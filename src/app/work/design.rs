@@ -1,0 +1,202 @@
+//! Angles that might be measured, and what they would determine.
+
+use crate::app::text::i18n::phrase;
+use crate::app::work::settings::Settings;
+use pbrdf::fit;
+use pbrdf::fit::PlannedNoise;
+use pbrdf::measurement::{Columns, Measurement};
+use pbrdf::model::{Parameter, ParameterSet};
+use pbrdf::optics::Geometry;
+use serde::{Deserialize, Serialize};
+use tr::tr;
+
+/// Angles from one to another in steps, in degrees; a single one where both ends are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    pub from: f64,
+    pub to: f64,
+    pub step: f64,
+}
+
+/// Slack of the last step, as a fraction of it: 0.1 + 0.1 + 0.1 is not 0.3.
+const SLACK: f64 = 1e-9;
+
+impl Span {
+    pub const fn new(from: f64, to: f64, step: f64) -> Self {
+        Self { from, to, step }
+    }
+
+    /// How many angles.
+    pub fn count(&self) -> usize {
+        let steps = ((self.to - self.from) / self.step + SLACK).floor();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, cut to a sane one")]
+        let steps = steps.clamp(0.0, 1e5) as usize;
+        steps + 1
+    }
+
+    /// They.
+    pub fn angles(self) -> impl Iterator<Item = f64> {
+        #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
+        (0..self.count()).map(move |i| self.from + i as f64 * self.step)
+    }
+
+    fn is_sound(&self, range: std::ops::RangeInclusive<f64>) -> bool {
+        range.contains(&self.from) && range.contains(&self.to) && self.from <= self.to && self.step > 0.0 && self.step.is_finite()
+    }
+}
+
+/// A measurement that might be made: every θi with every θr.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Plan {
+    pub theta_i: Vec<Span>,
+    /// Negative on the backscatter side.
+    pub theta_r: Vec<Span>,
+    /// Degrees.
+    pub dphi: f64,
+    pub columns: Columns,
+    /// Standard deviation of DoLP.
+    pub noise: f64,
+    /// Standard deviation of the BRDF, relative to its value.
+    pub brdf_noise: f64,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            theta_i: vec![Span::new(10.0, 80.0, 10.0)],
+            theta_r: vec![Span::new(0.0, 85.0, 5.0)],
+            dphi: 180.0,
+            columns: Columns::Dolp,
+            noise: 0.005,
+            brdf_noise: 0.02,
+        }
+    }
+}
+
+/// Steepest angle that can be planned.
+pub const STEEPEST: f64 = 89.9;
+/// Points that can be planned with: more would make the sliders wait.
+pub const MOST_PLANNED: usize = 4000;
+
+impl Plan {
+    /// Whether its values mean something.
+    pub fn is_sound(&self) -> bool {
+        self.theta_i.iter().all(|span| span.is_sound(0.0..=STEEPEST))
+            && self.theta_r.iter().all(|span| span.is_sound(-STEEPEST..=STEEPEST))
+            && self.dphi.is_finite()
+            && [self.noise, self.brdf_noise].iter().all(|noise| noise.is_finite() && *noise > 0.0)
+    }
+
+    /// How many angles of incidence, and of view.
+    pub fn counts(&self) -> (usize, usize) {
+        let count = |spans: &[Span]| spans.iter().map(Span::count).sum();
+        (count(&self.theta_i), count(&self.theta_r))
+    }
+
+    /// Whether a BRDF would be measured.
+    pub fn has_brdf(&self) -> bool {
+        self.columns != Columns::Dolp
+    }
+
+    fn noise(&self) -> PlannedNoise {
+        let if_measured = |noise, other| (self.columns != other).then_some(noise);
+        PlannedNoise { dolp: if_measured(self.noise, Columns::Brdf), brdf: if_measured(self.brdf_noise, Columns::Dolp) }
+    }
+
+    fn geometries(&self) -> Vec<Geometry> {
+        let theta_i = || self.theta_i.iter().flat_map(|span| span.angles());
+        let theta_r = || self.theta_r.iter().flat_map(|span| span.angles());
+        // A negative θr is the other side of the same plane.
+        let geometry = |i: f64, r: f64| Geometry::new(i, r.abs(), if r < 0.0 { self.dphi - 180.0 } else { self.dphi }).ok();
+        theta_i().flat_map(|i| theta_r().map(move |r| (i, r))).filter_map(|(i, r)| geometry(i, r)).collect()
+    }
+}
+
+/// What angles would determine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Standard error of each free parameter; none where it would stay open.
+    pub errors: Vec<(Parameter, Option<f64>)>,
+    /// What would stay open, in words.
+    pub open: Vec<String>,
+}
+
+impl Prediction {
+    /// Of the planned angles, at the sliders.
+    pub fn of_plan(settings: &Settings, free: ParameterSet) -> Result<Self, String> {
+        let (incidences, views) = settings.plan.counts();
+        if incidences * views > MOST_PLANNED {
+            return Err(tr!("{0} × {1} angles are more than the {2} points that can be planned at once.", incidences, views, MOST_PLANNED));
+        }
+        Self::new(settings, free, settings.plan.geometries())
+    }
+
+    /// Of the angles of the open measurement, as if they were measured with the planned noise and columns.
+    pub fn of_measurement(settings: &Settings, free: ParameterSet, measurement: &Measurement) -> Result<Self, String> {
+        let used = measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
+        if used.clone().count() > MOST_PLANNED {
+            return Err(tr!("The open measurement has more than {} rows.", MOST_PLANNED));
+        }
+        Self::new(settings, free, used.collect())
+    }
+
+    fn new(settings: &Settings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
+        if geometries.is_empty() {
+            return Err(tr!("There is no angle: add one of incidence and one of view."));
+        }
+        let plan = fit::Plan {
+            model: settings.model,
+            parameters: settings.parameters,
+            geometries,
+            noise: settings.plan.noise(),
+            free,
+            eq17: settings.choices.eq17,
+        };
+        let fit::Prediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", phrase(&error)))?;
+        Ok(Self { errors, open: undetermined.into_iter().map(|open| open.text).collect() })
+    }
+
+    /// Standard error of a parameter.
+    pub fn error_of(&self, parameter: Parameter) -> Option<f64> {
+        self.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Plan, Prediction, Span};
+    use crate::app::work::settings::Settings;
+    use pbrdf::model::{Parameter, ParameterSet};
+
+    #[test]
+    fn spans_count_both_ends() {
+        assert_eq!(Span::new(20.0, 60.0, 5.0).count(), 9);
+        assert_eq!(Span::new(0.0, 0.3, 0.1).angles().count(), 4);
+        assert_eq!(Span::new(30.0, 30.0, 5.0).count(), 1);
+    }
+
+    #[test]
+    fn more_angles_and_less_noise_determine_more() {
+        let free = ParameterSet::ALL.without(Parameter::Ks);
+        let n_error = |plan: Plan| {
+            let settings = Settings { plan, ..Settings::default() };
+            Prediction::of_plan(&settings, free).expect("a prediction").error_of(Parameter::N).expect("n is determined")
+        };
+        let dense = n_error(Plan::default());
+        let quiet = n_error(Plan { noise: 0.0025, ..Plan::default() });
+        // Errors are proportional to the noise.
+        assert!((dense / quiet - 2.0).abs() < 1e-9, "{dense} {quiet}");
+        let few = Plan { theta_i: vec![Span::new(30.0, 50.0, 10.0)], theta_r: vec![Span::new(20.0, 60.0, 5.0)], ..Plan::default() };
+        assert!(n_error(few) > 5.0 * dense);
+    }
+
+    #[test]
+    fn a_plan_without_angles_is_a_sentence() {
+        let settings = Settings { plan: Plan { theta_r: Vec::new(), ..Plan::default() }, ..Settings::default() };
+        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("no angle")));
+        let spans = vec![Span::new(0.0, 80.0, 0.1)];
+        let settings = Settings { plan: Plan { theta_i: spans.clone(), theta_r: spans, ..Plan::default() }, ..Settings::default() };
+        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("more than")));
+    }
+}

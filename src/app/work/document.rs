@@ -1,0 +1,150 @@
+//! The measurement that is open, in the groups that it is plotted in.
+
+use crate::app::text::i18n::translated;
+use pbrdf::measurement::{Measurement, Row};
+use pbrdf::optics;
+use pbrdf::optics::Metal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tr::tr;
+
+pub use pbrdf::measurement::{Mark, Series};
+
+/// A bundled example.
+pub struct Example {
+    pub name: &'static str,
+    pub text: &'static str,
+}
+
+/// The bundled examples; the first is open at the start.
+pub const EXAMPLES: [Example; 3] = [
+    Example { name: "45# steel (simulated)", text: include_str!("../../../assets/examples/steel45_simulated.csv") },
+    Example { name: "Copper 650 nm (simulated)", text: include_str!("../../../assets/examples/copper_650nm_simulated.csv") },
+    Example { name: "Aluminium 650 nm (simulated)", text: include_str!("../../../assets/examples/aluminium_650nm_simulated.csv") },
+];
+
+/// A measurement with its name and its groups.
+#[derive(Debug, Clone)]
+pub struct Document {
+    pub name: String,
+    /// SHA-256 of the bytes of its file, where there is one.
+    pub sha256: Option<String>,
+    /// Shared with jobs that read it.
+    pub measurement: Arc<Measurement>,
+    pub series: Vec<Series>,
+    /// Which measurement of this session it is.
+    pub number: u64,
+    /// Another one for every document and after every change of one, so that what is derived knows.
+    pub generation: u64,
+    mask: Mask,
+}
+
+/// The rows that are masked, in ascending order.
+pub type Mask = Arc<[usize]>;
+
+/// The generation that came last: none comes twice, though a lesson gives back a document of before.
+static LAST: AtomicU64 = AtomicU64::new(0);
+
+fn next_generation() -> u64 {
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
+}
+
+impl Document {
+    pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
+        let series = Series::of(&measurement.rows);
+        let mask = masked_rows(&measurement.rows);
+        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: next_generation(), mask }
+    }
+
+    /// The rows that are masked.
+    pub fn mask(&self) -> &Mask {
+        &self.mask
+    }
+
+    /// Takes rows out of every statistic, or back in; they stay where they are.
+    pub fn set_masked(&mut self, rows: &[usize], masked: bool) {
+        let all = &mut Arc::make_mut(&mut self.measurement).rows;
+        for &row in rows {
+            if let Some(row) = all.get_mut(row) {
+                row.masked = masked;
+            }
+        }
+        self.mask = masked_rows(all);
+        self.mask_changed();
+    }
+
+    /// Masks exactly those rows.
+    pub fn restore_mask(&mut self, mask: &Mask) {
+        if *mask == self.mask {
+            return;
+        }
+        let all = &mut Arc::make_mut(&mut self.measurement).rows;
+        all.iter_mut().for_each(|row| row.masked = false);
+        for &row in mask.iter() {
+            if let Some(row) = all.get_mut(row) {
+                row.masked = true;
+            }
+        }
+        self.mask = mask.clone();
+        self.mask_changed();
+    }
+
+    fn mask_changed(&mut self) {
+        self.generation = next_generation();
+        let rows = &self.measurement.rows;
+        for mark in self.series.iter_mut().flat_map(|series| series.dolp.iter_mut().chain(&mut series.brdf)) {
+            mark.masked = rows[mark.row].masked;
+        }
+    }
+
+    /// The vacuum wavelength in nm that its metadata state, if they state one.
+    pub fn wavelength_nm(&self) -> Option<f64> {
+        let stated: f64 = self.measurement.metadata("wavelength_nm")?.parse().ok()?;
+        (stated.is_finite() && stated > 0.0).then_some(stated)
+    }
+
+    /// The tabulated metal that its metadata name as its material, if they name one.
+    pub fn metal(&self) -> Option<&'static Metal> {
+        optics::metal_named_in(self.measurement.metadata("material")?).ok()?
+    }
+
+    /// Whether anything was measured on the backscatter side.
+    pub fn has_backscatter(&self) -> bool {
+        self.series.iter().any(Series::has_backscatter)
+    }
+
+    /// Whether the measured BRDF spans so much that a linear axis would show its peak alone.
+    pub fn brdf_spans_decades(&self) -> bool {
+        let values = || self.series.iter().flat_map(|series| &series.brdf).map(|mark| mark.quantity.value).filter(|&value| value > 0.0);
+        values().fold(0.0, f64::max) > 1e3 * values().fold(f64::INFINITY, f64::min)
+    }
+
+    /// A name for its file.
+    pub fn file_name(&self) -> String {
+        let stem: String = self.name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect();
+        if stem.to_lowercase().ends_with(".csv") { stem } else { format!("{}.csv", stem.trim_matches('_')) }
+    }
+
+    /// What its metadata say about it, for a line under the plots.
+    pub fn description(&self) -> String {
+        if self.name.is_empty() && self.measurement.rows.is_empty() {
+            return tr!("No measurement: curves alone");
+        }
+        let simulated = self.measurement.metadata("simulated") == Some("true");
+        let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
+        let mut parts = vec![if is_example { translated(&self.name) } else { self.name.clone() }];
+        parts.extend(self.measurement.metadata("material").map(str::to_owned));
+        parts.extend(self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm")));
+        if simulated && !self.name.contains("simulated") {
+            parts.push(tr!("simulated"));
+        }
+        let rows = self.measurement.rows.len();
+        parts.push(if self.mask.is_empty() { tr!("{} rows", rows) } else { tr!("{0} rows, {1} masked", rows, self.mask.len()) });
+        parts.join(" · ")
+    }
+}
+
+/// The rows that are masked, in ascending order.
+pub fn masked_rows(rows: &[Row]) -> Mask {
+    rows.iter().enumerate().filter(|(_, row)| row.masked).map(|(index, _)| index).collect()
+}

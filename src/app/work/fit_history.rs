@@ -1,0 +1,77 @@
+//! The fits of this session, to look back at and to return to.
+
+use crate::app::work::document::Mask;
+use pbrdf::fit::{FitReport, Problem};
+use pbrdf::model::Parameters;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// A fit as the window remembers it.
+pub struct PastFit {
+    /// Its number in the session, from 1.
+    pub id: usize,
+    pub report: FitReport,
+    /// What was fitted, for scans around the solution.
+    pub problem: Arc<Problem>,
+    /// The sliders before it.
+    pub before: Parameters,
+    /// The measurement's name.
+    pub document: String,
+    /// Which measurement of the session it was.
+    pub number: u64,
+    /// The state of that measurement: its mask may have changed since.
+    pub generation: u64,
+    /// The rows that were masked.
+    pub mask: Mask,
+}
+
+/// Fits that are kept.
+const MOST_FITS: usize = 20;
+
+/// Residuals of all kept fits together: each fit holds on to its data.
+const MOST_RESIDUALS: usize = 500_000;
+
+/// The last fits, newest first.
+#[derive(Clone, Default)]
+pub struct PastFits {
+    fits: VecDeque<Rc<PastFit>>,
+    made: usize,
+}
+
+impl PastFits {
+    /// Takes a fit in, and gives it back to be shown.
+    pub fn push(&mut self, fit: PastFit) -> Rc<PastFit> {
+        self.made += 1;
+        let fit = Rc::new(PastFit { id: self.made, ..fit });
+        self.fits.push_front(fit.clone());
+        self.fits.truncate(MOST_FITS);
+        let residuals = |fits: &VecDeque<Rc<PastFit>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
+        while self.fits.len() > 1 && residuals(&self.fits) > MOST_RESIDUALS {
+            self.fits.pop_back();
+        }
+        fit
+    }
+
+    /// The fit so many before the newest.
+    pub fn get(&self, index: usize) -> Option<Rc<PastFit>> {
+        self.fits.get(index).cloned()
+    }
+
+    /// How many fits the session has made, those no longer kept among them.
+    pub fn made(&self) -> usize {
+        self.made
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Rc<PastFit>> {
+        self.fits.iter()
+    }
+
+    pub fn len(&self) -> usize {
+        self.fits.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.fits.is_empty()
+    }
+}

@@ -1,0 +1,77 @@
+//! What a fit from the window is about: a measurement, the sliders, their bounds, the choices.
+
+use crate::app::text::i18n::phrase;
+use crate::app::work::settings::Settings;
+use pbrdf::fit::{Bounds, Choices, Eq17, Problem, ProblemError};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Model, ParameterSet, Parameters};
+use tr::tr;
+
+/// The problem of fitting those parameters from the sliders.
+///
+/// A start outside bounds that somebody has set moves to the nearest bound; a slider's own range makes room for the start.
+pub fn problem(
+    settings: &Settings,
+    measurement: &Measurement,
+    model: Model,
+    free: ParameterSet,
+    choices: Choices,
+) -> Result<Problem, ProblemError> {
+    let (start, bounds) = start_in_bounds(settings, free);
+    Problem::new(measurement, model, start, free, bounds, choices)
+}
+
+/// The sliders inside the box, and the box.
+pub fn start_in_bounds(settings: &Settings, free: ParameterSet) -> (Parameters, Bounds) {
+    let mut start = settings.parameters;
+    let mut bounds = Bounds::default();
+    for &(parameter, low, high) in &settings.bounds {
+        // Settings hold sound bounds only.
+        if bounds.set(parameter, low, high).is_ok() && free.contains(parameter) {
+            start[parameter] = bounds.clamp(parameter, start[parameter]);
+        }
+    }
+    for parameter in free {
+        bounds.widen_to(parameter, start[parameter]);
+    }
+    (start, bounds)
+}
+
+/// Why there is no problem, with the line of the file where one is to blame.
+pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
+    match error {
+        ProblemError::MissingSigma { row, .. } => match measurement.lines.get(*row) {
+            Some(line) => tr!("line {0}: {1}", line, phrase(error)),
+            None => tr!("row {0}: {1}", row + 1, phrase(error)),
+        },
+        _ => phrase(error),
+    }
+}
+
+/// What the model's DoLP is multiplied by to give the chosen reading of Eq. (17).
+pub fn dolp_gain(eq17: Eq17, parameters: &Parameters) -> f64 {
+    match eq17 {
+        Eq17::Consistent => 1.0,
+        Eq17::Printed => 1.0 / parameters.ks,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::start_in_bounds;
+    use crate::app::work::settings::Settings;
+    use pbrdf::model::{Parameter, ParameterSet};
+
+    #[test]
+    fn a_start_moves_into_bounds_that_were_set_and_widens_those_that_were_not() {
+        let mut settings = Settings::default();
+        settings.set_bounds(Parameter::N, 0.5, 1.5).expect("sound bounds");
+        settings.parameters.n = 2.0;
+        settings.parameters.k = 30.0;
+        let (start, bounds) = start_in_bounds(&settings, ParameterSet::ALL);
+        assert_eq!((start.n, bounds.of(Parameter::N)), (1.5, (0.5, 1.5)));
+        assert_eq!((start.k, bounds.of(Parameter::K)), (30.0, (0.0, 30.0)));
+        let (fixed, _) = start_in_bounds(&settings, ParameterSet::ALL.without(Parameter::N));
+        assert_eq!(fixed.n, 2.0, "what is fixed stays where it is");
+    }
+}

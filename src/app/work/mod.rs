@@ -1,0 +1,12 @@
+//! The user's work as a value: no egui, no files, no threads.
+
+pub mod design;
+pub mod diagnostics;
+pub mod document;
+pub mod fit_history;
+pub mod fit_setup;
+pub mod history;
+pub mod layout;
+pub mod lesson;
+pub mod parameter_text;
+pub mod settings;

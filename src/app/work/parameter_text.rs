@@ -1,0 +1,85 @@
+//! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
+
+use crate::app::text::i18n::phrase;
+use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
+use tr::tr;
+
+/// All nine, with all digits.
+pub fn text(parameters: &Parameters) -> String {
+    text_from_parameters(parameters, ParameterSet::ALL)
+}
+
+/// Puts the parameters that a text names in the place of those at hand, or says why not.
+pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
+    let refuse = |reason: &str| {
+        let start: String = text.trim().chars().take(40).collect();
+        tr!("The pasted text {0} is no set of parameters such as n=2.07, k=2.9: {1}.", format!("{start:?}"), reason)
+    };
+    let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&phrase(&error)))?;
+    if assignments.is_empty() {
+        return Err(refuse(&tr!("it is empty")));
+    }
+    let mut parameters = before;
+    for (parameter, value) in assignments {
+        parameters[parameter] = value;
+    }
+    Ok(parameters)
+}
+
+/// The same in the form of files: symbols as keys, a colon as an equals sign, no quotes, braces or units; with semicolons between
+/// the pairs, commas are decimal commas.
+fn plain(text: &str) -> String {
+    let decimal_comma = text.contains(';');
+    let mut plain: String = text
+        .chars()
+        .filter(|c| !"{}\"'".contains(*c))
+        .map(|c| match c {
+            ':' => '=',
+            '−' => '-',
+            ',' if decimal_comma => '.',
+            c => c,
+        })
+        .collect();
+    // Longer symbols first: σ is a part of σ_v.
+    for parameter in [Parameter::SigmaV, Parameter::Sigma, Parameter::Ks, Parameter::Kd, Parameter::Kv] {
+        plain = plain.replace(parameter.symbol(), parameter.key());
+    }
+    plain.replace(" rad", "")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{read, text};
+    use pbrdf::model::Parameters;
+
+    #[test]
+    fn what_is_copied_is_pasted_with_all_digits() {
+        let parameters = Parameters { n: 0.1 + 0.2, sigma: 1e-3 / 3.0, c: -0.7, ..Parameters::default() };
+        assert_eq!(read(&text(&parameters), Parameters::default()), Ok(parameters));
+    }
+
+    #[test]
+    fn text_is_read_as_people_write_it() {
+        let expected = Parameters { n: 2.07, k: 2.9, ..Parameters::default() };
+        for given in ["n=2.07, k=2.9", "n = 2.07 , k = 2.9,", "n: 2.07\nk: 2.9\n", "n=2,07; k=2,9", "{\"n\": 2.07, \"k\": 2.9}"] {
+            assert_eq!(read(given, Parameters::default()), Ok(expected), "{given:?}");
+        }
+        let wide = read("σ=0.5, σ_v=0.25 rad, k_d=0.2, c=−0.25", Parameters::default()).expect("symbols and units are read");
+        assert_eq!((wide.sigma, wide.sigma_v, wide.kd, wide.c), (0.5, 0.25, 0.2, -0.25));
+    }
+
+    #[test]
+    fn what_is_no_set_of_parameters_is_refused_with_a_sentence() {
+        for (given, expected) in [
+            ("", "empty"),
+            ("hello", "expected name=value"),
+            ("m=3", "\"m\" is no parameter"),
+            ("n=abc", "not a finite number"),
+            ("n=1, k=-2", "k = -2 is not allowed"),
+            ("q=1", "> 1"),
+        ] {
+            let sentence = read(given, Parameters::default()).expect_err("this is not a set of parameters");
+            assert!(sentence.contains(expected), "{given:?}: {sentence}");
+        }
+    }
+}

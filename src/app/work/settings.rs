@@ -1,0 +1,366 @@
+//! What survives a restart: what the user set, all of which can be undone, and how the window stands.
+
+use crate::app::text::i18n::Language;
+use crate::app::work::design::Plan;
+use crate::app::work::document::Document;
+use crate::app::work::layout::Layout;
+use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use pbrdf::optics::{Geometry, Metal, SlopeDistribution};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use tr::tr;
+
+/// Light or dark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Theme {
+    /// As the desktop has it.
+    System,
+    Light,
+    Dark,
+}
+
+impl Theme {
+    pub const ALL: [Self; 3] = [Self::System, Self::Light, Self::Dark];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::System => "As the desktop",
+            Self::Light => "Light",
+            Self::Dark => "Dark",
+        }
+    }
+}
+
+/// The other distribution beside the model's own, in the plot of DoLP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Overlay {
+    #[default]
+    Absent,
+    /// With the same σ, which is not the same width.
+    EqualSigma,
+    /// With half of the facets below the same slope.
+    EqualMedian,
+}
+
+/// What the hemisphere map shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    #[default]
+    Dolp,
+    /// Of polarisation.
+    Angle,
+    Brdf,
+    /// Of the radiance.
+    SpecularShare,
+}
+
+impl Quantity {
+    pub const ALL: [Self; 4] = [Self::Dolp, Self::Angle, Self::Brdf, Self::SpecularShare];
+}
+
+/// What panes show beyond what they always show.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Shown {
+    /// The specular share of the radiance beside DoLP.
+    pub share: bool,
+    pub overlay: Overlay,
+    /// Whether lobes are filled.
+    pub filled: bool,
+    /// Whether lobes are multiplied by cos θr.
+    pub times_cosine: bool,
+    /// Whether the radius of the polar diagram is logarithmic.
+    pub polar_log: bool,
+    /// Whether facet densities are drawn as their logarithm.
+    pub facets_log: bool,
+    /// Whether the two facet distributions have the same median slope rather than the same σ.
+    pub facets_equal_median: bool,
+    /// Whether the way of a fit is drawn against time rather than evaluations.
+    pub convergence_by_time: bool,
+    pub hemisphere: Quantity,
+}
+
+/// Which two parameters the landscape is drawn over, and what lies on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct OverTwo {
+    pub across: Parameter,
+    pub up: Parameter,
+    pub contours: bool,
+    /// The ways of the last fits.
+    pub paths: bool,
+    /// Where the starts of the shown fit ended.
+    pub minima: bool,
+    /// Tabulated metals, where the axes are n and k.
+    pub metals: bool,
+}
+
+impl Default for OverTwo {
+    fn default() -> Self {
+        Self { across: Parameter::N, up: Parameter::K, contours: true, paths: true, minima: true, metals: true }
+    }
+}
+
+/// Which tabulated metal is looked at, and at which wavelength.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Tabulated {
+    /// Key of the metal.
+    pub metal: String,
+    /// Vacuum wavelength in nm.
+    pub wavelength_nm: f64,
+    /// Key of the source whose n and k were set last.
+    pub source: Option<String>,
+    /// Whether n and k go along with the wavelength.
+    pub follow: bool,
+}
+
+impl Default for Tabulated {
+    fn default() -> Self {
+        Self { metal: "Fe".to_owned(), wavelength_nm: 650.0, source: None, follow: true }
+    }
+}
+
+impl Tabulated {
+    /// Turns to a metal, if there is one.
+    pub fn look_at(&mut self, metal: Option<&Metal>) {
+        if let Some(metal) = metal.filter(|metal| metal.key != self.metal) {
+            self.metal.clone_from(&metal.key);
+            self.source = None;
+        }
+    }
+
+    /// Ends of the slider in nm: what the tables hold.
+    pub const SHORTEST_NM: f64 = 200.0;
+    pub const LONGEST_NM: f64 = 2500.0;
+}
+
+/// What the user sets: sliders, switches, views. Each change of it is a step of undo.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    pub parameters: Parameters,
+    pub model: Model,
+    /// Parameters that a fit leaves alone.
+    pub locked: ParameterSet,
+    /// Bounds of fits where they are not the slider's range: parameter, lower, upper.
+    pub bounds: Vec<(Parameter, f64, f64)>,
+    /// Whether the bounds stand under the sliders.
+    pub show_bounds: bool,
+    /// What a fit minimises.
+    pub choices: Choices,
+    /// Where a fit begins.
+    pub starts: Starts,
+    /// Seed of the starts and of the bootstrap.
+    pub seed: u64,
+    /// Angles that might be measured.
+    pub plan: Plan,
+    /// Angle of incidence of the lobes, degrees.
+    pub theta_i: f64,
+    /// Relative azimuth of the lobes, degrees; 180 is the plane of incidence.
+    pub dphi: f64,
+    /// Whether BRDF is plotted as its logarithm.
+    pub log_brdf: bool,
+    /// Whether the Fresnel limit is plotted.
+    pub show_limit: bool,
+    /// Whether the standard error of fitted curves is plotted.
+    pub show_band: bool,
+    /// Whether the backscatter side is plotted though nothing was measured there.
+    pub show_backscatter: bool,
+    /// Whether what is free is fitted again whenever a slider moves.
+    pub refit_live: bool,
+    pub shown: Shown,
+    pub tabulated: Tabulated,
+    pub landscape: OverTwo,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            parameters: Parameters::default(),
+            model: Model::full(SlopeDistribution::Cauchy),
+            locked: ParameterSet::EMPTY.with(Parameter::Ks),
+            bounds: Vec::new(),
+            show_bounds: false,
+            choices: Choices::default(),
+            starts: Starts::Automatic,
+            seed: 1,
+            plan: Plan::default(),
+            theta_i: 40.0,
+            dphi: 180.0,
+            log_brdf: false,
+            show_limit: true,
+            show_band: true,
+            show_backscatter: false,
+            refit_live: false,
+            shown: Shown::default(),
+            tabulated: Tabulated::default(),
+            landscape: OverTwo::default(),
+        }
+    }
+}
+
+/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface: then the window says so.
+pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), ParameterError> {
+    match parameters.validate(used) {
+        Err(ParameterError::NoIndex) => Ok(()),
+        other => other,
+    }
+}
+
+impl Settings {
+    /// The defaults for data with or without a BRDF.
+    pub fn for_measurement(measurement: &Measurement) -> Self {
+        let mut settings = Self::default();
+        settings.lock_what_only_ratios_decide(measurement);
+        settings
+    }
+
+    /// What a measurement that was just opened decides: what can be fitted, and where to look first.
+    pub fn suit(&mut self, document: &Document) {
+        self.lock_what_only_ratios_decide(&document.measurement);
+        if document.brdf_spans_decades() {
+            self.log_brdf = true;
+        }
+        if let Some(first) = document.series.first() {
+            self.theta_i = first.theta_i;
+            self.dphi = first.plane;
+        }
+        if let Some(wavelength_nm) = document.wavelength_nm() {
+            self.tabulated.wavelength_nm = wavelength_nm;
+        }
+        self.tabulated.look_at(document.metal());
+    }
+
+    /// With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
+    pub fn lock_what_only_ratios_decide(&mut self, measurement: &Measurement) {
+        self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
+    }
+
+    /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
+    pub fn fault(&self) -> Option<String> {
+        if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
+            return Some(format!("parameters: {error}"));
+        }
+        for &(parameter, low, high) in &self.bounds {
+            if let Err(error) = Bounds::default().set(parameter, low, high) {
+                return Some(format!("bounds: {error}"));
+            }
+        }
+        if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
+            return Some(format!("theta_i, dphi: {error}"));
+        }
+        let is_positive = |value: f64| value.is_finite() && value > 0.0;
+        let outside = |key| Some(format!("{key}: {}", tr!("a value is outside its range")));
+        if !self.plan.is_sound() {
+            outside("plan")
+        } else if !is_positive(self.tabulated.wavelength_nm) {
+            outside("tabulated.wavelength_nm")
+        } else if !self.choices.loss_scale.is_none_or(is_positive) {
+            outside("choices.loss_scale")
+        } else {
+            None
+        }
+    }
+
+    /// Lower and upper bound of a parameter in fits.
+    pub fn bounds_of(&self, parameter: Parameter) -> (f64, f64) {
+        let own = self.bounds.iter().find(|(other, ..)| *other == parameter);
+        own.map_or_else(|| Bounds::default().of(parameter), |&(_, low, high)| (low, high))
+    }
+
+    /// Whether a parameter's bounds are other ones than its slider's range.
+    pub fn has_own_bounds(&self, parameter: Parameter) -> bool {
+        self.bounds.iter().any(|(other, ..)| *other == parameter)
+    }
+
+    /// Sets the bounds of a parameter, or says why they are none.
+    pub fn set_bounds(&mut self, parameter: Parameter, low: f64, high: f64) -> Result<(), BoundsError> {
+        let default = Bounds::default().of(parameter);
+        Bounds::default().set(parameter, low, high)?;
+        self.reset_bounds(parameter);
+        if (low, high) != default {
+            self.bounds.push((parameter, low, high));
+        }
+        Ok(())
+    }
+
+    /// Back to the slider's range.
+    pub fn reset_bounds(&mut self, parameter: Parameter) {
+        self.bounds.retain(|(other, ..)| *other != parameter);
+    }
+}
+
+/// How the window stands; no part of undo.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct WindowSettings {
+    pub theme: Theme,
+    pub language: Language,
+    /// Inner size in points.
+    pub size: [f32; 2],
+    pub maximized: bool,
+    /// Whether the status line tells how long frames take.
+    pub show_frame_times: bool,
+    /// Where the panes lie.
+    #[serde(deserialize_with = "Layout::lenient")]
+    pub layout: Layout,
+    /// Measurements opened lately, the newest first.
+    pub recent: Vec<PathBuf>,
+}
+
+/// Recent files that are kept.
+const MOST_RECENT: usize = 8;
+
+impl Default for WindowSettings {
+    fn default() -> Self {
+        Self {
+            theme: Theme::System,
+            language: Language::English,
+            size: [1280.0, 800.0],
+            maximized: false,
+            show_frame_times: false,
+            layout: Layout::default(),
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl WindowSettings {
+    /// Whether a window can have this size.
+    fn is_sound(&self) -> bool {
+        self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
+    }
+
+    /// Puts a file in front of the recent ones.
+    pub fn remember(&mut self, path: &Path) {
+        self.forget(path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(MOST_RECENT);
+    }
+
+    /// Takes a file that is gone from the recent ones.
+    pub fn forget(&mut self, path: &Path) {
+        self.recent.retain(|other| other != path);
+    }
+}
+
+/// The settings file.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Stored {
+    pub settings: Settings,
+    pub window: WindowSettings,
+}
+
+impl Stored {
+    /// The key of a value that means nothing, and why.
+    pub fn fault(&self) -> Option<String> {
+        let size = || (!self.window.is_sound()).then(|| format!("window.size: {}", tr!("a value is outside its range")));
+        self.settings.fault().map(|fault| format!("settings.{fault}")).or_else(size)
+    }
+}
