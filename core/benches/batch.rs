@@ -6,7 +6,7 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use pbrdf::fit::{Axis, Bounds, Choices, Landscape, Problem};
+use pbrdf::fit::{Axis, Bounds, FitOptions, Landscape, Problem};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Batch, Diffuse, DolpGradients, Hemisphere, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances};
 use pbrdf::optics::{Geometry, SlopeDistribution};
@@ -94,7 +94,7 @@ fn landscape_over_two_parameters(bencher: Bencher) {
         seed: 1,
     };
     let measurement = simulation.run().expect("valid angles");
-    let (start, choices) = (Parameters::default(), Choices::default());
+    let (start, choices) = (Parameters::default(), FitOptions::default());
     let problem = Problem::new(&measurement, surface.model(), start, ParameterSet::ALL, Bounds::default(), choices).expect("a problem");
     let axis = |parameter, low, high| Axis { parameter, low, high, count: 256, logarithmic: false };
     let (across, up) = (axis(Parameter::N, 0.5, 6.0), axis(Parameter::K, 0.5, 8.0));

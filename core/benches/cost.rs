@@ -12,7 +12,7 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use pbrdf::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Scene, Wanted};
+use pbrdf::model::{Diffuse, GeometrySet, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::{Geometry, RefractiveIndex, SlopeDistribution};
 
 const POINTS: u32 = 2048;
@@ -39,13 +39,13 @@ fn full() -> Pbrdf {
 }
 
 fn dolp(bencher: Bencher, surface: Pbrdf, in_plane: bool) {
-    let scene = Scene::new(geometries(in_plane));
+    let scene = GeometrySet::new(geometries(in_plane));
     bencher
         .counter(ItemsCount::new(POINTS))
         .bench_local(|| (0..scene.len()).map(|point| scene.dolp(black_box(&surface), point)).sum::<f64>());
 }
 
-fn gradient(bencher: Bencher, scene: &Scene, wanted: Wanted) {
+fn gradient(bencher: Bencher, scene: &GeometrySet, wanted: GradientRequest) {
     let surface = full();
     bencher
         .counter(ItemsCount::new(POINTS))
@@ -74,24 +74,24 @@ fn dolp_of_all_terms(bencher: Bencher) {
 #[divan::bench]
 fn derivatives_with_n_and_k_held(bencher: Bencher) {
     let p = Parameters::default();
-    let scene = Scene::new(geometries(false)).with_index(RefractiveIndex::new(p.n, p.k).expect("an index"));
+    let scene = GeometrySet::new(geometries(false)).with_index(RefractiveIndex::new(p.n, p.k).expect("an index"));
     let by = ParameterSet::ALL.without(Parameter::N).without(Parameter::K);
-    gradient(bencher, &scene, Wanted { by, brdf: false, dolp: true });
+    gradient(bencher, &scene, GradientRequest { by, brdf: false, dolp: true });
 }
 
 /// Budget: less than with those of the BRDF.
 #[divan::bench]
 fn derivatives_of_dolp(bencher: Bencher) {
-    gradient(bencher, &Scene::new(geometries(false)), Wanted { by: ParameterSet::ALL, brdf: false, dolp: true });
+    gradient(bencher, &GeometrySet::new(geometries(false)), GradientRequest { by: ParameterSet::ALL, brdf: false, dolp: true });
 }
 
 /// The whole: all derivatives and the Mueller matrix. Budget: four times the specular lobe in plane, or more, since that leaves nearly all of it out.
 #[divan::bench]
 fn everything(bencher: Bencher) {
-    let scene = Scene::new(geometries(false));
+    let scene = GeometrySet::new(geometries(false));
     let surface = full();
     bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
-        let gradients = scene.reflections_and_gradients(black_box(&surface), Wanted::ALL).map(|at| at.1.dolp[2]);
+        let gradients = scene.reflections_and_gradients(black_box(&surface), GradientRequest::ALL).map(|at| at.1.dolp[2]);
         let matrices = scene.facets().iter().map(|facet| surface.mueller(facet.geometry).element(1, 2));
         gradients.zip(matrices).map(|(a, b)| a + b).sum::<f64>()
     });

@@ -4,7 +4,7 @@
 //! fit`; the line under the table has the quantiles over 400 noisy sets.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark fails by panicking and tells its figures")]
 
-use pbrdf::fit::{Bounds, Choices, Effort, Problem, Starts, Watch, descend, fit, free_by_default};
+use pbrdf::fit::{Bounds, Effort, FitOptions, Observer, Problem, Starts, fit, fit_local, free_by_default};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::Cauchy;
@@ -28,7 +28,7 @@ fn main() {
 fn tell_noisy_sets() {
     let time = |problem: &Problem| {
         let begun = Instant::now();
-        divan::black_box(descend(divan::black_box(problem), Effort::Full, Watch::NOBODY));
+        divan::black_box(fit_local(divan::black_box(problem), Effort::Full, Observer::NONE));
         begun.elapsed().as_secs_f64() * 1e3
     };
     let of_set = |seed| {
@@ -57,16 +57,16 @@ fn steel(noise: f64, seed: u64) -> Problem {
     .run()
     .expect("valid angles");
     let model = Model::full(Cauchy);
-    let free = free_by_default(model, &measurement, &Choices::default());
-    Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), Choices::default()).expect("a valid problem")
+    let free = free_by_default(model, &measurement, &FitOptions::default());
+    Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), FitOptions::default()).expect("a valid problem")
 }
 
 /// One start, no noise, to ΔE ≤ 1e-20: below 0.5 ms on one core (median).
 #[divan::bench]
 fn noise_free_to_the_last_digits(bencher: divan::Bencher<'_, '_>) {
     let problem = steel(0.0, 0);
-    assert!(descend(&problem, Effort::Full, Watch::NOBODY).sum_of_squares <= EXACT);
-    bencher.bench(|| descend(divan::black_box(&problem), Effort::Full, Watch::NOBODY));
+    assert!(fit_local(&problem, Effort::Full, Observer::NONE).sum_of_squares <= EXACT);
+    bencher.bench(|| fit_local(divan::black_box(&problem), Effort::Full, Observer::NONE));
 }
 
 /// One start with noise of 0.005 in DoLP, another draw for each sample: how much longer is the valley of the noisy problem? No budget; the
@@ -78,19 +78,19 @@ fn noisy(bencher: divan::Bencher<'_, '_>) {
         seed += 1;
         steel(0.005, seed)
     };
-    bencher.with_inputs(draw).bench_local_values(|problem| descend(&problem, Effort::Full, Watch::NOBODY));
+    bencher.with_inputs(draw).bench_local_values(|problem| fit_local(&problem, Effort::Full, Observer::NONE));
 }
 
 /// A thousand starts: below 0.5 s on two cores.
 #[divan::bench(sample_count = 10, sample_size = 1)]
 fn a_thousand_starts(bencher: divan::Bencher<'_, '_>) {
     let problem = steel(0.005, 1);
-    bencher.bench(|| fit(divan::black_box(&problem), Starts::Exactly(1000), 1, Watch::NOBODY));
+    bencher.bench(|| fit(divan::black_box(&problem), Starts::Exactly(1000), 1, Observer::NONE));
 }
 
 /// The default fit of a noisy set, as the command line does it: well below 0.2 s on two cores.
 #[divan::bench(sample_count = 10, sample_size = 1)]
 fn the_default_fit(bencher: divan::Bencher<'_, '_>) {
     let problem = steel(0.005, 1);
-    bencher.bench(|| fit(divan::black_box(&problem), Starts::Automatic, 1, Watch::NOBODY));
+    bencher.bench(|| fit(divan::black_box(&problem), Starts::Automatic, 1, Observer::NONE));
 }

@@ -6,9 +6,9 @@
 #![allow(clippy::expect_used, reason = "a bench fails by panicking")]
 
 use divan::{Bencher, black_box};
-use pbrdf::model::{Model, Parameters, Pbrdf, Wanted};
+use pbrdf::model::{GradientRequest, Model, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
-use pbrdf::selftest::{Machine, Stability, Surroundings};
+use pbrdf::selftest::{Host, Machine, Stability};
 
 fn main() {
     divan::main();
@@ -17,14 +17,14 @@ fn main() {
 /// Budget: 5 s on two cores.
 #[divan::bench(sample_count = 5, sample_size = 1)]
 fn the_whole_gallery(bencher: Bencher) {
-    let surroundings = Surroundings { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
+    let surroundings = Host { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
     bencher.bench_local(|| Stability::run(Machine::new("", 1), String::new(), black_box(surroundings)));
 }
 
 fn gradient(bencher: Bencher, parameters: Parameters, geometry: (f64, f64, f64)) {
     let surface = Pbrdf::new(Model::full(SlopeDistribution::Gauss), parameters).expect("parameters in the domain");
     let facet = Facet::new(Geometry::new(geometry.0, geometry.1, geometry.2).expect("angles in range"));
-    bencher.bench_local(|| black_box(&surface).reflection_and_gradient(black_box(&facet), Wanted::ALL));
+    bencher.bench_local(|| black_box(&surface).reflection_and_gradient(black_box(&facet), GradientRequest::ALL));
 }
 
 /// The yardstick of the two below: less than 1 µs.

@@ -3,11 +3,11 @@
 
 use nalgebra::{DMatrix, DVector};
 use pbrdf::fit::{
-    Band, Bounds, BrdfResiduals, Choices, Plan, PlannedNoise, Problem, Standing, Starts, StopReason, Uncertainty, Watch, Weights, fit,
-    free_by_default,
+    Bounds, BrdfResiduals, Design, EstimateStatus, FitOptions, NoiseModel, Observer, PredictionBand, Problem, Starts, StopReason,
+    Uncertainty, Weights, fit, free_by_default,
 };
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf, Scene};
+use pbrdf::model::{GeometrySet, Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.2, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -34,13 +34,13 @@ fn measured(theta_i: Vec<f64>, columns: Columns, noise: f64, seed: u64) -> Measu
     simulation(theta_i, columns, noise, seed).run().expect("valid angles")
 }
 
-fn problem(measurement: &Measurement, free: ParameterSet, choices: Choices) -> Problem {
+fn problem(measurement: &Measurement, free: ParameterSet, choices: FitOptions) -> Problem {
     Problem::new(measurement, Model::full(SlopeDistribution::Cauchy), TRUTH, free, Bounds::default(), choices).expect("a valid problem")
 }
 
-fn band(problem: &Problem) -> Band {
+fn band(problem: &Problem) -> PredictionBand {
     let sum = problem.sum_of_squares(&TRUTH).expect("a finite sum");
-    Band::new(problem, &TRUTH, Uncertainty::at(problem, &TRUTH, sum, ParameterSet::EMPTY))
+    PredictionBand::new(problem, &TRUTH, Uncertainty::at(problem, &TRUTH, sum, ParameterSet::EMPTY))
 }
 
 fn set(parameters: impl IntoIterator<Item = Parameter>) -> ParameterSet {
@@ -49,7 +49,7 @@ fn set(parameters: impl IntoIterator<Item = Parameter>) -> ParameterSet {
 
 fn facets(theta_i: f64) -> Vec<Facet> {
     let at = |theta_r: f64| Geometry::new(theta_i, theta_r, 180.0).expect("a valid geometry");
-    Scene::new(grid(0, 88, 4).into_iter().map(at)).facets().to_vec()
+    GeometrySet::new(grid(0, 88, 4).into_iter().map(at)).facets().to_vec()
 }
 
 /// The BRDF is linear in k_s, k_d and k_v: there the band is the textbook's `s √(xᵀ(XᵀX)⁻¹x)`.
@@ -57,8 +57,8 @@ fn facets(theta_i: f64) -> Vec<Facet> {
 fn the_band_of_a_linear_fit_is_that_of_linear_regression() {
     let weights = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
     let measurement = measured(grid(20, 60, 20), Columns::Brdf, 0.05, 4);
-    let problem = problem(&measurement, set(weights), Choices { brdf_residuals: BrdfResiduals::Absolute, ..Choices::default() });
-    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    let problem = problem(&measurement, set(weights), FitOptions { brdf_residuals: BrdfResiduals::Absolute, ..FitOptions::default() });
+    let report = fit(&problem, Starts::One, 0, Observer::NONE);
     let unit = |weight: Parameter| {
         let mut alone = Parameters { ks: 0.0, kd: 0.0, kv: 0.0, ..TRUTH };
         alone[weight] = 1.0;
@@ -83,8 +83,8 @@ fn the_band_of_a_linear_fit_is_that_of_linear_regression() {
 fn a_curve_is_determined_where_its_parameters_are_not() {
     let measurement = measured(grid(10, 80, 10), Columns::Dolp, 0.002, 4);
     let default = set(Parameter::ALL).without(Parameter::Ks);
-    let held = band(&problem(&measurement, default, Choices::default()));
-    let all_free = band(&problem(&measurement, set(Parameter::ALL), Choices::default()));
+    let held = band(&problem(&measurement, default, FitOptions::default()));
+    let all_free = band(&problem(&measurement, set(Parameter::ALL), FitOptions::default()));
     assert_eq!(all_free.uncertainty().standard_error(Parameter::Kd), None);
     // k_s, k_d, k_v together leave DoLP as it is: holding k_s changes nothing of it…
     for (one, other) in held.dolp(&facets(40.0)).into_iter().zip(all_free.dolp(&facets(40.0))) {
@@ -102,10 +102,13 @@ fn without_a_degree_of_freedom_there_is_no_band_and_the_estimates_say_why() {
     let mut measurement = measured(vec![50.0], Columns::Dolp, 0.002, 4);
     measurement.rows.drain(..10);
     measurement.rows.truncate(2);
-    let problem = problem(&measurement, set([Parameter::N, Parameter::K]), Choices::default());
-    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    let problem = problem(&measurement, set([Parameter::N, Parameter::K]), FitOptions::default());
+    let report = fit(&problem, Starts::One, 0, Observer::NONE);
     let standing = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("of the model").standing();
-    assert_eq!((report.dof, standing(Parameter::N), standing(Parameter::Kd)), (0, Standing::NoFreedom, Standing::Fixed));
+    assert_eq!(
+        (report.dof, standing(Parameter::N), standing(Parameter::Kd)),
+        (0, EstimateStatus::NoDegreesOfFreedom, EstimateStatus::Fixed)
+    );
     assert!(report.band.dolp(&facets(50.0)).iter().all(Option::is_none));
 }
 
@@ -114,34 +117,34 @@ fn a_plan_predicts_what_the_weighted_problem_says() {
     let simulation = simulation(grid(10, 80, 10), Columns::Dolp, 0.005, 1);
     let measurement = simulation.run().expect("valid angles");
     let model = simulation.surface.model();
-    let choices = Choices { weights: Weights::Sigma, ..Choices::default() };
+    let choices = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
     let problem = problem(&measurement, free_by_default(model, &measurement, &choices), choices);
     let expected = Uncertainty::at(&problem, &TRUTH, 0.0, ParameterSet::EMPTY);
-    let noise = PlannedNoise { dolp: Some(0.005), brdf: None };
-    let plan = Plan::new(model, TRUTH, simulation.geometries().expect("valid angles"), noise);
+    let noise = NoiseModel { dolp: Some(0.005), brdf: None };
+    let plan = Design::new(model, TRUTH, simulation.geometries().expect("valid angles"), noise);
     let prediction = plan.predict().expect("a valid plan");
     assert_eq!((prediction.rank, prediction.condition), (8, expected.condition));
     for (parameter, error) in &prediction.errors {
         assert_eq!(*error, expected.standard_error(*parameter), "{parameter:?}");
     }
     // Twice the noise is twice the error; with a BRDF k_s is to be found too.
-    let twice = Plan { noise: PlannedNoise { dolp: Some(0.01), ..noise }, ..plan.clone() }.predict().expect("a valid plan");
+    let twice = Design { noise: NoiseModel { dolp: Some(0.01), ..noise }, ..plan.clone() }.predict().expect("a valid plan");
     for (one, two) in prediction.errors.iter().zip(&twice.errors) {
         let (one, two) = (one.1.expect("determined"), two.1.expect("determined"));
         assert!((two / one - 2.0).abs() < 1e-9, "{one} {two}");
     }
-    let both = Plan::new(model, TRUTH, plan.geometries, PlannedNoise { brdf: Some(0.02), ..noise });
+    let both = Design::new(model, TRUTH, plan.geometries, NoiseModel { brdf: Some(0.02), ..noise });
     assert!(both.free.contains(Parameter::Ks) && both.predict().expect("a valid plan").undetermined.is_empty());
 }
 
 #[test]
 fn a_plan_without_angles_or_without_a_surface_has_a_typed_answer() {
-    let noise = PlannedNoise { dolp: Some(0.005), brdf: None };
+    let noise = NoiseModel { dolp: Some(0.005), brdf: None };
     let model = Model::full(SlopeDistribution::Cauchy);
-    let nowhere = Plan::new(model, TRUTH, Vec::new(), noise);
-    let nothing = Plan { free: set([Parameter::N]), ..nowhere.clone() }.predict().expect("an answer");
+    let nowhere = Design::new(model, TRUTH, Vec::new(), noise);
+    let nothing = Design { free: set([Parameter::N]), ..nowhere.clone() }.predict().expect("an answer");
     assert_eq!((nothing.rank, nothing.errors), (0, vec![(Parameter::N, None)]));
-    assert!(Plan::new(model, Parameters { sigma: -1.0, ..TRUTH }, Vec::new(), noise).predict().is_err());
+    assert!(Design::new(model, Parameters { sigma: -1.0, ..TRUTH }, Vec::new(), noise).predict().is_err());
 }
 
 /// Shares within one and two standard errors of the curve, as of the parameters: see tests/calibration.rs. Slow:
@@ -156,7 +159,7 @@ fn the_true_curve_lies_within_the_band_as_often_as_it_should() {
     let (mut within, mut total) = (vec![[0_u32; 2]; facets.len()], 0_u32);
     for seed in 0..data_sets {
         let measurement = measured(grid(10, 80, 10), Columns::Dolp, 0.002, seed);
-        let report = fit(&problem(&measurement, free, Choices::default()), Starts::One, 0, Watch::NOBODY);
+        let report = fit(&problem(&measurement, free, FitOptions::default()), Starts::One, 0, Observer::NONE);
         // A curve at the edge of the box has no normal distribution around it.
         if report.stop_reason != StopReason::Converged || report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
             continue;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Row, gradient_error, relative_error, table};
-use pbrdf::model::{Batch, Diffuse, DolpGradients, Instructions, Model, Parameter, Parameters, Pbrdf, Radiances, Wanted};
+use pbrdf::model::{Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, Parameters, Pbrdf, Radiances};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 /// Bar on the relative error of BRDF and DoLP against 60 digits.
@@ -171,7 +171,7 @@ fn gradients_agree_with_the_scalar_form_everywhere() {
     for surface in surfaces() {
         batch.dolp_gradients(&surface, &mut gradients);
         for (i, facet) in batch.facets().iter().enumerate() {
-            let (_, expected) = surface.reflection_and_gradient(facet, Wanted::ALL);
+            let (_, expected) = surface.reflection_and_gradient(facet, GradientRequest::ALL);
             let values: [f64; 9] = std::array::from_fn(|j| gradients.by[j][i]);
             let error = gradient_error(&values, &expected.dolp, surface.parameters());
             assert!(error <= 2.0 * GRADIENT, "{error:e}: {values:?} is not {:?} at {facet:?} of {surface:?}", expected.dolp);

@@ -1,7 +1,7 @@
 //! Are standard errors what they say? Slow: `cargo test --release --test calibration -- --ignored --nocapture`.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
 
-use pbrdf::fit::{Bounds, Choices, Problem, Starts, Watch, fit, free_by_default};
+use pbrdf::fit::{Bounds, FitOptions, Observer, Problem, Starts, fit, free_by_default};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
@@ -32,9 +32,10 @@ fn the_truth_lies_within_the_standard_errors_as_often_as_it_should() {
             }
             .run()
             .expect("valid angles");
-            let free = free_by_default(model, &measurement, &Choices::default());
-            let problem = Problem::new(&measurement, model, TRUTH, free, Bounds::default(), Choices::default()).expect("a valid problem");
-            let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+            let free = free_by_default(model, &measurement, &FitOptions::default());
+            let problem =
+                Problem::new(&measurement, model, TRUTH, free, Bounds::default(), FitOptions::default()).expect("a valid problem");
+            let report = fit(&problem, Starts::One, 0, Observer::NONE);
             for estimate in &report.estimates {
                 if let Some(error) = estimate.std_error {
                     let j = estimate.parameter as usize;

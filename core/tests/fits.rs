@@ -3,7 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use pbrdf::fit::{
-    Bounds, BrdfResiduals, Choices, Edge, Eq17, Loss, Problem, Standing, Starts, StopReason, Watch, Weights, fit, free_by_default,
+    Bounds, BrdfResiduals, DolpFormula, Edge, EstimateStatus, FitOptions, Loss, Observer, Problem, Starts, StopReason, Weights, fit,
+    free_by_default,
 };
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
@@ -39,8 +40,8 @@ fn simulate(
 
 fn problem(measurement: &Measurement, distribution: SlopeDistribution, start: Parameters) -> Problem {
     let model = Model::full(distribution);
-    let free = free_by_default(model, measurement, &Choices::default());
-    Problem::new(measurement, model, start, free, Bounds::default(), Choices::default()).expect("a valid problem")
+    let free = free_by_default(model, measurement, &FitOptions::default());
+    Problem::new(measurement, model, start, free, Bounds::default(), FitOptions::default()).expect("a valid problem")
 }
 
 /// A point of the box from the golden-ratio (Kronecker) sequence: spread out, and the same everywhere.
@@ -66,7 +67,7 @@ fn single_runs_from_far_starts_return_the_truth() {
             .filter(|&i| {
                 let problem = problem(&measurement, distribution, point_in_box(i));
                 let free: ParameterSet = problem.free().iter().copied().collect();
-                let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+                let report = fit(&problem, Starts::One, 0, Observer::NONE);
                 worst_difference(&report.parameters, &TRUTH, free) < TRUE_TO
             })
             .count();
@@ -77,7 +78,7 @@ fn single_runs_from_far_starts_return_the_truth() {
 #[test]
 fn with_a_brdf_all_nine_parameters_are_found() {
     let measurement = dense(Cauchy, Parameters { ks: 1.7, ..TRUTH }, Columns::Both);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert!(worst_difference(&report.parameters, &Parameters { ks: 1.7, ..TRUTH }, ParameterSet::ALL) < TRUE_TO, "{:?}", report.parameters);
     assert_eq!(report.stop_reason, StopReason::ResidualsZero);
 }
@@ -86,9 +87,9 @@ fn with_a_brdf_all_nine_parameters_are_found() {
 fn a_free_k_s_is_undetermined_by_dolp_alone() {
     let measurement = dense(Gauss, TRUTH, Columns::Dolp);
     let model = Model::full(Gauss);
-    let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), Choices::default())
+    let problem = Problem::new(&measurement, model, Parameters::default(), model.parameters(), Bounds::default(), FitOptions::default())
         .expect("a valid problem");
-    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem, Starts::One, 0, Observer::NONE);
     assert_eq!(report.stop_reason, StopReason::Underdetermined);
     let open: Vec<Parameter> = report.undetermined[0].direction.iter().map(|(parameter, _)| *parameter).collect();
     assert_eq!(open, [Parameter::Ks, Parameter::Kd, Parameter::Kv]);
@@ -105,8 +106,8 @@ fn a_minimum_on_the_edge_is_put_on_the_edge() {
     let model = Model::full(Gauss);
     let free: ParameterSet = [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Kd].into_iter().collect();
     let start = Parameters { kv: 0.0, kd: 0.5, c: TRUTH.c, ..Parameters::default() };
-    let problem = Problem::new(&measurement, model, start, free, bounds, Choices::default()).expect("a valid problem");
-    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    let problem = Problem::new(&measurement, model, start, free, bounds, FitOptions::default()).expect("a valid problem");
+    let report = fit(&problem, Starts::One, 0, Observer::NONE);
     let kd = report.estimates.iter().find(|estimate| estimate.parameter == Parameter::Kd).expect("kd is there");
     assert_eq!((kd.value, kd.at_bound, kd.std_error), (0.2, Some(Edge::Lower), None));
 }
@@ -117,7 +118,7 @@ fn a_cancelled_fit_keeps_the_best_so_far() {
     let problem = problem(&measurement, Cauchy, Parameters::default());
     let asked = AtomicUsize::new(0);
     let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 6;
-    let report = fit(&problem, Starts::One, 0, Watch { cancelled: &cancelled, ..Watch::NOBODY });
+    let report = fit(&problem, Starts::One, 0, Observer { cancelled: &cancelled, ..Observer::NONE });
     assert_eq!(report.stop_reason, StopReason::Cancelled);
     let best = report.trace.iter().map(|point| point.objective).fold(f64::INFINITY, f64::min);
     // The trace holds sums in another order than ΔE is summed in.
@@ -130,7 +131,7 @@ fn a_fit_cancelled_before_it_began_returns_its_start() {
     let measurement = dense(Cauchy, TRUTH, Columns::Dolp);
     let problem = problem(&measurement, Cauchy, Parameters::default());
     for starts in [Starts::One, Starts::Automatic, Starts::Exactly(8), Starts::Exactly(200)] {
-        let report = fit(&problem, starts, 1, Watch { cancelled: &|| true, ..Watch::NOBODY });
+        let report = fit(&problem, starts, 1, Observer { cancelled: &|| true, ..Observer::NONE });
         assert_eq!(report.stop_reason, StopReason::Cancelled, "{starts:?}");
         assert!(report.objective <= report.start_objective, "{starts:?}");
     }
@@ -139,7 +140,7 @@ fn a_fit_cancelled_before_it_began_returns_its_start() {
 #[test]
 fn the_trace_falls_and_ends_at_the_objective() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, grid(30, 50, 10), grid(20, 60, 5), 0.005);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert!(report.trace.windows(2).all(|pair| pair[1].objective < pair[0].objective && pair[1].evaluations > pair[0].evaluations));
     let last = report.trace.last().expect("a trace").objective;
     // The trace holds sums in another order than ΔE is summed in.
@@ -150,21 +151,21 @@ fn the_trace_falls_and_ends_at_the_objective() {
 fn the_path_leads_from_the_winning_start_to_the_solution_and_lies_on_the_trace() {
     let noisy = simulate(Cauchy, TRUTH, Columns::Dolp, grid(10, 80, 10), grid(0, 85, 5), 0.01);
     for (starts, choices) in [
-        (Starts::One, Choices::default()),
-        (Starts::Automatic, Choices::default()),
-        (Starts::One, Choices { loss: Loss::Huber, ..Choices::default() }),
+        (Starts::One, FitOptions::default()),
+        (Starts::Automatic, FitOptions::default()),
+        (Starts::One, FitOptions { loss: Loss::Huber, ..FitOptions::default() }),
     ] {
         let start = point_in_box(3);
         let free = free_by_default(Model::full(Cauchy), &noisy, &choices);
         let problem = Problem::new(&noisy, Model::full(Cauchy), start, free, Bounds::default(), choices).expect("a valid problem");
-        let report = fit(&problem, starts, 1, Watch::NOBODY);
+        let report = fit(&problem, starts, 1, Observer::NONE);
         assert_eq!(report.path.len(), report.trace.len());
         for (point, parameters) in report.trace.iter().zip(&report.path) {
             let objective = problem.delta_e(parameters).expect("a surface");
             // Between the batch kernel or the solver's coordinates and this lies rounding alone.
             assert!((objective - point.objective).abs() <= 1e-9 * objective, "{objective:e} {:e}", point.objective);
         }
-        if starts == Starts::One && choices.loss == Loss::Linear {
+        if starts == Starts::One && choices.loss == Loss::Squared {
             assert_eq!(report.path[0], start);
         }
         let best = report.minima.first().expect("a minimum");
@@ -176,7 +177,7 @@ fn the_path_leads_from_the_winning_start_to_the_solution_and_lies_on_the_trace()
 fn nothing_to_fit_is_said() {
     let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
     measurement.rows.iter_mut().for_each(|row| row.masked = true);
-    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert_eq!((report.stop_reason, report.objective), (StopReason::NoData, None));
     assert!(report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
 }
@@ -184,7 +185,7 @@ fn nothing_to_fit_is_said() {
 #[test]
 fn fewer_points_than_parameters_are_underdetermined() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, vec![40.0], vec![20.0, 40.0, 60.0], 0.0);
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert_eq!(report.stop_reason, StopReason::Underdetermined);
     assert!(!report.undetermined.is_empty());
 }
@@ -193,7 +194,7 @@ fn fewer_points_than_parameters_are_underdetermined() {
 fn all_dolp_zero_has_no_relative_objective() {
     let mut measurement = dense(Gauss, TRUTH, Columns::Dolp);
     measurement.rows.iter_mut().filter_map(|row| row.dolp.as_mut()).for_each(|dolp| dolp.value = 0.0);
-    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert_eq!(report.objective, None);
     assert!(report.sum_of_squares.is_finite());
 }
@@ -209,13 +210,13 @@ fn a_robust_loss_spares_outliers() {
     let model = Model::full(Gauss);
     let free: ParameterSet = [Parameter::N, Parameter::K].into_iter().collect();
     let off = |loss: Loss| {
-        let choices = Choices { loss, ..Choices::default() };
+        let choices = FitOptions { loss, ..FitOptions::default() };
         let problem =
             Problem::new(&measurement, model, Parameters { n: 2.5, ..TRUTH }, free, Bounds::default(), choices).expect("a valid problem");
-        let report = fit(&problem, Starts::Automatic, 1, Watch::NOBODY);
+        let report = fit(&problem, Starts::Automatic, 1, Observer::NONE);
         (report.parameters.n - TRUTH.n).abs() + (report.parameters.k - TRUTH.k).abs()
     };
-    let linear = off(Loss::Linear);
+    let linear = off(Loss::Squared);
     // A tenth of the points is off by 0.3 and the rest by 0.001: sparing them gains an order of magnitude.
     for loss in [Loss::Huber, Loss::SoftL1] {
         assert!(off(loss) < 0.1 * linear, "{loss:?}: {} against {linear}", off(loss));
@@ -230,9 +231,9 @@ fn the_jacobian_of_every_kind_of_residual_is_its_derivative() {
     let mut all = Vec::new();
     for weights in [Weights::None, Weights::Sigma] {
         for brdf_residuals in [BrdfResiduals::Absolute, BrdfResiduals::Relative, BrdfResiduals::Log] {
-            for loss in [Loss::Linear, Loss::Huber, Loss::SoftL1] {
-                for eq17 in [Eq17::Consistent, Eq17::Printed] {
-                    all.push(Choices { weights, brdf_residuals, loss, loss_scale: Some(0.05), eq17, dolp_only: false });
+            for loss in [Loss::Squared, Loss::Huber, Loss::SoftL1] {
+                for eq17 in [DolpFormula::Consistent, DolpFormula::AsPrinted] {
+                    all.push(FitOptions { weights, brdf_residuals, loss, loss_scale: Some(0.05), eq17, dolp_only: false });
                 }
             }
         }
@@ -253,7 +254,7 @@ fn the_jacobian_of_every_kind_of_residual_is_its_derivative() {
             let numeric = (residuals(h) - residuals(-h)) / (2.0 * h);
             let difference = (&numeric - jacobian.column(j)).amax();
             // A central difference with a relative step of 1e-5 keeps some nine digits; where a loss bends sharply it keeps fewer.
-            let bar = if choices.loss == Loss::Linear { 1e-7 } else { 1e-4 };
+            let bar = if choices.loss == Loss::Squared { 1e-7 } else { 1e-4 };
             assert!(difference <= bar * (1.0 + numeric.amax()), "{choices:?} {parameter:?}: {difference:e} of {:e}", numeric.amax());
         }
     }
@@ -275,7 +276,7 @@ fn degenerate_data_end_in_a_typed_answer() {
         ("above any Fresnel limit", one(&angles, 1.0)),
     ] {
         for distribution in [Gauss, Cauchy] {
-            let report = fit(&problem(&measurement, distribution, Parameters::default()), Starts::Automatic, 1, Watch::NOBODY);
+            let report = fit(&problem(&measurement, distribution, Parameters::default()), Starts::Automatic, 1, Observer::NONE);
             assert!(report.sum_of_squares.is_finite(), "{name}");
             for estimate in &report.estimates {
                 assert!(estimate.value.is_finite() && estimate.std_error.is_none_or(f64::is_finite), "{name}: {estimate:?}");
@@ -304,12 +305,12 @@ fn a_parameter_without_effect_is_open_and_not_at_a_bound() {
         seed: 2,
     };
     let measurement = simulation.run().expect("valid angles");
-    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::Automatic, 1, Watch::NOBODY);
+    let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::Automatic, 1, Observer::NONE);
     let estimate = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("a parameter of the model");
     assert_eq!(estimate(Parameter::Kd).at_bound, Some(Edge::Lower));
     // With k_d = 0 there is no lobe for c to shape: wherever the search left it, it goes back to its start.
     let c = estimate(Parameter::C);
-    assert_eq!((c.value, c.at_bound, c.standing()), (Parameters::default().c, None, Standing::Open));
+    assert_eq!((c.value, c.at_bound, c.standing()), (Parameters::default().c, None, EstimateStatus::Open));
 }
 
 #[test]
@@ -317,7 +318,7 @@ fn any_number_of_starts_can_be_asked_for_and_given_up() {
     let data = simulate(Cauchy, TRUTH, Columns::Dolp, vec![30.0, 60.0], grid(0, 80, 20), 0.0);
     let evaluations = AtomicUsize::new(0);
     let cancelled = || evaluations.fetch_add(1, Ordering::Relaxed) > 20;
-    let watch = Watch { cancelled: &cancelled, ..Watch::NOBODY };
+    let watch = Observer { cancelled: &cancelled, ..Observer::NONE };
     let report = fit(&problem(&data, Cauchy, Parameters::default()), Starts::Exactly(usize::MAX), 1, watch);
     assert_eq!(report.stop_reason, StopReason::Cancelled);
     assert!(report.objective.is_some_and(f64::is_finite));
@@ -331,8 +332,8 @@ fn a_start_whose_radiance_overflows_ends_the_fit_and_not_the_program() {
     let mut bounds = Bounds::default();
     bounds.set(Parameter::Kv, 0.0, 1.7e308).expect("bounds in the domain");
     let model = Model::full(Gauss);
-    let problem = Problem::new(&data, model, start, model.parameters(), bounds, Choices::default()).expect("a valid problem");
-    let report = fit(&problem, Starts::One, 0, Watch::NOBODY);
+    let problem = Problem::new(&data, model, start, model.parameters(), bounds, FitOptions::default()).expect("a valid problem");
+    let report = fit(&problem, Starts::One, 0, Observer::NONE);
     assert_eq!(report.stop_reason, StopReason::Numerical);
     assert!(report.determined.is_empty() && report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
 }

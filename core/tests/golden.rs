@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Row, gradient_error, relative_error, table};
-use pbrdf::model::{Parameter, Wanted};
+use pbrdf::model::{GradientRequest, Parameter};
 use pbrdf::optics::Facet;
 
 /// Bar on the relative error of BRDF and DoLP: some 500 units in the last place, met by forms in which nothing cancels.
@@ -48,7 +48,7 @@ fn values_agree(name: &str) {
 fn gradients_agree(name: &str) {
     let mut worst: f64 = 0.0;
     for row in table(name) {
-        let (_, gradient) = row.surface().reflection_and_gradient(&Facet::new(row.geometry()), Wanted::ALL);
+        let (_, gradient) = row.surface().reflection_and_gradient(&Facet::new(row.geometry()), GradientRequest::ALL);
         for (prefix, values) in [("dbrdf_d", gradient.brdf), ("ddolp_d", gradient.dolp)] {
             let references = Parameter::ALL.map(|parameter| row.number(&format!("{prefix}{}", parameter.key())));
             let error = gradient_error(&values, &references, &row.parameters());
@@ -95,11 +95,11 @@ fn the_stability_gallery_agrees_with_sixty_digits() {
 fn what_is_not_wanted_is_left_out_and_changes_nothing_else() {
     for row in table("golden_jacobian.csv").iter().step_by(5) {
         let (surface, facet) = (row.surface(), Facet::new(row.geometry()));
-        let (whole, all) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        let (whole, all) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
         for bits in 0_u16..512 {
             let by = Parameter::ALL.into_iter().filter(|&parameter| bits & (1 << parameter as u16) != 0).collect();
             for (brdf, dolp) in [(true, true), (true, false), (false, true)] {
-                let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted { by, brdf, dolp });
+                let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest { by, brdf, dolp });
                 assert_eq!(reflection.brdf, if brdf { whole.brdf } else { 0.0 });
                 assert_eq!(reflection.dolp, if dolp { whole.dolp } else { 0.0 });
                 for parameter in Parameter::ALL {

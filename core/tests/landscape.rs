@@ -1,7 +1,7 @@
 //! The objective over two parameters: the same numbers as the problem's own, for every choice.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Axis, Bounds, BrdfResiduals, Choices, Eq17, Landscape, Loss, Problem, Weights};
+use pbrdf::fit::{Axis, Bounds, BrdfResiduals, DolpFormula, FitOptions, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::Cauchy;
@@ -30,7 +30,7 @@ fn noisy(columns: Columns, noise: f64) -> Measurement {
     simulation.run().expect("valid angles")
 }
 
-fn problem(measurement: &Measurement, choices: Choices) -> Problem {
+fn problem(measurement: &Measurement, choices: FitOptions) -> Problem {
     let free = ParameterSet::ALL.without(Parameter::Ks);
     Problem::new(measurement, Model::full(Cauchy), TRUTH, free, Bounds::default(), choices).expect("a valid problem")
 }
@@ -59,28 +59,28 @@ fn is_the_plain_objective(problem: &Problem) {
 fn a_landscape_is_the_plain_objective() {
     let dolp = measurement(Columns::Dolp);
     let both = measurement(Columns::Both);
-    let choices = Choices::default();
+    let choices = FitOptions::default();
     is_the_plain_objective(&problem(&dolp, choices));
     is_the_plain_objective(&problem(&both, choices));
-    is_the_plain_objective(&problem(&both, Choices { brdf_residuals: BrdfResiduals::Absolute, ..choices }));
-    is_the_plain_objective(&problem(&both, Choices { brdf_residuals: BrdfResiduals::Log, ..choices }));
-    is_the_plain_objective(&problem(&dolp, Choices { weights: Weights::Sigma, ..choices }));
-    is_the_plain_objective(&problem(&dolp, Choices { loss: Loss::Huber, ..choices }));
-    is_the_plain_objective(&problem(&dolp, Choices { eq17: Eq17::Printed, ..choices }));
+    is_the_plain_objective(&problem(&both, FitOptions { brdf_residuals: BrdfResiduals::Absolute, ..choices }));
+    is_the_plain_objective(&problem(&both, FitOptions { brdf_residuals: BrdfResiduals::Log, ..choices }));
+    is_the_plain_objective(&problem(&dolp, FitOptions { weights: Weights::Sigma, ..choices }));
+    is_the_plain_objective(&problem(&dolp, FitOptions { loss: Loss::Huber, ..choices }));
+    is_the_plain_objective(&problem(&dolp, FitOptions { eq17: DolpFormula::AsPrinted, ..choices }));
 }
 
 #[test]
 fn a_landscape_of_what_is_minimised_is_the_problems_own_sum_of_squares() {
     let both = measurement(Columns::Both);
-    let choices = Choices::default();
+    let choices = FitOptions::default();
     for choices in [
         choices,
-        Choices { brdf_residuals: BrdfResiduals::Absolute, ..choices },
-        Choices { brdf_residuals: BrdfResiduals::Log, ..choices },
-        Choices { weights: Weights::Sigma, ..choices },
-        Choices { loss: Loss::Huber, loss_scale: Some(0.01), ..choices },
-        Choices { loss: Loss::SoftL1, loss_scale: Some(0.01), weights: Weights::Sigma, ..choices },
-        Choices { eq17: Eq17::Printed, ..choices },
+        FitOptions { brdf_residuals: BrdfResiduals::Absolute, ..choices },
+        FitOptions { brdf_residuals: BrdfResiduals::Log, ..choices },
+        FitOptions { weights: Weights::Sigma, ..choices },
+        FitOptions { loss: Loss::Huber, loss_scale: Some(0.01), ..choices },
+        FitOptions { loss: Loss::SoftL1, loss_scale: Some(0.01), weights: Weights::Sigma, ..choices },
+        FitOptions { eq17: DolpFormula::AsPrinted, ..choices },
     ] {
         let problem = problem(&both, choices);
         let (across, up) = axes();
@@ -106,14 +106,14 @@ fn masked_rows_shape_nothing() {
     let mut fewer = masked.clone();
     fewer.rows.retain(|row| !row.masked);
     let (across, up) = axes();
-    let of = |measurement: &Measurement| Landscape::new(&problem(measurement, Choices::default()), across, up, &|| false);
+    let of = |measurement: &Measurement| Landscape::new(&problem(measurement, FitOptions::default()), across, up, &|| false);
     assert_eq!(of(&masked), of(&fewer));
-    is_the_plain_objective(&problem(&masked, Choices::default()));
+    is_the_plain_objective(&problem(&masked, FitOptions::default()));
 }
 
 #[test]
 fn the_lowest_node_is_the_truth() {
-    let problem = problem(&noisy(Columns::Dolp, 0.0), Choices::default());
+    let problem = problem(&noisy(Columns::Dolp, 0.0), FitOptions::default());
     let across = Axis { parameter: Parameter::Kd, low: 0.0, high: 0.24, count: 13, logarithmic: false };
     let up = Axis { parameter: Parameter::Kv, low: 0.0, high: 0.5, count: 11, logarithmic: false };
     let landscape = Landscape::new(&problem, across, up, &|| false).expect("not cancelled");
@@ -122,7 +122,7 @@ fn the_lowest_node_is_the_truth() {
 
 #[test]
 fn nodes_outside_the_domain_have_no_value_and_a_cancelled_landscape_is_none() {
-    let problem = problem(&measurement(Columns::Dolp), Choices::default());
+    let problem = problem(&measurement(Columns::Dolp), FitOptions::default());
     let (across, _) = axes();
     let up = Axis { parameter: Parameter::Sigma, low: -0.5, high: 0.5, count: 3, logarithmic: false };
     let landscape = Landscape::new(&problem, across, up, &|| false).expect("not cancelled");

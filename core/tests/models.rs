@@ -1,9 +1,9 @@
 //! The ladder beyond the nine-parameter model: Hyde's balance.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Bounds, Choices, Contest, HeldGauss, Problem, Starts, Watch, fit, free_by_default};
+use pbrdf::fit::{Bounds, DistributionComparison, FitOptions, GaussAtFixedSigma, Observer, Problem, Starts, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Diffuse, Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Preset, Wanted};
+use pbrdf::model::{Diffuse, GradientRequest, Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Preset};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 const STEEL: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -41,7 +41,9 @@ fn hydes_term_is_the_same_in_all_directions_of_view_and_scales_with_k_s() {
 #[test]
 fn k_s_cancels_from_hydes_dolp() {
     let at = |ks: f64| {
-        Pbrdf::new(hyde(), Parameters { ks, ..STEEL }).expect("a surface").reflection_and_gradient(&facet(50.0, 30.0, 180.0), Wanted::ALL)
+        Pbrdf::new(hyde(), Parameters { ks, ..STEEL })
+            .expect("a surface")
+            .reflection_and_gradient(&facet(50.0, 30.0, 180.0), GradientRequest::ALL)
     };
     let ((one, gradient), (two, _)) = (at(1.0), at(2.0));
     assert_eq!(one.dolp, two.dolp);
@@ -58,7 +60,7 @@ fn derivatives_of_hydes_term_are_those_of_its_values() {
             for (theta_i, theta_r, sigma) in [(10.0, 30.0, 0.2), (50.0, 40.0, 0.5), (75.0, 60.0, 0.1), (80.0, 20.0, 0.9)] {
                 let here = Parameters { sigma, ks: 1.3, ..STEEL };
                 let facet = facet(theta_i, theta_r, 150.0);
-                let (_, gradient) = Pbrdf::new(model, here).expect("a surface").reflection_and_gradient(&facet, Wanted::ALL);
+                let (_, gradient) = Pbrdf::new(model, here).expect("a surface").reflection_and_gradient(&facet, GradientRequest::ALL);
                 for parameter in Parameter::ALL {
                     let moved = |by: f64| {
                         let mut there = here;
@@ -86,7 +88,7 @@ fn derivatives_of_hydes_term_are_those_of_its_values() {
 
 #[test]
 fn hyde_is_fitted_by_index_and_slope_and_with_a_brdf_by_k_s_too() {
-    let names = |measurement: &Measurement| free_by_default(hyde(), measurement, &Choices::default());
+    let names = |measurement: &Measurement| free_by_default(hyde(), measurement, &FitOptions::default());
     let by_dolp = simulated(hyde(), STEEL, Columns::Dolp, 0.0);
     let by_both = simulated(hyde(), Parameters { ks: 0.7, ..STEEL }, Columns::Both, 0.0);
     let expected: ParameterSet = [Parameter::N, Parameter::K, Parameter::Sigma].into_iter().collect();
@@ -94,8 +96,8 @@ fn hyde_is_fitted_by_index_and_slope_and_with_a_brdf_by_k_s_too() {
     for (measurement, ks) in [(by_dolp, 1.0), (by_both, 0.7)] {
         let free = names(&measurement);
         let problem =
-            Problem::new(&measurement, hyde(), Parameters::default(), free, Bounds::default(), Choices::default()).expect("a problem");
-        let report = fit(&problem, Starts::Automatic, 1, Watch::NOBODY);
+            Problem::new(&measurement, hyde(), Parameters::default(), free, Bounds::default(), FitOptions::default()).expect("a problem");
+        let report = fit(&problem, Starts::Automatic, 1, Observer::NONE);
         for parameter in free {
             let truth = Parameters { ks, ..STEEL }[parameter];
             // Noise-free, and four parameters at most: nine digits less than f64 has.
@@ -113,16 +115,16 @@ fn without_a_specular_lobe_there_is_no_balance_to_carry() {
 }
 
 /// Gauss and Cauchy on the same rows.
-fn contest(truth: SlopeDistribution, noise: f64) -> (Contest, Option<HeldGauss>) {
+fn contest(truth: SlopeDistribution, noise: f64) -> (DistributionComparison, Option<GaussAtFixedSigma>) {
     let measurement = simulated(Model::full(truth), STEEL, Columns::Dolp, noise);
     let [(problem, gauss), (_, cauchy)] = SlopeDistribution::ALL.map(|distribution| {
         let model = Model::full(distribution);
-        let free = free_by_default(model, &measurement, &Choices::default());
-        let problem = Problem::new(&measurement, model, STEEL, free, Bounds::default(), Choices::default()).expect("a problem");
-        let report = fit(&problem, Starts::One, 1, Watch::NOBODY);
+        let free = free_by_default(model, &measurement, &FitOptions::default());
+        let problem = Problem::new(&measurement, model, STEEL, free, Bounds::default(), FitOptions::default()).expect("a problem");
+        let report = fit(&problem, Starts::One, 1, Observer::NONE);
         (problem, report)
     });
-    (Contest::new(&gauss, &cauchy).expect("finite sums"), HeldGauss::new(&problem, &gauss, &cauchy, Watch::NOBODY))
+    (DistributionComparison::new(&gauss, &cauchy).expect("finite sums"), GaussAtFixedSigma::new(&problem, &gauss, &cauchy, Observer::NONE))
 }
 
 #[test]
@@ -143,9 +145,9 @@ fn the_distribution_that_made_the_data_wins_and_a_held_gauss_is_no_better_than_a
 
 #[test]
 fn no_distribution_wins_against_the_evidence() {
-    let near = Contest { gauss: 2.561_8e-3, cauchy: 2.561_799e-3, aicc_gain: Some(-4.6), is_delta_e: true };
+    let near = DistributionComparison { gauss: 2.561_8e-3, cauchy: 2.561_799e-3, aicc_gain: Some(-4.6), is_delta_e: true };
     assert!(near.winner().is_none() && near.text().contains("alike") && !near.text().contains("wins"), "{}", near.text());
-    let costly = Contest { cauchy: 2.5e-3, ..near };
+    let costly = DistributionComparison { cauchy: 2.5e-3, ..near };
     assert!(
         costly.text().starts_with("Cauchy comes nearer than Gauss") && costly.text().contains("lower by 4.6 for Gauss"),
         "{}",
@@ -161,7 +163,7 @@ fn dolp_depends_on_the_parameters_that_each_model_says_and_on_no_others() {
     for preset in &PRESETS {
         let surface = Pbrdf::new(preset.model, parameters).expect("a valid surface");
         let facets = [(20.0, 65.0), (60.0, 10.0), (75.0, 40.0)].map(|(theta_i, theta_r)| facet(theta_i, theta_r, 180.0));
-        let gradients = facets.map(|facet| surface.reflection_and_gradient(&facet, Wanted::ALL).1.dolp);
+        let gradients = facets.map(|facet| surface.reflection_and_gradient(&facet, GradientRequest::ALL).1.dolp);
         for parameter in Parameter::ALL {
             let is_felt = gradients.iter().any(|gradient| gradient[parameter as usize].abs() > NOTHING);
             assert_eq!(is_felt, preset.model.dolp_parameters().contains(parameter), "{}: {}", preset.key, parameter.key());

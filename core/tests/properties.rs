@@ -4,7 +4,7 @@
 
 use nalgebra::Complex;
 use nalgebra::Matrix4;
-use pbrdf::model::{Diffuse, Model, Parameter, Parameters, Pbrdf, Wanted};
+use pbrdf::model::{Diffuse, GradientRequest, Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, Mueller, SlopeDistribution};
 use proptest::prelude::{Just, ProptestConfig, Strategy, prop, prop_assert, prop_oneof, proptest};
 use rand_pcg::Pcg64;
@@ -133,7 +133,7 @@ proptest! {
     fn dolp_and_brdf_stay_in_their_ranges_over_the_whole_box(parameters in in_box(), geometry in geometry(), model in model()) {
         let surface = Pbrdf::new(model, parameters).expect("the box lies in the domain");
         let facet = Facet::new(geometry);
-        let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
         let limit = surface.fresnel_limit(&facet);
         prop_assert!(reflection.brdf >= 0.0 && reflection.brdf.is_finite());
         prop_assert!(reflection.dolp >= 0.0 && reflection.dolp <= limit * (1.0 + ROUNDING) && limit <= 1.0, "{} {}", reflection.dolp, limit);
@@ -143,7 +143,7 @@ proptest! {
     #[test]
     fn nothing_is_not_a_number_in_the_whole_domain(parameters in in_domain(), geometry in geometry(), model in model()) {
         let surface = Pbrdf::new(model, parameters).expect("parameters in the domain");
-        let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(geometry), Wanted::ALL);
+        let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(geometry), GradientRequest::ALL);
         prop_assert!((0.0..=1.0).contains(&reflection.dolp), "{reflection:?}");
         prop_assert!(reflection.brdf >= 0.0, "{reflection:?}");
         prop_assert!(gradient.brdf.iter().chain(&gradient.dolp).all(|derivative| !derivative.is_nan()), "{gradient:?}");
@@ -177,7 +177,7 @@ proptest! {
             let reflection = Pbrdf::new(model, parameters).expect("the box lies well inside the domain").reflection(&facet);
             [reflection.brdf, reflection.dolp]
         };
-        let (_, gradient) = Pbrdf::new(model, parameters).expect("the box lies in the domain").reflection_and_gradient(&facet, Wanted::ALL);
+        let (_, gradient) = Pbrdf::new(model, parameters).expect("the box lies in the domain").reflection_and_gradient(&facet, GradientRequest::ALL);
         let (n, k) = (parameters.n, parameters.k);
         for parameter in model.parameters() {
             let value = parameters[parameter];
@@ -224,7 +224,7 @@ fn derivatives_by_q_hold_where_the_reduced_slope_overflows() {
         let parameters = Parameters { sigma, q: 1.001, ..Parameters::default() };
         let at = |q: f64| {
             let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters { q, ..parameters }).expect("in the domain");
-            let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+            let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
             ([reflection.brdf, reflection.dolp], [gradient.brdf, gradient.dolp].map(|by| by[Parameter::Q as usize]))
         };
         let step = 1e-3 * (parameters.q - 1.0);
@@ -257,7 +257,7 @@ fn a_hundred_million_random_evaluations_are_all_numbers() {
         let distribution = if random.next_u64() & 1 == 0 { SlopeDistribution::Gauss } else { SlopeDistribution::Cauchy };
         let surface = Pbrdf::new(Model::full(distribution), parameters).expect("the box lies in the domain");
         let facet = Facet::new(Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
-        let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
         assert!(reflection.brdf.is_finite() && (0.0..=1.0).contains(&reflection.dolp), "{parameters:?} {facet:?}");
         for derivative in gradient.brdf.iter().chain(&gradient.dolp) {
             assert!(!derivative.is_nan(), "{parameters:?} {facet:?}");

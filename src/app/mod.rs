@@ -16,7 +16,7 @@ mod views;
 mod work;
 
 use platform::heap;
-use shell::app::Explorer;
+use shell::app::App;
 use shell::file_dialogs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,7 +30,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     if !display_is_named() {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
-    heap::keep_heap();
+    heap::raise_trim_threshold();
     let (stored, notice) = settings_file::load();
     let mut viewport =
         egui::ViewportBuilder::default().with_title(TITLE).with_app_id(settings_file::APP).with_min_inner_size([1024.0, 640.0]);
@@ -38,7 +38,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let options = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..eframe::NativeOptions::default() };
     let create: eframe::AppCreator<'_> = Box::new(|context| {
         STARTED.store(true, Ordering::Relaxed);
-        let mut explorer = Explorer::new(&context.egui_ctx, stored);
+        let mut explorer = App::new(&context.egui_ctx, stored);
         explorer.settings_file = settings_file::path();
         explorer.worker.ask = file_dialogs::ask_desktop;
         if let Some(notice) = notice {

@@ -34,11 +34,11 @@ pub enum Task {
     /// Fit several models to one measurement.
     Compare(Box<Compare>),
     /// Predict standard errors from a choice of angles.
-    Plan(Plan),
-    /// Report on error against run time, on numerical stability, or on the cost of each term.
-    Report(Report),
+    PlanArguments(PlanArguments),
+    /// ReportArguments on error against run time, on numerical stability, or on the cost of each term.
+    ReportArguments(ReportArguments),
     /// Turn a foreign file into a measurement.
-    Import(Import),
+    ImportArguments(ImportArguments),
     /// Write a surface for another program.
     #[command(subcommand)]
     Export(Export),
@@ -82,7 +82,7 @@ pub struct Fit {
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
     #[command(flatten)]
-    pub options: FitOptions,
+    pub options: FitArguments,
     /// Scan these parameters: hold each on a grid and fit the rest again, for an honest interval.
     #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
     pub profile: Vec<Parameter>,
@@ -113,7 +113,7 @@ pub struct Compare {
     #[arg(long, value_delimiter = ',', value_parser = values::preset)]
     pub models: Vec<&'static Preset>,
     #[command(flatten)]
-    pub options: FitOptions,
+    pub options: FitArguments,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -121,7 +121,7 @@ pub struct Compare {
 
 /// What `fit` and `compare` have in common.
 #[derive(Debug, Args)]
-pub struct FitOptions {
+pub struct FitArguments {
     /// Values to start from, such as n=2,k=3; defaults for the rest.
     #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
     pub start: Vec<Assignment>,
@@ -147,20 +147,20 @@ pub struct FitOptions {
     #[arg(long, value_enum, default_value_t = BrdfResiduals::Relative)]
     pub brdf_residuals: BrdfResiduals,
     /// How a residual counts: robust losses spare outliers.
-    #[arg(long, value_enum, default_value_t = Loss::Linear)]
+    #[arg(long, value_enum, default_value_t = Loss::Squared)]
     pub loss: Loss,
     /// Where a robust loss begins to spare, in units of X − Xm; without, 1.345 × normalised MAD of the residuals.
     #[arg(long, value_parser = values::positive)]
     pub loss_scale: Option<f64>,
     /// Which reading of Eq. (17) predicts DoLP; printed leaves k_s out of the numerator.
-    #[arg(long, value_enum, default_value_t = Eq17::Consistent)]
-    pub eq17: Eq17,
+    #[arg(long, value_enum, default_value_t = DolpFormula::Consistent)]
+    pub eq17: DolpFormula,
 }
 
 /// `plan`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Plan {
+pub struct PlanArguments {
     #[command(flatten)]
     pub surface: Surface,
     #[command(flatten)]
@@ -213,7 +213,7 @@ pub struct Angles {
 /// `import`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, after_help = IMPORT_HELP)]
-pub struct Import {
+pub struct ImportArguments {
     /// Woollam ellipsometry text, a tensor of Mueller matrices (.pbsdf), or with --columns any table.
     pub input: PathBuf,
     /// Vacuum wavelength in nm; the nearest one of the file is taken, with a notice.
@@ -322,10 +322,10 @@ pub struct Simulate {
 
 /// `report`.
 #[derive(Debug, Args)]
-pub struct Report {
+pub struct ReportArguments {
     /// What about.
     #[arg(value_enum)]
-    pub subject: Subject,
+    pub subject: ReportSubject,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -336,7 +336,7 @@ pub struct Report {
 
 /// What a report is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Subject {
+pub enum ReportSubject {
     /// Error against run time, of evaluations and of fits; a few minutes.
     ErrorVsTime,
     /// A gallery of stiff and extreme cases: digits held, and what becomes of fits.
@@ -345,7 +345,7 @@ pub enum Subject {
     Cost,
 }
 
-impl Subject {
+impl ReportSubject {
     /// Its name on the command line and in names of files.
     pub fn key(self) -> &'static str {
         match self {
@@ -356,7 +356,7 @@ impl Subject {
     }
 }
 
-/// Choices of the core under their names on the command line.
+/// Options of the core under their names on the command line.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident => $core:path { $($(#[$variant_doc:meta])* $variant:ident),* }) => {
         $(#[$doc])*
@@ -395,7 +395,8 @@ choice! {
     /// How a residual counts.
     Loss => fit::Loss {
         /// By its square.
-        Linear,
+        #[value(name = "linear")]
+        Squared,
         /// By its square up to the scale, by its size beyond.
         Huber,
         /// The same with a smooth passage.
@@ -404,11 +405,12 @@ choice! {
 }
 choice! {
     /// Which reading of Eq. (17) predicts DoLP.
-    Eq17 => fit::Eq17 {
+    DolpFormula => fit::DolpFormula {
         /// k_s inside the numerator.
         Consistent,
         /// k_s missing, as printed.
-        Printed
+        #[value(name = "printed")]
+        AsPrinted
     }
 }
 choice! {

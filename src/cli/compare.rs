@@ -6,7 +6,7 @@ use crate::cli::problem::{NoProblem, problem, starts};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::report::fit_json;
-use pbrdf::fit::{Contest, FitReport, HeldGauss, Problem, ProblemError, Standing, fit};
+use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, fit};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A model with its fit, or why there is none.
-type Rung = (&'static Preset, Result<(Problem, FitReport), String>);
+type Rung = (&'static Preset, Result<(Problem, FitResult), String>);
 
 /// Presets that differ by their distribution alone: Gauss, Cauchy.
 const PAIRS: [(&str, &str); 2] = [("gauss", "cauchy"), ("specular-gauss", "specular")];
@@ -67,8 +67,8 @@ fn verdicts(rungs: &[Rung]) -> Vec<String> {
         let watched = Watched::new("gauss at equal median slope");
         let closures = watched.watch();
         let ((problem, gauss_fit), (_, cauchy_fit)) = (of(gauss)?, of(cauchy)?);
-        let contest = Contest::new(gauss_fit, cauchy_fit)?;
-        let held = HeldGauss::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
+        let contest = DistributionComparison::new(gauss_fit, cauchy_fit)?;
+        let held = GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
         let held = held.map_or_else(String::new, |held| format!("\n{}", held.text(&contest)));
         Some(format!("{gauss} and {cauchy}: {}{held}", contest.text()))
     };
@@ -104,7 +104,7 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
             }
         }
     }
-    let fitted: Vec<(&str, &FitReport)> =
+    let fitted: Vec<(&str, &FitResult)> =
         rungs.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
     let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
     write!(out, "\n{:<9}", "")?;
@@ -118,11 +118,11 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
             let cell = report.estimates.iter().find(|estimate| estimate.parameter == parameter).map_or_else(
                 || "-".to_owned(),
                 |estimate| match estimate.standing() {
-                    Standing::Fixed => format!("{:.5} fixed", estimate.value),
-                    Standing::AtBound(_) => format!("{:.5} at bound", estimate.value),
-                    Standing::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
-                    Standing::NoFreedom => format!("{:.5} no d.o.f.", estimate.value),
-                    Standing::Open => format!("{:.5} open", estimate.value),
+                    EstimateStatus::Fixed => format!("{:.5} fixed", estimate.value),
+                    EstimateStatus::AtBound(_) => format!("{:.5} at bound", estimate.value),
+                    EstimateStatus::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
+                    EstimateStatus::NoDegreesOfFreedom => format!("{:.5} no d.o.f.", estimate.value),
+                    EstimateStatus::Open => format!("{:.5} open", estimate.value),
                 },
             );
             write!(out, " {cell:>22}")?;

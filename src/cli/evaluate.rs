@@ -4,7 +4,7 @@ use crate::cli::arguments::Evaluate;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::{ReadError, ReadErrorKind, Record, Table, exact};
-use pbrdf::model::{Model, Parameter, ParameterError, Parameters, Pbrdf, Wanted};
+use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -64,7 +64,7 @@ fn header(task: &Evaluate) -> Vec<String> {
 fn evaluate(task: &Evaluate, surface: &Pbrdf, geometry: Geometry, line: &mut Vec<u8>) -> io::Result<()> {
     let facet = Facet::new(geometry);
     let (reflection, gradient) = if task.gradient {
-        let (reflection, gradient) = surface.reflection_and_gradient(&facet, Wanted::ALL);
+        let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
         (reflection, Some(gradient))
     } else {
         (surface.reflection(&facet), None)

@@ -7,7 +7,7 @@ use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::export;
 use crate::report::{FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
-use pbrdf::fit::{Edge, FitReport, Problem, Profile, Scatter, Standing, fit};
+use pbrdf::fit::{BootstrapEstimate, Edge, EstimateStatus, FitResult, Problem, Profile, fit};
 use pbrdf::fit::{bootstrap, profile};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
@@ -57,7 +57,7 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
 }
 
 /// The report and the figure that were asked for.
-fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem: &Problem, report: &FitReport) -> Result<(), Failure> {
+fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem: &Problem, report: &FitResult) -> Result<(), Failure> {
     let name = task.input.file_name().map_or_else(|| task.input.display().to_string(), |name| name.to_string_lossy().into_owned());
     let source = Source { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
@@ -75,7 +75,7 @@ fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem:
 }
 
 /// The report for a person.
-fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &FitReport) -> io::Result<()> {
+fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &FitResult) -> io::Result<()> {
     let used = measurement.rows.iter().filter(|row| !row.masked).count();
     writeln!(out, "{}: {used} of {} rows, model {} ({})", task.input.display(), measurement.rows.len(), task.model.key, task.model.name)?;
     let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
@@ -91,12 +91,12 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± std.err.", "start")?;
     for estimate in &report.estimates {
         let error = match estimate.standing() {
-            Standing::Fixed => "fixed".to_owned(),
-            Standing::AtBound(Edge::Lower) => "at lower".to_owned(),
-            Standing::AtBound(Edge::Upper) => "at upper".to_owned(),
-            Standing::Determined(error) => format!("{error:.3e}"),
-            Standing::NoFreedom => "no d.o.f.".to_owned(),
-            Standing::Open => "open".to_owned(),
+            EstimateStatus::Fixed => "fixed".to_owned(),
+            EstimateStatus::AtBound(Edge::Lower) => "at lower".to_owned(),
+            EstimateStatus::AtBound(Edge::Upper) => "at upper".to_owned(),
+            EstimateStatus::Determined(error) => format!("{error:.3e}"),
+            EstimateStatus::NoDegreesOfFreedom => "no d.o.f.".to_owned(),
+            EstimateStatus::Open => "open".to_owned(),
         };
         let unit = estimate.parameter.unit();
         writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;
@@ -104,7 +104,7 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     if report.dof == 0 && !report.determined.is_empty() {
         writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
     }
-    let open = report.open_in_words();
+    let open = report.describe_undetermined();
     if !open.is_empty() {
         writeln!(out, "\nThe data leave open:")?;
         open.iter().try_for_each(|text| writeln!(out, "  {text}"))?;
@@ -113,7 +113,7 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
 }
 
 /// Profiles and bootstrap beside the agreed keys.
-fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[Scatter]) {
+fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[BootstrapEstimate]) {
     let Some(object) = json.as_object_mut() else { return };
     if !profiles.is_empty() {
         let of = |profile: &Profile| {
@@ -122,14 +122,14 @@ fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[Scatter]) {
         object.insert("profile".to_owned(), Value::Object(profiles.iter().map(of).collect::<Map<_, _>>()));
     }
     if !scatters.is_empty() {
-        let of = |scatter: &Scatter| {
+        let of = |scatter: &BootstrapEstimate| {
             (scatter.parameter.key().to_owned(), json!({ "std_error": scatter.std_error, "low": scatter.low, "high": scatter.high }))
         };
         object.insert("bootstrap".to_owned(), Value::Object(scatters.iter().map(of).collect::<Map<_, _>>()));
     }
 }
 
-fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[Scatter]) -> io::Result<()> {
+fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapEstimate]) -> io::Result<()> {
     for profile in profiles {
         let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), |value| format!("{value:.6}"));
         writeln!(
@@ -160,7 +160,7 @@ fn residuals_in_words(task: &Fit) -> String {
         BrdfResiduals::Relative => "residuals, relative for BRDF",
         BrdfResiduals::Log => "residuals, logarithmic for BRDF",
     };
-    let loss = if matches!(task.options.loss, Loss::Linear) { "" } else { ", under a robust loss" };
+    let loss = if matches!(task.options.loss, Loss::Squared) { "" } else { ", under a robust loss" };
     format!("{weights}{form}{loss}")
 }
 

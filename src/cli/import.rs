@@ -1,6 +1,6 @@
 //! `import`: foreign files as measurements.
 
-use crate::cli::arguments::Import;
+use crate::cli::arguments::ImportArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement;
@@ -9,7 +9,7 @@ use pbrdf::measurement::{
 };
 use std::process::ExitCode;
 
-pub fn run(task: &Import) -> Result<ExitCode, Failure> {
+pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
     let mut measurement = if let Some(mapping) = &task.columns {
@@ -43,7 +43,7 @@ fn unknown(bytes: &[u8]) -> String {
 }
 
 /// The columns that were named, and the angles that were given for want of a column.
-fn with_constants(task: &Import, columns: &Mapping) -> Result<Mapping, Failure> {
+fn with_constants(task: &ImportArguments, columns: &Mapping) -> Result<Mapping, Failure> {
     let theta_i = match task.theta_i.as_ref().map(|grid| grid.0.as_slice()) {
         None => None,
         Some(&[only]) => Some(only),
@@ -58,7 +58,7 @@ fn with_constants(task: &Import, columns: &Mapping) -> Result<Mapping, Failure> 
     Ok(Mapping { theta_i, dphi: task.dphi, ..columns.clone() })
 }
 
-fn mapped(task: &Import, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
+fn mapped(task: &ImportArguments, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
     let mapping = with_constants(task, mapping)?;
     let measurement =
         read_mapped(bytes, &mapping, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
@@ -68,7 +68,7 @@ fn mapped(task: &Import, bytes: &[u8], mapping: &Mapping) -> Result<Measurement,
     Ok(measurement)
 }
 
-fn woollam(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {
+fn woollam(task: &ImportArguments, bytes: &[u8]) -> Result<Measurement, Failure> {
     let ellipsometry = read_woollam(bytes, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
     let path = task.input.display();
     for (name, count) in &ellipsometry.ignored {
@@ -86,20 +86,20 @@ fn woollam(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {
     Ok(slice.measurement)
 }
 
-fn not_chosen(task: &Import, error: &measurement::WavelengthError) -> Failure {
+fn not_chosen(task: &ImportArguments, error: &measurement::WavelengthError) -> Failure {
     let hint = if task.wavelength.is_none() { " with --wavelength" } else { "" };
     Failure::input(&task.input, format!("{error}{hint}"))
 }
 
 /// Says which wavelengths were taken in place of the one asked for.
-fn notice_nearest(task: &Import, taken_nm: &[f64]) {
+fn notice_nearest(task: &ImportArguments, taken_nm: &[f64]) {
     if let Some(wanted) = task.wavelength.filter(|wanted| taken_nm != [*wanted]) {
         let taken: Vec<String> = taken_nm.iter().map(f64::to_string).collect();
         output::notice(format_args!("{}: has no {wanted} nm; the nearest was taken, {} nm.", task.input.display(), taken.join(" and ")));
     }
 }
 
-fn tensor(task: &Import, bytes: &[u8]) -> Result<Measurement, Failure> {
+fn tensor(task: &ImportArguments, bytes: &[u8]) -> Result<Measurement, Failure> {
     let tensor = read_tensor(bytes).map_err(|error| Failure::input(&task.input, error))?;
     let path = task.input.display();
     if !tensor.assumed_grids().is_empty() {

@@ -1,25 +1,25 @@
 //! `plan`: what a choice of angles would determine, before anything is measured.
 
-use crate::cli::arguments::{Columns, Plan};
+use crate::cli::arguments::{Columns, PlanArguments};
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::cli::simulate::simulation;
 use pbrdf::fit;
-use pbrdf::fit::{PlannedNoise, Prediction};
+use pbrdf::fit::{DesignPrediction, NoiseModel};
 use pbrdf::model::{Parameter, ParameterSet};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-pub fn run(task: &Plan) -> Result<ExitCode, Failure> {
+pub fn run(task: &PlanArguments) -> Result<ExitCode, Failure> {
     let simulation = simulation(&task.surface, &task.angles, task.columns)?;
     let geometries = simulation.geometries().map_err(|error| Failure::usage(format!("{error}.")))?;
-    let noise = PlannedNoise {
+    let noise = NoiseModel {
         dolp: (!matches!(task.columns, Columns::Brdf)).then_some(task.noise),
         brdf: (!matches!(task.columns, Columns::Dolp)).then_some(task.brdf_noise),
     };
     let model = simulation.surface.model();
-    let mut plan = fit::Plan::new(model, *simulation.surface.parameters(), geometries, noise);
+    let mut plan = fit::Design::new(model, *simulation.surface.parameters(), geometries, noise);
     for &parameter in task.fix.iter().chain(&task.free) {
         if !model.parameters().contains(parameter) {
             output::notice(format_args!(
@@ -42,7 +42,7 @@ pub fn run(task: &Plan) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn print(out: &mut dyn Write, plan: &fit::Plan, prediction: &Prediction) -> io::Result<()> {
+fn print(out: &mut dyn Write, plan: &fit::Design, prediction: &DesignPrediction) -> io::Result<()> {
     let condition = prediction.condition.map_or_else(String::new, |condition| format!(", condition {condition:.1e}"));
     writeln!(
         out,

@@ -1,9 +1,9 @@
 //! The problem that the options of `fit` and `compare` describe.
 
-use crate::cli::arguments::FitOptions;
+use crate::cli::arguments::FitArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use pbrdf::fit::{Bounds, Choices, Problem, ProblemError, Starts, free_by_default};
+use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError, Starts, free_by_default};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{ParameterSet, Parameters, Preset};
 use std::path::Path;
@@ -32,7 +32,7 @@ impl NoProblem {
 }
 
 /// How many starts are asked for.
-pub fn starts(options: &FitOptions) -> Starts {
+pub fn starts(options: &FitArguments) -> Starts {
     match options.starts {
         None => Starts::Automatic,
         Some(1) => Starts::One,
@@ -41,10 +41,10 @@ pub fn starts(options: &FitOptions) -> Starts {
 }
 
 /// The problem of fitting that preset.
-pub fn problem(preset: &Preset, options: &FitOptions, measurement: &Measurement) -> Result<Problem, NoProblem> {
+pub fn problem(preset: &Preset, options: &FitArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
     let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
     let model = preset.model;
-    let choices = Choices {
+    let choices = FitOptions {
         weights: options.weights.into(),
         brdf_residuals: options.brdf_residuals.into(),
         loss: options.loss.into(),

@@ -1,13 +1,13 @@
 //! `report`: what the program says about itself, as a table, as JSON, and as files in a folder.
 
-use crate::cli::arguments::{Report as Task, Subject};
+use crate::cli::arguments::{ReportArguments as Task, ReportSubject};
 use crate::cli::failure::Failure;
 use crate::cli::output::Progress;
 use crate::cli::{interrupt, output};
 use crate::export::{machine, now};
 use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
-use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
+use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -46,7 +46,7 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
     }
     let begun = Instant::now();
     let progress = Mutex::new(Progress::new(task.subject.key()));
-    let surroundings = Surroundings {
+    let surroundings = Host {
         clock: &|| begun.elapsed().as_secs_f64() * 1e3,
         cancelled: &interrupt::asked,
         progress: &|fraction| {
@@ -56,9 +56,9 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
         },
     };
     let answer = match task.subject {
-        Subject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), now(), surroundings)),
-        Subject::Stability => Answer::new(&Stability::run(machine(), now(), surroundings)),
-        Subject::Cost => Answer::new(&Cost::run(machine(), now(), surroundings)),
+        ReportSubject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), now(), surroundings)),
+        ReportSubject::Stability => Answer::new(&Stability::run(machine(), now(), surroundings)),
+        ReportSubject::Cost => Answer::new(&Cost::run(machine(), now(), surroundings)),
     };
     drop(progress);
     if task.json {

@@ -2,7 +2,7 @@
 
 use crate::cli::interrupt;
 use crate::cli::output::Progress;
-use pbrdf::fit::{TracePoint, Watch};
+use pbrdf::fit::{Observer, TracePoint};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ pub struct Watched {
     progress: Mutex<Progress>,
 }
 
-/// Its closures, which a [`Watch`] borrows.
+/// Its closures, which a [`Observer`] borrows.
 pub struct Closures<'a> {
     clock: Box<dyn Fn() -> f64 + Sync + 'a>,
     progress: Box<dyn Fn(TracePoint) + Sync + 'a>,
@@ -39,7 +39,7 @@ impl Watched {
 
 impl Closures<'_> {
     /// As the core takes them.
-    pub fn as_watch(&self) -> Watch<'_> {
-        Watch { clock: &*self.clock, cancelled: &interrupt::asked, progress: &*self.progress }
+    pub fn as_watch(&self) -> Observer<'_> {
+        Observer { clock: &*self.clock, cancelled: &interrupt::asked, progress: &*self.progress }
     }
 }

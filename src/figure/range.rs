@@ -11,8 +11,9 @@ const NEAR_ZERO: f64 = 0.3;
 
 /// Ends of the horizontal axis.
 pub fn x(panel: &Panel) -> (f64, f64) {
-    let is_loose = panel.series.iter().all(|series| matches!(series.drawn, Drawn::Points { .. } | Drawn::Labels(_) | Drawn::Rule { .. }));
-    ends(&panel.x, panel.series.iter().flat_map(|series| xs(&series.drawn)), is_loose)
+    let is_poorly_determined =
+        panel.series.iter().all(|series| matches!(series.drawn, Drawn::Points { .. } | Drawn::Labels(_) | Drawn::Rule { .. }));
+    ends(&panel.x, panel.series.iter().flat_map(|series| xs(&series.drawn)), is_poorly_determined)
 }
 
 /// Ends of the vertical axis.

@@ -4,7 +4,7 @@ use crate::figure::{Figure, Panel};
 use crate::report::document::{Block, Document};
 use crate::report::fit_figures::FitFigures;
 use crate::report::residual_table::dolp_divisor;
-use pbrdf::fit::{BrdfResiduals, Choices, Edge, Eq17, Estimate, FitReport, Loss, Problem, Standing, Weights};
+use pbrdf::fit::{BrdfResiduals, DolpFormula, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
 use pbrdf::measurement::{Measurement, Series};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::SlopeDistribution;
@@ -28,7 +28,7 @@ pub struct FitDocument<'a> {
     /// What was minimised.
     pub problem: &'a Problem,
     /// What came out.
-    pub report: &'a FitReport,
+    pub report: &'a FitResult,
     /// The program and its version.
     pub program: &'a str,
     /// Day and time of the report, as ISO 8601; empty where nobody knows.
@@ -118,12 +118,12 @@ impl FitDocument<'_> {
         self.measurement.rows.iter().filter(|row| !row.masked).count()
     }
 
-    fn choices(&self) -> &Choices {
+    fn choices(&self) -> &FitOptions {
         self.problem.choices()
     }
 
     fn summary(&self) -> String {
-        let FitReport { stop_reason, evaluations, elapsed_ms, objective, start_objective, minima, .. } = self.report;
+        let FitResult { stop_reason, evaluations, elapsed_ms, objective, start_objective, minima, .. } = self.report;
         // A fit out of an old session does not know what it took.
         let effort = if minima.is_empty() { String::new() } else { format!(" in {evaluations} evaluations and {elapsed_ms:.0} ms") };
         format!(
@@ -165,14 +165,14 @@ impl FitDocument<'_> {
         let row = |estimate: &Estimate| {
             let Estimate { parameter, start, value, free, .. } = *estimate;
             let standing = estimate.standing();
-            let (value, error) = with_error(value, if let Standing::Determined(error) = standing { Some(error) } else { None });
+            let (value, error) = with_error(value, if let EstimateStatus::Determined(error) = standing { Some(error) } else { None });
             let error = match standing {
-                Standing::Fixed => "fixed".to_owned(),
-                Standing::AtBound(Edge::Lower) => "at lower bound".to_owned(),
-                Standing::AtBound(Edge::Upper) => "at upper bound".to_owned(),
-                Standing::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
-                Standing::NoFreedom => "no degree of freedom left".to_owned(),
-                Standing::Open => "open".to_owned(),
+                EstimateStatus::Fixed => "fixed".to_owned(),
+                EstimateStatus::AtBound(Edge::Lower) => "at lower bound".to_owned(),
+                EstimateStatus::AtBound(Edge::Upper) => "at upper bound".to_owned(),
+                EstimateStatus::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
+                EstimateStatus::NoDegreesOfFreedom => "no degree of freedom left".to_owned(),
+                EstimateStatus::Open => "open".to_owned(),
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
@@ -201,7 +201,7 @@ impl FitDocument<'_> {
     }
 
     fn open(&self) -> Vec<Block> {
-        let open = self.report.open_in_words();
+        let open = self.report.describe_undetermined();
         let mut blocks = vec![heading("What the data leave open")];
         if open.is_empty() {
             let text =
@@ -314,7 +314,7 @@ impl FitDocument<'_> {
     }
 
     fn choice_rows(&self) -> Vec<(&'static str, String)> {
-        let Choices { weights, brdf_residuals, loss, loss_scale, eq17, dolp_only } = self.choices();
+        let FitOptions { weights, brdf_residuals, loss, loss_scale, eq17, dolp_only } = self.choices();
         let weights = match weights {
             Weights::None => "none: all values of a quantity count alike",
             Weights::Sigma => "each residual divided by the stated standard deviation",
@@ -326,13 +326,13 @@ impl FitDocument<'_> {
         };
         let scale = loss_scale.map_or_else(|| "scale from the residuals of a linear fit".to_owned(), |scale| format!("scale {scale}"));
         let loss = match loss {
-            Loss::Linear => "squares".to_owned(),
+            Loss::Squared => "squares".to_owned(),
             Loss::Huber => format!("Huber, {scale}"),
             Loss::SoftL1 => format!("soft L1, {scale}"),
         };
         let reading = match eq17 {
-            Eq17::Consistent => "consistent: k_s in the numerator",
-            Eq17::Printed => "as printed: k_s missing from the numerator",
+            DolpFormula::Consistent => "consistent: k_s in the numerator",
+            DolpFormula::AsPrinted => "as printed: k_s missing from the numerator",
         };
         let free: Vec<&str> = self.problem.free().iter().map(|parameter| parameter.symbol()).collect();
         let mut rows = vec![("free parameters", free.join(", ")), ("weights", weights.to_owned())];

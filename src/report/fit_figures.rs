@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
 use crate::report::curves::{CurvePoint, curve};
-use pbrdf::measurement::{Mark, Series as Measured};
+use pbrdf::measurement::{DataPoint, Series as Measured};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 
@@ -33,7 +33,7 @@ pub struct FitFigures<'a> {
 type Term = (&'static str, bool, fn(&CurvePoint) -> f64, usize);
 
 /// What is taken from a measured series.
-type Marks = fn(&Measured) -> &[Mark];
+type Marks = fn(&Measured) -> &[DataPoint];
 
 impl<'a> FitFigures<'a> {
     /// Of a surface along those series; `divisor` is [`crate::report::dolp_divisor`].
@@ -85,7 +85,7 @@ impl<'a> FitFigures<'a> {
 
     fn residuals(&self, group: &Measured) -> Vec<Point> {
         let used = thinned(&group.dolp).filter(|mark| !mark.masked);
-        let residual = |mark: &Mark| {
+        let residual = |mark: &DataPoint| {
             let facet = Facet::new(group.geometry(mark.theta_r)?);
             let y = self.surface.reflection(&facet).dolp / self.divisor - mark.quantity.value;
             Some(Point { x: mark.theta_r, y, bar: mark.quantity.sigma.map(|sigma| (y - sigma, y + sigma)) })
@@ -143,19 +143,19 @@ fn highest_of(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> f64) -> f64 {
 }
 
 /// Upper end of an error bar.
-fn top(mark: &Mark) -> f64 {
+fn top(mark: &DataPoint) -> f64 {
     mark.quantity.value + mark.quantity.sigma.unwrap_or(0.0)
 }
 
-fn thinned(marks: &[Mark]) -> impl Iterator<Item = &Mark> {
+fn thinned(marks: &[DataPoint]) -> impl Iterator<Item = &DataPoint> {
     marks.iter().step_by(marks.len().div_ceil(MOST_POINTS).max(1))
 }
 
 /// Points with error bars, and the masked ones hollow and grey.
-fn measured_series(group: &Measured, marks: &[Mark], color: Rgb) -> Vec<Series> {
+fn measured_series(group: &Measured, marks: &[DataPoint], color: Rgb) -> Vec<Series> {
     let of = |masked: bool| -> Vec<Point> {
         let marks = thinned(marks).filter(|mark| mark.masked == masked);
-        let point = |mark: &Mark| {
+        let point = |mark: &DataPoint| {
             let y = mark.quantity.value;
             Point { x: mark.theta_r, y, bar: mark.quantity.sigma.map(|sigma| (y - sigma, y + sigma)) }
         };

@@ -1,12 +1,12 @@
 //! A fit as JSON: the keys that other programs rely on. Numbers that do not exist or are not finite are null.
 
-use pbrdf::fit::{Edge, FitReport};
+use pbrdf::fit::{Edge, FitResult};
 use pbrdf::model::Preset;
 use serde_json::{Map, Value, json};
 
 /// The fit of that preset as a JSON object.
 #[must_use]
-pub fn fit_json(preset: &Preset, report: &FitReport) -> Value {
+pub fn fit_json(preset: &Preset, report: &FitResult) -> Value {
     let parameters: Map<String, Value> = report
         .estimates
         .iter()

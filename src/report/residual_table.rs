@@ -1,6 +1,6 @@
 //! A fitted model beside the measured values: columns for a table.
 
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::measurement::{Measurement, append_columns, exact, write};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
@@ -11,17 +11,17 @@ pub const FITTED_COLUMNS: [&str; 4] = ["dolp_model", "dolp_residual", "brdf_mode
 
 /// By what DoLP is divided under that reading of Eq. (17).
 #[must_use]
-pub fn dolp_divisor(surface: &Pbrdf, eq17: Eq17) -> f64 {
+pub fn dolp_divisor(surface: &Pbrdf, eq17: DolpFormula) -> f64 {
     match eq17 {
-        Eq17::Consistent => 1.0,
-        Eq17::Printed => surface.parameters().ks,
+        DolpFormula::Consistent => 1.0,
+        DolpFormula::AsPrinted => surface.parameters().ks,
     }
 }
 
 /// Model and residual (model less measured) of both quantities for each row; a quantity that was not measured, or that a model of DoLP
 /// alone does not predict, leaves its cells empty.
 #[must_use]
-pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: Eq17, dolp_only: bool) -> Vec<Vec<String>> {
+pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormula, dolp_only: bool) -> Vec<Vec<String>> {
     let divisor = dolp_divisor(surface, eq17);
     let pair = |model: f64, measured: Option<f64>| [exact(model), measured.map_or_else(String::new, |measured| exact(model - measured))];
     let cells = measurement.rows.iter().map(|row| {
@@ -34,7 +34,7 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: Eq17, dolp
 }
 
 /// Writes a measurement with the fitted columns beside it.
-pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, eq17: Eq17, dolp_only: bool, out: impl Write) -> io::Result<()> {
+pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormula, dolp_only: bool, out: impl Write) -> io::Result<()> {
     let mut table = Vec::new();
     write(measurement, &mut table)?;
     append_columns(&table, &FITTED_COLUMNS, &fitted_cells(measurement, surface, eq17, dolp_only), out)

@@ -4,17 +4,17 @@
 //! σ at the planned surface, without χ²/dof, which nobody knows beforehand.
 
 use crate::fit::bounds::Bounds;
-use crate::fit::intervals::band::Band;
-use crate::fit::intervals::linear::{OpenDirection, Uncertainty};
+use crate::fit::intervals::band::PredictionBand;
+use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
 use crate::fit::objective::{Problem, ProblemError, free_by_default};
-use crate::fit::options::{Choices, Eq17, Weights};
+use crate::fit::options::{DolpFormula, FitOptions, Weights};
 use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use crate::optics::{Facet, Geometry};
 
 /// What is to be measured, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlannedNoise {
+pub struct NoiseModel {
     /// Standard deviation of DoLP, absolute, > 0; none where DoLP is not measured.
     pub dolp: Option<f64>,
     /// Standard deviation of the BRDF relative to its value, > 0; none where the BRDF is not measured.
@@ -23,7 +23,7 @@ pub struct PlannedNoise {
 
 /// A measurement to be made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct Design {
     /// Which terms the surface has.
     pub model: Model,
     /// Its supposed values.
@@ -31,31 +31,31 @@ pub struct Plan {
     /// Where it is to be measured.
     pub geometries: Vec<Geometry>,
     /// How well.
-    pub noise: PlannedNoise,
+    pub noise: NoiseModel,
     /// The parameters that the fit is to find.
     pub free: ParameterSet,
     /// By which reading of Eq. (17).
-    pub eq17: Eq17,
+    pub eq17: DolpFormula,
 }
 
 /// What a plan would determine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Prediction {
+pub struct DesignPrediction {
     /// Standard error of each free parameter in its own unit; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
     /// What would stay open.
-    pub undetermined: Vec<OpenDirection>,
+    pub undetermined: Vec<UndeterminedDirection>,
     /// Number of directions that would be determined.
     pub rank: usize,
     /// Largest over smallest singular value of the scaled Jacobian; none without a determined direction.
     pub condition: Option<f64>,
     /// The band that the fitted curves would have.
-    pub band: Band,
+    pub band: PredictionBand,
 }
 
 /// Why nothing can be predicted of a plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PlanError {
+pub enum DesignError {
     /// The parameters are no surface.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
@@ -64,33 +64,33 @@ pub enum PlanError {
     Problem(#[from] ProblemError),
 }
 
-impl Plan {
+impl Design {
     /// With the parameters free that a fit of such data frees by default.
     #[must_use]
-    pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: PlannedNoise) -> Self {
-        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, eq17: Eq17::Consistent };
+    pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: NoiseModel) -> Self {
+        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, eq17: DolpFormula::Consistent };
         plan.free = Pbrdf::new(model, parameters)
-            .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &Choices::default()));
+            .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &FitOptions::default()));
         plan
     }
 
     /// What it would determine.
-    pub fn predict(&self) -> Result<Prediction, PlanError> {
+    pub fn predict(&self) -> Result<DesignPrediction, DesignError> {
         let surface = Pbrdf::new(self.model, self.parameters)?;
         let mut bounds = Bounds::default();
         for parameter in self.free {
             bounds.widen_to(parameter, self.parameters[parameter]);
         }
-        let choices = Choices { weights: Weights::Sigma, eq17: self.eq17, ..Choices::default() };
+        let choices = FitOptions { weights: Weights::Sigma, eq17: self.eq17, ..FitOptions::default() };
         let problem = Problem::new(&self.measurement(&surface), self.model, self.parameters, self.free, bounds, choices);
         let problem = problem?;
         let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);
-        Ok(Prediction {
+        Ok(DesignPrediction {
             errors: problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
             undetermined: uncertainty.open.clone(),
             rank: uncertainty.rank,
             condition: uncertainty.condition,
-            band: Band::new(&problem, &self.parameters, uncertainty),
+            band: PredictionBand::new(&problem, &self.parameters, uncertainty),
         })
     }
 

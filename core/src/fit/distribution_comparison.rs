@@ -6,16 +6,16 @@
 //! Equal σ means different widths, so that the better of two fits may win by its width alone. Gauss is therefore fitted twice more beside
 //! Cauchy's (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where only the tail differs.
 
-use crate::fit::local::solver::Watch;
+use crate::fit::local::solver::Observer;
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
-use crate::fit::result::{FitReport, fit};
+use crate::fit::result::{FitResult, fit};
 use crate::model::{Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;
 
 /// Both fits side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contest {
+pub struct DistributionComparison {
     /// Sum of squares that Gauss came down to.
     pub gauss: f64,
     /// The same of Cauchy.
@@ -28,7 +28,7 @@ pub struct Contest {
 
 /// Gauss with its σ held by Cauchy's fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeldGauss {
+pub struct GaussAtFixedSigma {
     /// Cauchy's σ, at which Gauss was held, and the sum of squares there.
     pub equal_sigma: (f64, f64),
     /// The σ of equal median slope, and the sum of squares there.
@@ -38,10 +38,10 @@ pub struct HeldGauss {
 /// Sums of squares whose ratio is nearer to 1 are the same: two descents along one flat valley end no nearer to each other.
 const SAME: f64 = 1e-4;
 
-impl Contest {
+impl DistributionComparison {
     /// Of two fits of the same data by the same choices; none where a sum is not finite.
     #[must_use]
-    pub fn new(gauss: &FitReport, cauchy: &FitReport) -> Option<Self> {
+    pub fn new(gauss: &FitResult, cauchy: &FitResult) -> Option<Self> {
         let sums = [gauss.sum_of_squares, cauchy.sum_of_squares];
         sums.iter().all(|sum| sum.is_finite()).then(|| Self {
             gauss: sums[0],
@@ -110,11 +110,11 @@ impl Contest {
     }
 }
 
-impl HeldGauss {
+impl GaussAtFixedSigma {
     /// Fits Gauss again from its own solution with σ held; none where σ is not free in both fits or the equal median lies beyond f64.
     #[must_use]
-    pub fn new(problem: &Problem, gauss: &FitReport, cauchy: &FitReport, watch: Watch<'_>) -> Option<Self> {
-        let is_free = |report: &FitReport| report.estimates.iter().any(|estimate| estimate.parameter == Parameter::Sigma && estimate.free);
+    pub fn new(problem: &Problem, gauss: &FitResult, cauchy: &FitResult, watch: Observer<'_>) -> Option<Self> {
+        let is_free = |report: &FitResult| report.estimates.iter().any(|estimate| estimate.parameter == Parameter::Sigma && estimate.free);
         let Parameters { sigma, q, .. } = cauchy.parameters;
         let median = SlopeDistribution::gauss_of_equal_median(sigma, q);
         let is_a_sigma = median.is_finite() && median > 0.0;
@@ -131,7 +131,7 @@ impl HeldGauss {
 
     /// In a sentence.
     #[must_use]
-    pub fn text(&self, contest: &Contest) -> String {
+    pub fn text(&self, contest: &DistributionComparison) -> String {
         let times =
             |sum: f64| if contest.cauchy > 0.0 { format!("{:.4} times Cauchy's", sum / contest.cauchy) } else { format!("{sum:.4e}") };
         let ((equal, on_equal), (median, on_median)) = (self.equal_sigma, self.equal_median);

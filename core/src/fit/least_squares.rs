@@ -34,16 +34,16 @@ pub trait LeastSquares {
     }
 
     /// Turns the derivatives by the moving unknowns into those by their straightened coordinates at x.
-    fn straighten(&self, _x: &DVector<f64>, _moving: &[usize], _jacobian: &mut DMatrix<f64>) {}
+    fn to_local(&self, _x: &DVector<f64>, _moving: &[usize], _jacobian: &mut DMatrix<f64>) {}
 
     /// The least and largest step of a moving unknown's straightened coordinate at x that stay in the box.
-    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+    fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
         let (low, high) = self.bounds_of(unknown);
         (low - x[unknown], high - x[unknown])
     }
 
     /// Writes the point that a step of the straightened coordinates leads to from x.
-    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+    fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);
         for (&unknown, step) in moving.iter().zip(step) {
             out[unknown] += step;

@@ -1,7 +1,7 @@
 //! Floor 4: from a measurement to parameters, and how far they can be trusted.
 //!
-//! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitReport`]: a value with parameters, standard errors, what
-//! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Watch`]).
+//! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitResult`]: a value with parameters, standard errors, what
+//! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Observer`]).
 
 mod bounds;
 mod design;
@@ -16,16 +16,18 @@ mod options;
 mod result;
 
 pub use bounds::{Bounds, BoundsError};
-pub use design::{Plan, PlanError, PlannedNoise, Prediction};
-pub use distribution_comparison::{Contest, HeldGauss};
-pub use intervals::band::Band;
-pub use intervals::bootstrap::{Scatter, bootstrap};
-pub use intervals::linear::{OpenDirection, RANK_THRESHOLD, Uncertainty};
+pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
+pub use distribution_comparison::{DistributionComparison, GaussAtFixedSigma};
+pub use intervals::band::PredictionBand;
+pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
+pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection};
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
-pub use local::solver::{Descent, Effort, Solution, StopReason, TracePoint, Watch, descend, minimise};
-pub use multistart::search::{Found, Search, Starts, search};
+pub use local::solver::{Effort, LocalFit, Observer, Solution, StopReason, TracePoint, fit_local, minimise};
+pub use multistart::search::{Basin, MultistartResult, Starts, search};
 pub use objective::{Problem, ProblemError, free_by_default};
-pub use options::{BrdfResiduals, Choices, Eq17, Loss, Weights};
-pub use result::{Edge, Estimate, FitReport, Minimum, Standing, fit, is_loose, loose_in_words, size_of};
+pub use options::{BrdfResiduals, DolpFormula, FitOptions, Loss, Weights};
+pub use result::{
+    Edge, Estimate, EstimateStatus, FitResult, Minimum, describe_poorly_determined, fit, is_poorly_determined, relative_error_base,
+};

@@ -9,9 +9,9 @@
 //! `ρ(z) = 2(√(1 + z) − 1)`.
 
 use crate::fit::bounds::Bounds;
-use crate::fit::options::{BrdfResiduals, Choices, Eq17, Loss, Weights};
+use crate::fit::options::{BrdfResiduals, DolpFormula, FitOptions, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
-use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Scene, Wanted};
+use crate::model::{GeometrySet, Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 use crate::optics::RefractiveIndex;
 use nalgebra::{DMatrix, DVector};
 
@@ -97,10 +97,10 @@ pub struct Problem {
     free: Vec<Parameter>,
     start: Parameters,
     bounds: Bounds,
-    choices: Choices,
-    scene: Scene,
+    choices: FitOptions,
+    scene: GeometrySet,
     data: Vec<Datum>,
-    wanted: Wanted,
+    wanted: GradientRequest,
     /// Σ Xm² of DoLP and of BRDF, where there are any.
     sums: [Option<f64>; 2],
     /// Where the loss changes from squares to sizes, for DoLP and BRDF, in units of the scaled residual.
@@ -116,7 +116,7 @@ impl Problem {
         start: Parameters,
         free: ParameterSet,
         bounds: Bounds,
-        choices: Choices,
+        choices: FitOptions,
     ) -> Result<Self, ProblemError> {
         for parameter in free {
             if !bounds.contain(parameter, start[parameter]) {
@@ -128,7 +128,7 @@ impl Problem {
             return Err(ProblemError::NothingToPredict);
         }
         let rows = || measurement.rows.iter().enumerate().filter(|(_, row)| !row.masked);
-        let scene = Scene::new(rows().map(|(_, row)| row.geometry));
+        let scene = GeometrySet::new(rows().map(|(_, row)| row.geometry));
         let mut problem = Self {
             model,
             free: free.intersection(model.parameters()).iter().collect(),
@@ -137,7 +137,7 @@ impl Problem {
             choices,
             scene,
             data: Vec::new(),
-            wanted: Wanted { by: free, brdf: false, dolp: false },
+            wanted: GradientRequest { by: free, brdf: false, dolp: false },
             sums: [None; 2],
             loss_scales: [1.0; 2],
             left_out: 0,
@@ -207,7 +207,7 @@ impl Problem {
     /// The same problem with every residual counted by its square.
     #[must_use]
     pub fn with_linear_loss(&self) -> Self {
-        Self { choices: Choices { loss: Loss::Linear, ..self.choices }, ..self.clone() }
+        Self { choices: FitOptions { loss: Loss::Squared, ..self.choices }, ..self.clone() }
     }
 
     /// The same problem with the scale of its loss taken from the residuals at those parameters, for each quantity by itself:
@@ -261,7 +261,7 @@ impl Problem {
 
     /// The choices.
     #[must_use]
-    pub fn choices(&self) -> &Choices {
+    pub fn choices(&self) -> &FitOptions {
         &self.choices
     }
 
@@ -304,7 +304,7 @@ impl Problem {
     pub fn with_free(&self, free: ParameterSet) -> Self {
         Self {
             free: free.intersection(self.model.parameters()).iter().collect(),
-            wanted: Wanted { by: free, ..self.wanted },
+            wanted: GradientRequest { by: free, ..self.wanted },
             ..self.clone()
         }
         .prepared()
@@ -384,8 +384,8 @@ impl Problem {
     /// DoLP by the chosen reading of Eq. (17).
     fn dolp(&self, consistent: f64, ks: f64) -> f64 {
         match self.choices.eq17 {
-            Eq17::Consistent => consistent,
-            Eq17::Printed => consistent / ks,
+            DolpFormula::Consistent => consistent,
+            DolpFormula::AsPrinted => consistent / ks,
         }
     }
 
@@ -394,22 +394,22 @@ impl Problem {
         match (kind, self.choices.eq17) {
             (Kind::Brdf, _) => gradient.brdf[j],
             (Kind::LogBrdf, _) => gradient.brdf[j] / reflection.brdf,
-            (Kind::Dolp, Eq17::Consistent) => gradient.dolp[j],
-            (Kind::Dolp, Eq17::Printed) if parameter == Parameter::Ks => (gradient.dolp[j] - reflection.dolp / ks) / ks,
-            (Kind::Dolp, Eq17::Printed) => gradient.dolp[j] / ks,
+            (Kind::Dolp, DolpFormula::Consistent) => gradient.dolp[j],
+            (Kind::Dolp, DolpFormula::AsPrinted) if parameter == Parameter::Ks => (gradient.dolp[j] - reflection.dolp / ks) / ks,
+            (Kind::Dolp, DolpFormula::AsPrinted) => gradient.dolp[j] / ks,
         }
     }
 
     /// A residual as the loss counts it, and the slope of that.
     fn loss(&self, datum: &Datum, residual: f64) -> (f64, f64) {
         let scale = self.loss_scales[datum.kind.block()];
-        if self.choices.loss == Loss::Linear || scale <= 0.0 {
+        if self.choices.loss == Loss::Squared || scale <= 0.0 {
             return (residual, 1.0);
         }
         let r = residual / scale;
         let z = r * r;
         let (rho, slope) = match self.choices.loss {
-            Loss::Linear => (z, 1.0),
+            Loss::Squared => (z, 1.0),
             Loss::Huber if z <= 1.0 => (z, 1.0),
             Loss::Huber => (2.0 * r.abs() - 1.0, 1.0 / r.abs()),
             // 2(√(1 + z) − 1) without the difference.
@@ -435,7 +435,7 @@ impl Problem {
     }
 
     /// The prepared geometries of the rows that are not masked.
-    pub(crate) fn scene(&self) -> &Scene {
+    pub(crate) fn scene(&self) -> &GeometrySet {
         &self.scene
     }
 
@@ -461,7 +461,7 @@ impl Problem {
     #[must_use]
     pub fn minimises_delta_e(&self) -> bool {
         let absolute = !self.wanted.brdf || self.choices.brdf_residuals == BrdfResiduals::Absolute;
-        absolute && self.choices.weights == Weights::None && self.choices.loss == Loss::Linear
+        absolute && self.choices.weights == Weights::None && self.choices.loss == Loss::Squared
     }
 
     /// ΔE of Eq. (18), given the sum of squared residuals: the same number wherever that is what is minimised.
@@ -520,20 +520,20 @@ impl Problem {
     /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, in its consistent reading.
     #[must_use]
     pub fn knows_only_ratios(&self) -> bool {
-        !self.wanted.brdf && self.choices.eq17 == Eq17::Consistent
+        !self.wanted.brdf && self.choices.eq17 == DolpFormula::Consistent
     }
 }
 
 /// The parameters that a fit changes unless told otherwise: all of the model, but with DoLP alone k_s stays (only ratios of
 /// weights enter), and so do those that DoLP does not depend on.
 #[must_use]
-pub fn free_by_default(model: Model, measurement: &Measurement, choices: &Choices) -> ParameterSet {
+pub fn free_by_default(model: Model, measurement: &Measurement, choices: &FitOptions) -> ParameterSet {
     if measurement.has_brdf() && !choices.dolp_only {
         return model.parameters();
     }
     let set = model.dolp_parameters();
     match choices.eq17 {
-        Eq17::Consistent => set.without(Parameter::Ks),
-        Eq17::Printed => set.with(Parameter::Ks),
+        DolpFormula::Consistent => set.without(Parameter::Ks),
+        DolpFormula::AsPrinted => set.with(Parameter::Ks),
     }
 }

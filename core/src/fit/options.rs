@@ -32,7 +32,8 @@ pub enum BrdfResiduals {
 pub enum Loss {
     /// By its square.
     #[default]
-    Linear,
+    #[serde(alias = "linear")]
+    Squared,
     /// By its square up to the scale, by its size beyond.
     Huber,
     /// The same with a smooth passage.
@@ -42,18 +43,19 @@ pub enum Loss {
 /// Which reading of Eq. (17) predicts DoLP.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Eq17 {
+pub enum DolpFormula {
     /// k_s inside the numerator, as Eqs. (14, 15) have it.
     #[default]
     Consistent,
     /// k_s missing from the numerator, as printed: the consistent value divided by k_s.
-    Printed,
+    #[serde(alias = "printed")]
+    AsPrinted,
 }
 
 /// The choices of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Choices {
+pub struct FitOptions {
     /// What divides a residual.
     pub weights: Weights,
     /// How a BRDF residual is formed.
@@ -61,10 +63,10 @@ pub struct Choices {
     /// How a residual counts.
     pub loss: Loss,
     /// Scale of the loss, in units of X − Xm (or of what else the residual is before Eq. (18) scales it; in standard deviations
-    /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with linear loss.
+    /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with the squared loss.
     pub loss_scale: Option<f64>,
     /// Which reading of Eq. (17).
-    pub eq17: Eq17,
+    pub eq17: DolpFormula,
     /// Leave measured BRDFs aside: the model does not predict them.
     pub dolp_only: bool,
 }

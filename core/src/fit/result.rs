@@ -1,9 +1,9 @@
 //! The result of a fit: values, uncertainties, what is open, and how it came about.
 
-use crate::fit::intervals::band::Band;
-use crate::fit::intervals::linear::{OpenDirection, Uncertainty};
-use crate::fit::local::solver::{Descent, StopReason, TracePoint, Watch};
-use crate::fit::multistart::search::{Search, Starts, search};
+use crate::fit::intervals::band::PredictionBand;
+use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
+use crate::fit::local::solver::{LocalFit, Observer, StopReason, TracePoint};
+use crate::fit::multistart::search::{MultistartResult, Starts, search};
 use crate::fit::objective::Problem;
 use crate::fit::options::{Loss, Weights};
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
@@ -39,7 +39,7 @@ pub struct Estimate {
 
 /// How an estimate stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Standing {
+pub enum EstimateStatus {
     /// The fit did not touch it.
     Fixed,
     /// It rests on a bound, and has no standard error there.
@@ -47,7 +47,7 @@ pub enum Standing {
     /// The data determine it, with this standard error in its own unit.
     Determined(f64),
     /// The data determine it, but no degree of freedom is left to tell a standard error from.
-    NoFreedom,
+    NoDegreesOfFreedom,
     /// The data leave it open.
     Open,
 }
@@ -55,27 +55,27 @@ pub enum Standing {
 impl Estimate {
     /// How it stands; a bound comes before all else that is said of a free parameter.
     #[must_use]
-    pub fn standing(&self) -> Standing {
+    pub fn standing(&self) -> EstimateStatus {
         match (self.free, self.at_bound, self.std_error) {
-            (false, ..) => Standing::Fixed,
-            (true, Some(edge), _) => Standing::AtBound(edge),
-            (true, None, Some(error)) => Standing::Determined(error),
-            (true, None, None) if self.determined => Standing::NoFreedom,
-            (true, None, None) => Standing::Open,
+            (false, ..) => EstimateStatus::Fixed,
+            (true, Some(edge), _) => EstimateStatus::AtBound(edge),
+            (true, None, Some(error)) => EstimateStatus::Determined(error),
+            (true, None, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
+            (true, None, None) => EstimateStatus::Open,
         }
     }
 
     /// Whether the data determine it, but to no better than half its size.
     #[must_use]
-    pub fn is_loose(&self) -> bool {
-        matches!(self.standing(), Standing::Determined(error) if is_loose(self.parameter, self.value, error))
+    pub fn is_poorly_determined(&self) -> bool {
+        matches!(self.standing(), EstimateStatus::Determined(error) if is_poorly_determined(self.parameter, self.value, error))
     }
 }
 
 /// What an error of a parameter is measured by: its distance from where its effect vanishes, or, for c, which has no such place, the width of
 /// its range.
 #[must_use]
-pub fn size_of(parameter: Parameter, value: f64) -> f64 {
+pub fn relative_error_base(parameter: Parameter, value: f64) -> f64 {
     match parameter {
         Parameter::Q => value - 1.0,
         Parameter::C => 1.0,
@@ -85,15 +85,15 @@ pub fn size_of(parameter: Parameter, value: f64) -> f64 {
 
 /// Parameters with errors above half of their size in words, if there are any.
 #[must_use]
-pub fn loose_in_words(parameters: impl Iterator<Item = Parameter>) -> Option<String> {
+pub fn describe_poorly_determined(parameters: impl Iterator<Item = Parameter>) -> Option<String> {
     let symbols: Vec<&str> = parameters.map(Parameter::symbol).collect();
     (!symbols.is_empty()).then(|| format!("a standard error above half of the value: {}", symbols.join(", ")))
 }
 
 /// Whether an error is above half of that size: then the value says next to nothing.
 #[must_use]
-pub fn is_loose(parameter: Parameter, value: f64, error: f64) -> bool {
-    error > 0.5 * size_of(parameter, value)
+pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> bool {
+    error > 0.5 * relative_error_base(parameter, value)
 }
 
 /// The end of one start, for the list of minima.
@@ -111,7 +111,7 @@ pub struct Minimum {
 
 /// The result of a fit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FitReport {
+pub struct FitResult {
     /// Which terms there are.
     pub model: Model,
     /// All nine values; those that play no part are as they were.
@@ -143,13 +143,13 @@ pub struct FitReport {
     /// Milliseconds from the first residual evaluation to the last.
     pub elapsed_ms: f64,
     /// Directions that the data leave open.
-    pub undetermined: Vec<OpenDirection>,
+    pub undetermined: Vec<UndeterminedDirection>,
     /// Determined parameters, in the order of the correlations.
     pub determined: Vec<Parameter>,
     /// Their correlations.
     pub correlations: DMatrix<f64>,
     /// Standard errors of the fitted curves at any geometry.
-    pub band: Band,
+    pub band: PredictionBand,
     /// Where the starts led; empty where that is not known any more.
     pub minima: Vec<Minimum>,
     /// The improvements on the way of the winning start.
@@ -167,36 +167,36 @@ const AT_BOUND: f64 = 1e-9;
 
 /// Fits from one start or many and says what came out.
 #[must_use]
-pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> FitReport {
+pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Observer<'_>) -> FitResult {
     let choices = problem.choices();
-    if choices.loss == Loss::Linear || choices.loss_scale.is_some() {
+    if choices.loss == Loss::Squared || choices.loss_scale.is_some() {
         let found = search(problem, starts, seed, watch);
-        return FitReport::new(problem, found, (watch.clock)());
+        return FitResult::new(problem, found, (watch.clock)());
     }
     let linear = search(&problem.with_linear_loss(), starts, seed, watch);
     let scaled = linear.found.first().map(|best| problem.with_loss_scale_of(&best.descent.parameters).with_start(best.descent.parameters));
     let robust = scaled.unwrap_or_else(|| problem.clone());
     let mut found = search(&robust, starts, seed, watch);
     found.evaluations += linear.evaluations;
-    FitReport::new(&robust.with_start(*problem.start()), found, (watch.clock)())
+    FitResult::new(&robust.with_start(*problem.start()), found, (watch.clock)())
 }
 
-impl FitReport {
+impl FitResult {
     /// What the data leave open, each in words: directions, and the parameters that are determined but hardly known.
     #[must_use]
-    pub fn open_in_words(&self) -> Vec<String> {
-        let loose = self.estimates.iter().filter(|estimate| estimate.is_loose()).map(|estimate| estimate.parameter);
-        self.undetermined.iter().map(|direction| direction.text.clone()).chain(loose_in_words(loose)).collect()
+    pub fn describe_undetermined(&self) -> Vec<String> {
+        let loose = self.estimates.iter().filter(|estimate| estimate.is_poorly_determined()).map(|estimate| estimate.parameter);
+        self.undetermined.iter().map(|direction| direction.text.clone()).chain(describe_poorly_determined(loose)).collect()
     }
 
     /// The report of a search that was made before, on a problem with the loss scales that it had then; none where it found nothing.
     #[must_use]
-    pub fn again(problem: &Problem, search: Search, elapsed_ms: f64) -> Option<Self> {
+    pub fn again(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> Option<Self> {
         (!search.found.is_empty()).then(|| Self::new(problem, search, elapsed_ms))
     }
 
-    fn new(problem: &Problem, search: Search, elapsed_ms: f64) -> Self {
-        let Search { mut found, evaluations } = search;
+    fn new(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> Self {
+        let MultistartResult { mut found, evaluations } = search;
         let minima = found.iter().map(|found| Minimum {
             parameters: found.descent.parameters,
             objective: problem.delta_e(&found.descent.parameters).unwrap_or(f64::NAN),
@@ -204,7 +204,7 @@ impl FitReport {
             reached: found.reached,
         });
         let mut minima: Vec<Minimum> = minima.collect();
-        let Descent { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = found.swap_remove(0).descent;
+        let LocalFit { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = found.swap_remove(0).descent;
         let at_bound: ParameterSet =
             problem.free().iter().copied().filter(|&parameter| edge(problem, &parameters, parameter).is_some()).collect();
         let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
@@ -246,7 +246,7 @@ impl FitReport {
             correlations: uncertainty.correlations(),
             determined: uncertainty.determined.clone(),
             undetermined: uncertainty.open.clone(),
-            band: Band::new(problem, &parameters, uncertainty),
+            band: PredictionBand::new(problem, &parameters, uncertainty),
             minima,
             trace,
             path,

@@ -16,7 +16,7 @@ mod write;
 
 pub use mapping::{ColumnChoice, Field, MappedColumn, Mapping, MappingError, Unit};
 pub use read::{read, read_mapped};
-pub use series::{Mark, Series};
+pub use series::{DataPoint, Series};
 pub use simulate::{Columns, Simulation, grid_geometries};
 pub use table::{Column, Progress, ReadError, ReadErrorKind, Record, Table};
 pub use tensor::{Tensor, TensorError, TensorErrorKind, TensorSlice, is_tensor, read_tensor, rusinkiewicz, tensor_from_bytes};

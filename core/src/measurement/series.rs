@@ -5,7 +5,7 @@ use crate::optics::Geometry;
 
 /// One measured value in a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
+pub struct DataPoint {
     /// θr in degrees, negative on the backscatter side.
     pub theta_r: f64,
     /// What was measured.
@@ -24,9 +24,9 @@ pub struct Series {
     /// Δφ of its forward side in degrees, 90 < Δφ ≤ 270; 180 is the plane of incidence.
     pub plane: f64,
     /// Measured DoLP.
-    pub dolp: Vec<Mark>,
+    pub dolp: Vec<DataPoint>,
     /// Measured BRDF.
-    pub brdf: Vec<Mark>,
+    pub brdf: Vec<DataPoint>,
     /// Its rows in the measurement.
     pub rows: Vec<usize>,
 }
@@ -51,7 +51,7 @@ impl Series {
             }
             if let Some(last) = groups.last_mut() {
                 let row = &rows[index];
-                let mark = |quantity| Mark { theta_r, quantity, masked: row.masked, row: index };
+                let mark = |quantity| DataPoint { theta_r, quantity, masked: row.masked, row: index };
                 last.dolp.extend(row.dolp.map(mark));
                 last.brdf.extend(row.brdf.map(mark));
                 last.rows.push(index);

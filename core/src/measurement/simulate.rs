@@ -4,7 +4,7 @@
 //! deviates and model use the elementary functions of `libm`.
 
 use crate::measurement::{Measurement, Quantity, Row};
-use crate::model::{Parameters, Pbrdf, Scene};
+use crate::model::{GeometrySet, Parameters, Pbrdf};
 use crate::optics::{Geometry, GeometryError};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -68,7 +68,7 @@ impl Simulation {
     pub fn run(&self) -> Result<Measurement, GeometryError> {
         let geometries = self.geometries()?;
         let mut deviates = Deviates::new(self.seed);
-        let scene = Scene::new(geometries.iter().copied());
+        let scene = GeometrySet::new(geometries.iter().copied());
         let rows = geometries.iter().zip(scene.reflections(&self.surface)).map(|(&geometry, reflection)| {
             let (z_dolp, z_brdf) = deviates.pair();
             let noisy_dolp = (reflection.dolp + self.noise * z_dolp).clamp(0.0, 1.0);

@@ -1,13 +1,13 @@
 //! A list of geometries prepared once for many evaluations, and, where the index stays the same, their Fresnel reflection as well.
 
-use crate::model::prepared::AtHand;
-use crate::model::{Gradient, Pbrdf, Reflection, Wanted};
+use crate::model::prepared::PreparedGeometry;
+use crate::model::{Gradient, GradientRequest, Pbrdf, Reflection};
 use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex, SharpFacet};
 use std::sync::{Arc, OnceLock};
 
 /// Geometries, prepared.
 #[derive(Debug, Clone, Default)]
-pub struct Scene {
+pub struct GeometrySet {
     facets: Vec<Facet>,
     /// Of each facet, for surfaces of that index.
     fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
@@ -16,13 +16,13 @@ pub struct Scene {
 }
 
 /// Equal where the geometries are: what else is prepared changes no result.
-impl PartialEq for Scene {
+impl PartialEq for GeometrySet {
     fn eq(&self, other: &Self) -> bool {
         self.facets == other.facets
     }
 }
 
-impl Scene {
+impl GeometrySet {
     /// Prepares geometries, keeping their order.
     #[must_use]
     pub fn new(geometries: impl IntoIterator<Item = Geometry>) -> Self {
@@ -83,7 +83,7 @@ impl Scene {
 
     /// The same with derivatives, as [`Pbrdf::reflection_and_gradient`] has them.
     #[must_use]
-    pub fn reflection_and_gradient(&self, surface: &Pbrdf, point: usize, wanted: Wanted) -> (Reflection, Gradient) {
+    pub fn reflection_and_gradient(&self, surface: &Pbrdf, point: usize, wanted: GradientRequest) -> (Reflection, Gradient) {
         surface.reflection_and_gradient_with(&self.at(point), wanted)
     }
 
@@ -96,7 +96,7 @@ impl Scene {
     pub fn reflections_and_gradients<'a>(
         &'a self,
         surface: &'a Pbrdf,
-        wanted: Wanted,
+        wanted: GradientRequest,
     ) -> impl Iterator<Item = (Reflection, Gradient)> + 'a {
         (0..self.len()).map(move |point| self.reflection_and_gradient(surface, point, wanted))
     }
@@ -108,11 +108,11 @@ impl Scene {
 
 /// One geometry of a scene.
 struct Place<'a> {
-    scene: &'a Scene,
+    scene: &'a GeometrySet,
     point: usize,
 }
 
-impl AtHand for Place<'_> {
+impl PreparedGeometry for Place<'_> {
     fn facet(&self) -> &Facet {
         &self.scene.facets[self.point]
     }
@@ -132,8 +132,8 @@ impl AtHand for Place<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::Scene;
-    use crate::model::{Batch, Model, Parameters, Pbrdf, Wanted};
+    use super::GeometrySet;
+    use crate::model::{Batch, GradientRequest, Model, Parameters, Pbrdf};
     use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
 
     #[test]
@@ -142,15 +142,15 @@ mod tests {
         let geometries = geometries.map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
         let defaults = Parameters::default();
         let index = RefractiveIndex::new(defaults.n, defaults.k).expect("an index");
-        let scene = Scene::new(geometries).with_index(index);
+        let scene = GeometrySet::new(geometries).with_index(index);
         for parameters in [defaults, Parameters { sigma: 0.1, ..defaults }, Parameters { n: 1.5, ..defaults }] {
             let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), parameters).expect("in range");
             for (point, geometry) in geometries.into_iter().enumerate() {
                 let facet = Facet::new(geometry);
                 assert_eq!(scene.dolp(&surface, point), surface.dolp(&facet));
                 assert_eq!(scene.reflection(&surface, point), surface.reflection(&facet));
-                let expected = surface.reflection_and_gradient(&facet, Wanted::ALL);
-                assert_eq!(scene.reflection_and_gradient(&surface, point, Wanted::ALL), expected);
+                let expected = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
+                assert_eq!(scene.reflection_and_gradient(&surface, point, GradientRequest::ALL), expected);
             }
         }
     }
@@ -161,7 +161,7 @@ mod tests {
             Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters { sigma: 0.02, kd: 1e-200, kv: 0.0, ..Parameters::default() })
                 .expect("in range");
         let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
-        let (scene, facet) = (Scene::new([geometry]), Facet::new(geometry));
+        let (scene, facet) = (GeometrySet::new([geometry]), Facet::new(geometry));
         let copy = scene.clone();
         assert!(surface.dolp(&facet) > 0.0);
         assert_eq!(scene.dolp(&surface, 0), surface.dolp(&facet));
@@ -176,7 +176,7 @@ mod tests {
         for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
             let surface = Pbrdf::new(Model::full(distribution), extreme).expect("in range");
             let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
-            let scene = Scene::new([geometry]);
+            let scene = GeometrySet::new([geometry]);
             let mut dolp = Vec::new();
             Batch::from_scene(scene.clone()).dolp(&surface, &mut dolp);
             assert_eq!(dolp, [surface.dolp(&Facet::new(geometry))]);

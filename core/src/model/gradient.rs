@@ -9,10 +9,10 @@
 //! formed so that none of them is 0/0 at k_s, k_d, k_v, k = 0 or N = 1, nor where a lobe underflows. At k, k_d, k_v = 0 the
 //! derivatives are one-sided; one beyond f64 is infinite.
 
-use crate::model::hyde_diffuse::Loss;
+use crate::model::hyde_diffuse::SingleScatteringLoss;
 use crate::model::lobes::Lobe;
 use crate::model::pbrdf::{Lobes, Pbrdf, Reflection};
-use crate::model::prepared::AtHand;
+use crate::model::prepared::PreparedGeometry;
 use crate::model::{Diffuse, Parameter, ParameterSet};
 use crate::optics::{Facet, Fresnel, FresnelGradient};
 
@@ -29,7 +29,7 @@ pub struct Gradient {
 
 /// Which derivatives are wanted; the others are left out and stay 0, and so do BRDF with its terms, or DoLP, where no derivative of them is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Wanted {
+pub struct GradientRequest {
     /// By these parameters.
     pub by: ParameterSet,
     /// Of the BRDF.
@@ -38,7 +38,7 @@ pub struct Wanted {
     pub dolp: bool,
 }
 
-impl Wanted {
+impl GradientRequest {
     /// Everything.
     pub const ALL: Self = Self { by: ParameterSet::ALL, brdf: true, dolp: true };
 }
@@ -72,12 +72,12 @@ struct Mixture {
 impl Pbrdf {
     /// BRDF, DoLP and terms with their derivatives at a prepared geometry: those that are wanted.
     #[must_use]
-    pub fn reflection_and_gradient(&self, facet: &Facet, wanted: Wanted) -> (Reflection, Gradient) {
+    pub fn reflection_and_gradient(&self, facet: &Facet, wanted: GradientRequest) -> (Reflection, Gradient) {
         self.reflection_and_gradient_with(facet, wanted)
     }
 
     /// The same of a geometry of which more may be at hand.
-    pub(crate) fn reflection_and_gradient_with(&self, at: &impl AtHand, wanted: Wanted) -> (Reflection, Gradient) {
+    pub(crate) fn reflection_and_gradient_with(&self, at: &impl PreparedGeometry, wanted: GradientRequest) -> (Reflection, Gradient) {
         let p = self.parameters();
         let facet = at.facet();
         let lobes = self.lobes(at);
@@ -242,8 +242,8 @@ impl Pbrdf {
 
 impl Pbrdf {
     /// What single reflection loses, for Hyde's term.
-    fn loss(&self, facet: &Facet) -> Loss {
-        Loss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)
+    fn loss(&self, facet: &Facet) -> SingleScatteringLoss {
+        SingleScatteringLoss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)
     }
 }
 

@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// (1 − ρ)/π, and its logarithmic derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Loss {
+pub(crate) struct SingleScatteringLoss {
     /// The Lambertian lobe that carries what is lost, in sr⁻¹.
     pub(crate) lobe: Lobe,
     /// ∂ln(1 − ρ)/∂σ.
@@ -31,10 +31,10 @@ type Key = (SlopeDistribution, [u64; 3]);
 const REMEMBERED: usize = 256;
 
 thread_local! {
-    static MEMORY: RefCell<Vec<Option<(Key, Loss)>>> = const { RefCell::new(Vec::new()) };
+    static MEMORY: RefCell<Vec<Option<(Key, SingleScatteringLoss)>>> = const { RefCell::new(Vec::new()) };
 }
 
-impl Loss {
+impl SingleScatteringLoss {
     /// At an angle of incidence, for slope σ > 0 and, of Cauchy, tail exponent q > 1: the quadrature is made once per (θi, σ, q) and remembered.
     pub(crate) fn at(distribution: SlopeDistribution, theta_i: Degrees, sigma: f64, q: f64) -> Self {
         let q = if distribution == SlopeDistribution::Gauss { 0.0 } else { q };
@@ -89,7 +89,7 @@ impl Loss {
 
 /// 1 − ρ(θi), what single reflection by a perfect reflector loses in V-grooves of a model's facets: 0 to 1.
 pub(crate) fn lost_by_single_reflection(model: Model, parameters: &Parameters, theta_i: Degrees) -> f64 {
-    PI * Loss::at(model.distribution, theta_i, parameters.sigma, parameters.q).lobe.value()
+    PI * SingleScatteringLoss::at(model.distribution, theta_i, parameters.sigma, parameters.q).lobe.value()
 }
 
 /// Where a loss is remembered: any mixture of the bits that tells neighbouring angles apart (Fibonacci hashing).
@@ -108,14 +108,14 @@ fn survival_slopes(distribution: SlopeDistribution, w: f64, sigma: f64, q: f64) 
 
 #[cfg(test)]
 mod tests {
-    use super::{Degrees, Lobe, Loss, Order, PI};
+    use super::{Degrees, Lobe, Order, PI, SingleScatteringLoss};
     use crate::model::lobes;
     use crate::optics::SlopeDistribution;
     use crate::optics::SlopeDistribution::{Cauchy, Gauss};
     use crate::optics::{Facet, Geometry, reduced_slope_sq};
 
     fn rho(distribution: SlopeDistribution, theta_i: f64, sigma: f64, q: f64) -> f64 {
-        1.0 - PI * Loss::at(distribution, Degrees(theta_i), sigma, q).lobe.value()
+        1.0 - PI * SingleScatteringLoss::at(distribution, Degrees(theta_i), sigma, q).lobe.value()
     }
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
             (85.0, 0.3, 0.024_161_225_133_024_1, 1e-11),
             (89.0, 0.1, 0.011_814_419_356_246_2, 1e-8),
         ] {
-            let lost = PI * Loss::at(Gauss, Degrees(theta_i), sigma, 0.0).lobe.value();
+            let lost = PI * SingleScatteringLoss::at(Gauss, Degrees(theta_i), sigma, 0.0).lobe.value();
             assert!((lost / expected - 1.0).abs() < tolerance, "θi = {theta_i}°, σ = {sigma}: {lost} {expected}");
         }
     }
@@ -181,8 +181,8 @@ mod tests {
     fn twice_the_nodes_change_nothing_at_grazing_angles_and_on_mirrors() {
         // Half of the nodes keep half of the digits: so much better is the whole rule.
         for (theta_i, sigma, tolerance) in [(89.9, 0.3, 1e-4), (30.0, 0.001, 1e-3), (85.0, 3.0, 1e-5)] {
-            let [fine, coarse] =
-                [Order::Fine, Order::Coarse].map(|order| Loss::by_quadrature(Gauss, Degrees(theta_i), sigma, 0.0, order).lobe.factor);
+            let [fine, coarse] = [Order::Fine, Order::Coarse]
+                .map(|order| SingleScatteringLoss::by_quadrature(Gauss, Degrees(theta_i), sigma, 0.0, order).lobe.factor);
             assert!((coarse / fine - 1.0).abs() < tolerance, "θi = {theta_i}°, σ = {sigma}: {coarse} {fine}");
         }
     }
@@ -194,10 +194,10 @@ mod tests {
         for (distribution, q) in [(Gauss, 2.0), (Cauchy, 1.4), (Cauchy, 6.0)] {
             for (theta_i, sigma) in [(0.0, 0.2), (40.0, 0.05), (70.0, 0.6), (88.0, 0.3)] {
                 let ln = |sigma: f64, q: f64| {
-                    let Lobe { factor, exponent, .. } = Loss::at(distribution, Degrees(theta_i), sigma, q).lobe;
+                    let Lobe { factor, exponent, .. } = SingleScatteringLoss::at(distribution, Degrees(theta_i), sigma, q).lobe;
                     libm::log(factor) - exponent
                 };
-                let loss = Loss::at(distribution, Degrees(theta_i), sigma, q);
+                let loss = SingleScatteringLoss::at(distribution, Degrees(theta_i), sigma, q);
                 let by_sigma = (ln(sigma * (1.0 + step), q) - ln(sigma * (1.0 - step), q)) / (2.0 * step * sigma);
                 let by_q = (ln(sigma, q + step) - ln(sigma, q - step)) / (2.0 * step);
                 assert!(
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_mirror_loses_less_than_f64_can_hold_and_still_has_a_ratio() {
-        let loss = Loss::at(Gauss, Degrees(30.0), 0.001, 0.0);
+        let loss = SingleScatteringLoss::at(Gauss, Degrees(30.0), 0.001, 0.0);
         assert_eq!(loss.lobe.value(), 0.0);
         // tan²20°/2σ², the first slope at which anything is lost.
         let tan = libm::tan(20.0_f64.to_radians());

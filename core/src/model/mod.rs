@@ -23,8 +23,8 @@ pub use assignment::{AssignmentError, assignment_from_text, assignments_from_tex
 pub use audit::{Audit, Check, Finding, Reflectance};
 pub use batch::{Batch, DolpGradients, Instructions, Radiances};
 pub use finishes::{FINISHES, Finish};
-pub use geometry_set::Scene;
-pub use gradient::{Gradient, Wanted};
+pub use geometry_set::GeometrySet;
+pub use gradient::{Gradient, GradientRequest};
 pub use hemisphere::{Hemisphere, HemisphereMap};
 pub(crate) use hyde_diffuse::lost_by_single_reflection;
 pub use lobes::Lobe;

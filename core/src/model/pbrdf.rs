@@ -5,10 +5,10 @@
 //! and right even where the specular term underflows.
 
 use crate::model::far_tail::Logarithms;
-use crate::model::hyde_diffuse::Loss;
+use crate::model::hyde_diffuse::SingleScatteringLoss;
 use crate::model::lobes;
 use crate::model::lobes::Lobe;
-use crate::model::prepared::AtHand;
+use crate::model::prepared::PreparedGeometry;
 use crate::model::{Parameter, ParameterError, ParameterSet, Parameters};
 use crate::optics::{Facet, Fresnel, Geometry, Mueller, RefractiveIndex, SlopeDistribution};
 use serde::{Deserialize, Serialize};
@@ -186,7 +186,7 @@ impl Pbrdf {
     }
 
     /// The same of a geometry of which more may be at hand.
-    pub(crate) fn reflection_with(&self, at: &impl AtHand) -> Reflection {
+    pub(crate) fn reflection_with(&self, at: &impl PreparedGeometry) -> Reflection {
         let p = &self.parameters;
         let lobes = self.lobes(at);
         let mut reflection = Reflection {
@@ -211,7 +211,7 @@ impl Pbrdf {
     }
 
     /// The same of a geometry of which more may be at hand.
-    pub(crate) fn dolp_with(&self, at: &impl AtHand) -> f64 {
+    pub(crate) fn dolp_with(&self, at: &impl PreparedGeometry) -> f64 {
         if !self.model.specular {
             return 0.0;
         }
@@ -261,7 +261,7 @@ impl Pbrdf {
     }
 
     /// The lobes of unit weight; those of absent terms are dark.
-    pub(crate) fn lobes(&self, at: &impl AtHand) -> Lobes {
+    pub(crate) fn lobes(&self, at: &impl PreparedGeometry) -> Lobes {
         let Self { model, parameters: p, .. } = self;
         let facet = at.facet();
         let g_over_cosines = if model.masking { facet.g_over_cosines } else { facet.one_over_cosines };
@@ -274,7 +274,7 @@ impl Pbrdf {
                 Diffuse::Absent => Lobe::DARK,
                 Diffuse::Lambert => lobes::diffuse(facet, 0.0),
                 Diffuse::Minnaert => lobes::diffuse(facet, p.c),
-                Diffuse::Hyde if model.specular => Loss::at(model.distribution, facet.theta_i, p.sigma, p.q).lobe,
+                Diffuse::Hyde if model.specular => SingleScatteringLoss::at(model.distribution, facet.theta_i, p.sigma, p.q).lobe,
                 Diffuse::Hyde => Lobe::DARK,
             },
             volume: if model.volume { lobes::volume(facet, p.sigma_v) } else { Lobe::DARK },

@@ -3,7 +3,7 @@
 use crate::optics::{Facet, Fresnel, RefractiveIndex, SharpFacet};
 
 /// A geometry as an evaluation sees it.
-pub(crate) trait AtHand {
+pub(crate) trait PreparedGeometry {
     fn facet(&self) -> &Facet;
 
     /// Its Fresnel reflection on surfaces of that index.
@@ -17,7 +17,7 @@ pub(crate) trait AtHand {
     }
 }
 
-impl AtHand for Facet {
+impl PreparedGeometry for Facet {
     fn facet(&self) -> &Facet {
         self
     }

@@ -1,13 +1,13 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits.
 
-use crate::model::{Batch, Model, Parameters, Pbrdf, Radiances, Scene};
+use crate::model::{Batch, GeometrySet, Model, Parameters, Pbrdf, Radiances};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use crate::selftest::model_benchmark::LADDER;
 use crate::selftest::reference::{Reference, golden, relative_error};
-use crate::selftest::solver_benchmark::{Extent, Race, Step};
+use crate::selftest::solver_benchmark::{BenchmarkSize, SolverBenchmark, TraceStep};
 use crate::selftest::table::Curves;
 use crate::selftest::textbook::{textbook_f32, textbook_f64};
-use crate::selftest::{Cell, Machine, Report, Row, Surroundings, Timing, quantile};
+use crate::selftest::{Cell, Host, Machine, Report, Row, Timing, quantile};
 use serde_json::{Map, Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -72,15 +72,15 @@ impl Row for ErrorVsTime {
 impl ErrorVsTime {
     /// Makes the report.
     #[must_use]
-    pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
-        Self::to_extent(Extent::WHOLE, machine, date, surroundings)
+    pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
+        Self::to_extent(BenchmarkSize::WHOLE, machine, date, surroundings)
     }
 
-    fn to_extent(extent: Extent, machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+    fn to_extent(extent: BenchmarkSize, machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
         let golden = golden();
         let mut rows = evaluations(&golden, surroundings);
         (surroundings.progress)(0.05);
-        let mut race = if (surroundings.cancelled)() { Race::default() } else { Race::run(extent, surroundings) };
+        let mut race = if (surroundings.cancelled)() { SolverBenchmark::default() } else { SolverBenchmark::run(extent, surroundings) };
         rows.append(&mut race.rows);
         let notes = notes(golden.len(), extent, &rows);
         let further = curves(&rows, &race);
@@ -92,8 +92,8 @@ impl ErrorVsTime {
     }
 }
 
-fn notes(golden: usize, extent: Extent, rows: &[ErrorVsTime]) -> Vec<String> {
-    let Extent { starts, repetitions, repetitions_of_many } = extent;
+fn notes(golden: usize, extent: BenchmarkSize, rows: &[ErrorVsTime]) -> Vec<String> {
+    let BenchmarkSize { starts, repetitions, repetitions_of_many } = extent;
     let spreads = rows.iter().filter(|row| row.spread.is_finite());
     let spreads: Vec<String> = spreads.map(|row| format!("{} {:.1} %", row.method, 100.0 * row.spread)).collect();
     vec![
@@ -116,10 +116,10 @@ fn notes(golden: usize, extent: Extent, rows: &[ErrorVsTime]) -> Vec<String> {
 }
 
 /// Times with their spread, curves and profiles, for the file.
-fn curves(rows: &[ErrorVsTime], race: &Race) -> Map<String, Value> {
-    let column = |steps: &[Step], i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
+fn curves(rows: &[ErrorVsTime], race: &SolverBenchmark) -> Map<String, Value> {
+    let column = |steps: &[TraceStep], i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
     let timing = |row: &ErrorVsTime| json!({ "task": row.task.key(), "method": row.method, "spread": row.spread });
-    let curve = |(method, steps): &(String, Vec<Step>)| json!({ "method": method, "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
+    let curve = |(method, steps): &(String, Vec<TraceStep>)| json!({ "method": method, "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
     let profile = |(method, steps): &(String, Vec<[f64; 2]>)| {
         let of = |i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
         json!({ "method": method, "time_over_fastest": of(0), "share_solved": of(1) })
@@ -163,11 +163,11 @@ struct Method<'a> {
     all: &'a dyn Fn(),
 }
 
-fn evaluations(golden: &[Reference], surroundings: Surroundings<'_>) -> Vec<ErrorVsTime> {
+fn evaluations(golden: &[Reference], surroundings: Host<'_>) -> Vec<ErrorVsTime> {
     let model = Model::full(SlopeDistribution::Cauchy);
     let parameters = Parameters::default();
     let geometries: Vec<Geometry> = golden.iter().map(|row| row.geometry).collect();
-    let scene = Scene::new(geometries.iter().copied());
+    let scene = GeometrySet::new(geometries.iter().copied());
     let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
     let double = |row: &Reference| textbook_f64(row.surface.model(), row.surface.parameters(), row.geometry);
     let single = |row: &Reference| {
@@ -235,8 +235,8 @@ fn error_of((brdf, dolp): Values, row: &Reference) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ErrorVsTime, Extent};
-    use crate::selftest::{Machine, Surroundings};
+    use super::{BenchmarkSize, ErrorVsTime};
+    use crate::selftest::{Host, Machine};
     use serde_json::Value;
     use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -244,8 +244,8 @@ mod tests {
     fn small() -> Value {
         let looks = AtomicU32::new(0);
         let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
-        let surroundings = Surroundings { clock: &clock, cancelled: &|| false, progress: &|_| {} };
-        let extent = Extent { starts: 1, repetitions: 1, repetitions_of_many: 1 };
+        let surroundings = Host { clock: &clock, cancelled: &|| false, progress: &|_| {} };
+        let extent = BenchmarkSize { starts: 1, repetitions: 1, repetitions_of_many: 1 };
         ErrorVsTime::to_extent(extent, Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), surroundings).json_with_curves()
     }
 

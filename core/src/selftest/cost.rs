@@ -3,12 +3,14 @@
 //! Every row evaluates prepared points under one surface and is compared with the full evaluation: all terms (those that the scene has not, with
 //! weight 0), BRDF and DoLP with all derivatives, in the scalar form.
 
-use crate::fit::{Axis, Bounds, Choices, Landscape, Problem};
+use crate::fit::{Axis, Bounds, FitOptions, Landscape, Problem};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model;
-use crate::model::{Batch, Diffuse, DolpGradients, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances, Wanted};
+use crate::model::{
+    Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances,
+};
 use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
-use crate::selftest::{Cell, Machine, Report, Row, Surroundings, Timing, gradient_error, relative_error};
+use crate::selftest::{Cell, Host, Machine, Report, Row, Timing, gradient_error, relative_error};
 use std::hint::black_box;
 
 /// Points of the scalar rows.
@@ -49,7 +51,7 @@ enum Means {
 
 /// A scene.
 #[derive(Debug, Clone, Copy)]
-struct Scene {
+struct CostScene {
     name: &'static str,
     distribution: SlopeDistribution,
     diffuse: Diffuse,
@@ -120,10 +122,10 @@ impl Row for Cost {
 }
 
 /// From the least to everything.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<CostScene> {
     use Asked::{Brdf, Dolp, Everything, Gradient, GradientOfLobes, Mueller};
     use SlopeDistribution::{Cauchy, Gauss};
-    let specular = Scene {
+    let specular = CostScene {
         name: "specular in plane, DoLP only",
         distribution: Cauchy,
         diffuse: Diffuse::Absent,
@@ -133,7 +135,7 @@ fn scenes() -> Vec<Scene> {
         means: Means::Scalar,
         left_out: "diffuse and volume terms, slope distribution, masking, BRDF, rotations, derivatives",
     };
-    let full = Scene {
+    let full = CostScene {
         name: "all terms, DoLP only",
         diffuse: Diffuse::Minnaert,
         volume: true,
@@ -146,16 +148,16 @@ fn scenes() -> Vec<Scene> {
     let gauss = "q and its logarithm, BRDF, rotations, derivatives";
     vec![
         specular,
-        Scene { name: "specular out of plane, DoLP only", in_plane: false, ..specular },
-        Scene { name: "specular, DoLP only", in_plane: false, means: widest, ..specular },
-        Scene {
+        CostScene { name: "specular out of plane, DoLP only", in_plane: false, ..specular },
+        CostScene { name: "specular, DoLP only", in_plane: false, means: widest, ..specular },
+        CostScene {
             name: "specular out of plane, BRDF",
             in_plane: false,
             asked: Brdf,
             left_out: "diffuse and volume terms, rotations, derivatives",
             ..specular
         },
-        Scene {
+        CostScene {
             name: "two components, DoLP only",
             distribution: Gauss,
             diffuse: Diffuse::Lambert,
@@ -163,44 +165,49 @@ fn scenes() -> Vec<Scene> {
             left_out: "volume term, exponent c, q and its logarithm, BRDF, rotations, derivatives",
             ..full
         },
-        Scene { name: "all terms, Gauss, DoLP only", distribution: Gauss, left_out: gauss, ..full },
-        Scene { name: "all terms, Gauss, DoLP only", distribution: Gauss, left_out: gauss, means: widest, ..full },
+        CostScene { name: "all terms, Gauss, DoLP only", distribution: Gauss, left_out: gauss, ..full },
+        CostScene { name: "all terms, Gauss, DoLP only", distribution: Gauss, left_out: gauss, means: widest, ..full },
         full,
-        Scene { means: widest, ..full },
-        Scene { name: "all terms, DoLP only, no wider than AVX2", means: batch(Instructions::Avx2), ..full },
-        Scene { name: "all terms, DoLP only, all threads", means: Means::AllThreads, ..full },
-        Scene { name: "all terms, BRDF", asked: Brdf, left_out: "rotations, derivatives", ..full },
-        Scene { name: "all terms, BRDF", asked: Brdf, left_out: "DoLP, rotations, derivatives", means: widest, ..full },
-        Scene {
+        CostScene { means: widest, ..full },
+        CostScene { name: "all terms, DoLP only, no wider than AVX2", means: batch(Instructions::Avx2), ..full },
+        CostScene { name: "all terms, DoLP only, all threads", means: Means::AllThreads, ..full },
+        CostScene { name: "all terms, BRDF", asked: Brdf, left_out: "rotations, derivatives", ..full },
+        CostScene { name: "all terms, BRDF", asked: Brdf, left_out: "DoLP, rotations, derivatives", means: widest, ..full },
+        CostScene {
             name: "all terms, DoLP and nine derivatives",
             asked: Gradient,
             left_out: "BRDF and its derivatives, rotations",
             means: widest,
             ..full
         },
-        Scene {
+        CostScene {
             name: "all terms, derivatives, n and k fixed",
             asked: GradientOfLobes,
             left_out: "Fresnel reflection (once per fit), derivatives by n and k, BRDF and its derivatives, rotations",
             ..full
         },
-        Scene { name: "all terms, DoLP and nine derivatives", asked: Gradient, left_out: "BRDF and its derivatives, rotations", ..full },
-        Scene {
+        CostScene {
+            name: "all terms, DoLP and nine derivatives",
+            asked: Gradient,
+            left_out: "BRDF and its derivatives, rotations",
+            ..full
+        },
+        CostScene {
             name: "landscape of ΔE over n and k, 27 points, all threads",
             in_plane: true,
             asked: Asked::Landscape,
             means: Means::AllThreads,
             ..full
         },
-        Scene { name: "all terms, Mueller matrix", asked: Mueller, left_out: "derivatives", ..full },
-        Scene { name: "everything: all terms, Mueller matrix, derivatives of DoLP and BRDF", asked: Everything, left_out: "", ..full },
+        CostScene { name: "all terms, Mueller matrix", asked: Mueller, left_out: "derivatives", ..full },
+        CostScene { name: "everything: all terms, Mueller matrix, derivatives of DoLP and BRDF", asked: Everything, left_out: "", ..full },
     ]
 }
 
 impl Cost {
     /// Makes the report; fewer rows if it is cancelled.
     #[must_use]
-    pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+    pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
         let scenes = scenes();
         let mut rows = Vec::new();
         for (done, scene) in scenes.iter().enumerate() {
@@ -237,7 +244,7 @@ fn facets(count: u32, in_plane: bool) -> Vec<(Geometry, Facet)> {
     (0..count).filter_map(|index| geometry(index).ok()).map(|geometry| (geometry, Facet::new(geometry))).collect()
 }
 
-impl Scene {
+impl CostScene {
     fn model(&self) -> Model {
         Model { diffuse: self.diffuse, volume: self.volume, ..Model::full(self.distribution) }
     }
@@ -247,7 +254,7 @@ impl Scene {
         terms.iter().filter(|(there, _)| *there).map(|(_, name)| *name).collect::<Vec<_>>().join("+")
     }
 
-    fn cost(&self, machine: &Machine, surroundings: Surroundings<'_>) -> Option<Cost> {
+    fn cost(&self, machine: &Machine, surroundings: Host<'_>) -> Option<Cost> {
         let surface = Pbrdf::new(self.model(), Parameters::default()).ok()?;
         let (points, time) = self.time(&surface, surroundings)?;
         let (max_ulp, max_relative_error) = self.differences()?;
@@ -276,7 +283,7 @@ impl Scene {
     }
 
     /// Points in one evaluation, and its time.
-    fn time(&self, surface: &Pbrdf, surroundings: Surroundings<'_>) -> Option<(usize, Timing)> {
+    fn time(&self, surface: &Pbrdf, surroundings: Host<'_>) -> Option<(usize, Timing)> {
         if self.asked == Asked::Landscape {
             let (problem, across, up) = landscape(surface)?;
             let time = Timing::of(surroundings.clock, || _ = black_box(Landscape::new(black_box(&problem), across, up, &|| false)));
@@ -290,7 +297,7 @@ impl Scene {
         let facets = facets(count, self.in_plane);
         let time = if self.asked == Asked::GradientOfLobes {
             let index = RefractiveIndex::new(surface.parameters().n, surface.parameters().k).ok()?;
-            let prepared = model::Scene::new(facets.iter().map(|(geometry, _)| *geometry)).with_index(index);
+            let prepared = model::GeometrySet::new(facets.iter().map(|(geometry, _)| *geometry)).with_index(index);
             Timing::of(surroundings.clock, || {
                 prepared.reflections_and_gradients(black_box(surface), self.wanted()).for_each(|at| _ = black_box(at));
             })
@@ -320,12 +327,12 @@ impl Scene {
         }
     }
 
-    fn wanted(&self) -> Wanted {
+    fn wanted(&self) -> GradientRequest {
         let by = match self.asked {
             Asked::GradientOfLobes => ParameterSet::ALL.without(Parameter::N).without(Parameter::K),
             _ => ParameterSet::ALL,
         };
-        Wanted { by, brdf: self.asked == Asked::Everything, dolp: true }
+        GradientRequest { by, brdf: self.asked == Asked::Everything, dolp: true }
     }
 
     /// One point by the scalar form, for its time.
@@ -356,7 +363,7 @@ impl Scene {
             let full = Pbrdf::new(Model::full(self.distribution), parameters).ok()?;
             let values = self.values(&surface, &facets, &batch);
             for (facet, values) in facets.iter().zip(values) {
-                let (reflection, gradient) = full.reflection_and_gradient(facet, Wanted::ALL);
+                let (reflection, gradient) = full.reflection_and_gradient(facet, GradientRequest::ALL);
                 let reference = if matches!(self.asked, Asked::Brdf | Asked::Mueller) { reflection.brdf } else { reflection.dolp };
                 worst.0 = f64::max(worst.0, ulps(values.value, reference));
                 worst.1 = f64::max(worst.1, relative_error(values.value, reference));
@@ -443,7 +450,7 @@ fn landscape(surface: &Pbrdf) -> Option<(Problem, Axis, Axis)> {
     let model = surface.model();
     let parameters = *surface.parameters();
     let problem =
-        Problem::new(&steel_angles(surface)?, model, parameters, ParameterSet::ALL, Bounds::default(), Choices::default()).ok()?;
+        Problem::new(&steel_angles(surface)?, model, parameters, ParameterSet::ALL, Bounds::default(), FitOptions::default()).ok()?;
     let axis = |parameter, low, high| Axis { parameter, low, high, count: NODES, logarithmic: false };
     Some((problem, axis(Parameter::N, 0.5, 6.0), axis(Parameter::K, 0.5, 8.0)))
 }

@@ -1,7 +1,7 @@
 //! Floor 5: what the program says about itself: accuracy against run time, stability, cost.
 //!
 //! A [`Report`] is a value: rows with named columns, shown as Markdown, as JSON, or in a window. Clock, cancel and progress come
-//! from outside ([`Surroundings`]), and so does what is known of the machine.
+//! from outside ([`Host`]), and so does what is known of the machine.
 
 mod accuracy_vs_time;
 mod cost;
@@ -23,4 +23,4 @@ pub use reference::{Reference, critical_angle_factor, golden, gradient_error, re
 pub use stability::{GRADIENT_BAR, Setting, Stability, VALUE_BAR, digits};
 pub use table::{Cell, Curves, Report, Row};
 pub use textbook::{textbook_f32, textbook_f64};
-pub use timing::{Surroundings, Timing, quantile};
+pub use timing::{Host, Timing, quantile};

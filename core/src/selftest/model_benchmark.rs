@@ -1,11 +1,13 @@
 //! Every model of the ladder on the same data: what each added term buys and costs.
 
-use crate::fit::{Problem, Starts, Watch, fit};
+use crate::fit::{Observer, Problem, Starts, fit};
 use crate::measurement::Measurement;
-use crate::model::{PRESETS, Parameters, Pbrdf, Preset, Scene};
+use crate::model::{GeometrySet, PRESETS, Parameters, Pbrdf, Preset};
 use crate::selftest::accuracy_vs_time::{ErrorVsTime, TaskKind};
-use crate::selftest::solver_benchmark::{Extent, Method, Run, SEED, SMALLEST_SIZE, Step, Task, problem, simulate, truth, typical};
-use crate::selftest::{Surroundings, quantile};
+use crate::selftest::solver_benchmark::{
+    BenchmarkSize, Method, Run, SEED, SMALLEST_SIZE, Task, TraceStep, problem, simulate, truth, typical,
+};
+use crate::selftest::{Host, quantile};
 
 /// What the names of its rows begin with.
 pub(crate) const LADDER: &str = "model ";
@@ -14,15 +16,15 @@ pub(crate) const LADDER: &str = "model ";
 struct Data {
     measured: Measurement,
     exact: Vec<f64>,
-    scene: Scene,
+    scene: GeometrySet,
 }
 
 /// A row for each model, from many starts; its errors are those of its DoLP against the noise-free one. And the way of each from the defaults.
-pub(crate) fn run(extent: Extent, surroundings: Surroundings<'_>) -> (Vec<ErrorVsTime>, Vec<(String, Vec<Step>)>) {
+pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVsTime>, Vec<(String, Vec<TraceStep>)>) {
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
     let Some(full) = Preset::from_key("cauchy") else { return (rows, curves) };
     let (measured, exact) = (simulate(full, true, 0.005), simulate(full, true, 0.0));
-    let scene = Scene::new(exact.rows.iter().map(|row| row.geometry));
+    let scene = GeometrySet::new(exact.rows.iter().map(|row| row.geometry));
     let data = Data { measured, exact: exact.rows.iter().map(|row| row.dolp.map_or(0.0, |dolp| dolp.value)).collect(), scene };
     let truth = truth();
     for (done, preset) in (0_u32..).zip(&PRESETS) {
@@ -39,12 +41,12 @@ pub(crate) fn run(extent: Extent, surroundings: Surroundings<'_>) -> (Vec<ErrorV
     (rows, curves)
 }
 
-fn row(preset: &Preset, problem: &Problem, data: &Data, extent: Extent, surroundings: Surroundings<'_>) -> Option<ErrorVsTime> {
+fn row(preset: &Preset, problem: &Problem, data: &Data, extent: BenchmarkSize, surroundings: Host<'_>) -> Option<ErrorVsTime> {
     let clock = surroundings.clock;
     let mut parameters = Parameters::default();
     let mut once = || {
         let begun = clock();
-        let watch = Watch { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
+        let watch = Observer { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
         parameters = fit(problem, Starts::Automatic, SEED, watch).parameters;
         Run { elapsed_ms: clock() - begun, ..Run::begun(problem) }
     };

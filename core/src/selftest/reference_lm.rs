@@ -6,7 +6,7 @@
 
 use crate::fit::Problem;
 use crate::model::Parameters;
-use crate::selftest::solver_benchmark::{Log, Task};
+use crate::selftest::solver_benchmark::{Task, Trace};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -16,12 +16,12 @@ use std::cell::RefCell;
 const PATIENCE: usize = 100;
 /// The fraction of the box that a start keeps from an edge, where the slope by φ vanishes.
 const MARGIN: f64 = 1e-3;
-/// Step of a forward difference, √ε, relative to φ or to this.
+/// TraceStep of a forward difference, √ε, relative to φ or to this.
 const DIFFERENCE: f64 = 1.490_116_119_384_765_6e-8;
 const SMALLEST_ANGLE: f64 = 1e-2;
 
 /// Runs it from the problem's start; what it finds goes into the log.
-pub(crate) fn levenberg_marquardt(task: &Task<'_>, analytic: bool, scaled: bool, log: &RefCell<Log<'_>>) {
+pub(crate) fn levenberg_marquardt(task: &Task<'_>, analytic: bool, scaled: bool, log: &RefCell<Trace<'_>>) {
     let adapter = Adapter { task, phi: angles(task.problem), analytic, log };
     let solver = LevenbergMarquardt::new().with_patience(PATIENCE).with_scale_diag(scaled);
     _ = solver.minimize(adapter);
@@ -32,7 +32,7 @@ struct Adapter<'a, 'b> {
     task: &'a Task<'a>,
     phi: DVector<f64>,
     analytic: bool,
-    log: &'a RefCell<Log<'b>>,
+    log: &'a RefCell<Trace<'b>>,
 }
 
 /// φ of a problem's start, a little inside the box.
@@ -117,7 +117,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_> {
 mod tests {
     use super::{Adapter, DIFFERENCE, angles};
     use crate::model::{Parameters, Preset};
-    use crate::selftest::solver_benchmark::{Log, Run, Task, problem, simulate};
+    use crate::selftest::solver_benchmark::{Run, Task, Trace, problem, simulate};
     use levenberg_marquardt::LeastSquaresProblem as _;
     use std::cell::RefCell;
 
@@ -126,7 +126,7 @@ mod tests {
         let preset = Preset::from_key("gauss").expect("a preset");
         let problem = problem(preset, &simulate(preset, true, 0.0), Parameters::default()).expect("a problem");
         let task = Task { problem: &problem, truth: None };
-        let log = RefCell::new(Log { clock: &|| 0.0, truth: None, run: Run::begun(&problem) });
+        let log = RefCell::new(Trace { clock: &|| 0.0, truth: None, run: Run::begun(&problem) });
         let adapter = |analytic| Adapter { task: &task, phi: angles(&problem), analytic, log: &log };
         let (analytic, differences) = (adapter(true).jacobian().expect("a matrix"), adapter(false).jacobian().expect("a matrix"));
         // Forward differences are good to √ε times the curvature.

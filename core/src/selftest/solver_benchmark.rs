@@ -1,26 +1,26 @@
 //! Fits against time: the same problems from the same starts by several solvers. The yardstick is in [`crate::selftest::reference_lm`], the ladder of models
 //! on the same data in [`crate::selftest::model_benchmark`].
 
-use crate::fit::{Bounds, Choices, Effort, LeastSquares, Problem, Starts, Watch, fit, free_by_default, minimise};
+use crate::fit::{Bounds, Effort, FitOptions, LeastSquares, Observer, Problem, Starts, fit, free_by_default, minimise};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model::{Parameters, Pbrdf, Preset};
 use crate::selftest::accuracy_vs_time::{ErrorVsTime, TaskKind};
 use crate::selftest::reference_lm::levenberg_marquardt;
-use crate::selftest::{Surroundings, Timing, model_benchmark, quantile};
+use crate::selftest::{Host, Timing, model_benchmark, quantile};
 use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 
 /// One improvement along a fit: elapsed milliseconds, objective, distance to the truth.
-pub(crate) type Step = [f64; 3];
+pub(crate) type TraceStep = [f64; 3];
 
 /// What the fits of the report come to.
 #[derive(Default)]
-pub(crate) struct Race {
+pub(crate) struct SolverBenchmark {
     pub rows: Vec<ErrorVsTime>,
     /// Along one fit, by method.
-    pub curves: Vec<(String, Vec<Step>)>,
+    pub curves: Vec<(String, Vec<TraceStep>)>,
     /// Along one fit from the defaults, by model of the ladder.
-    pub ladder: Vec<(String, Vec<Step>)>,
+    pub ladder: Vec<(String, Vec<TraceStep>)>,
     /// Dolan and Moré's profiles, Math. Program. 91, 201 (2002): by method, the share of problems solved within a multiple of the
     /// fastest method's time.
     pub profiles: Vec<(String, Vec<[f64; 2]>)>,
@@ -48,7 +48,7 @@ const METHODS: [Method; 6] = [
 
 /// How much is fitted, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extent {
+pub(crate) struct BenchmarkSize {
     /// Starts of each problem.
     pub starts: u32,
     /// Repetitions of a fit from one start, after one that warms up.
@@ -57,7 +57,7 @@ pub(crate) struct Extent {
     pub repetitions_of_many: usize,
 }
 
-impl Extent {
+impl BenchmarkSize {
     /// That of the report. Times of a build with debug assertions say little: there one repetition has to do.
     pub(crate) const WHOLE: Self = if cfg!(debug_assertions) {
         Self { starts: 5, repetitions: 1, repetitions_of_many: 1 }
@@ -91,12 +91,12 @@ impl Method {
         self.name().replace("one start", &format!("{starts} starts"))
     }
 
-    fn repetitions(self, extent: Extent) -> usize {
+    fn repetitions(self, extent: BenchmarkSize) -> usize {
         if self == Self::Many { extent.repetitions_of_many } else { extent.repetitions }
     }
 
     /// Runs it as often as it is to be repeated.
-    fn repeated(self, task: &Task<'_>, extent: Extent, surroundings: Surroundings<'_>) -> Run {
+    fn repeated(self, task: &Task<'_>, extent: BenchmarkSize, surroundings: Host<'_>) -> Run {
         let repetitions = self.repetitions(extent);
         if repetitions > 1 && self != Self::Many {
             // Warms caches and branches up; a fit from many starts is long enough to do so itself.
@@ -105,21 +105,21 @@ impl Method {
         typical(&(0..repetitions).map(|_| self.run(task, surroundings)).collect::<Vec<_>>())
     }
 
-    pub(crate) fn run(self, task: &Task<'_>, surroundings: Surroundings<'_>) -> Run {
+    pub(crate) fn run(self, task: &Task<'_>, surroundings: Host<'_>) -> Run {
         let begun = (surroundings.clock)();
         let clock = || (surroundings.clock)() - begun;
-        let log = RefCell::new(Log { clock: &clock, truth: task.truth, run: Run::begun(task.problem) });
+        let log = RefCell::new(Trace { clock: &clock, truth: task.truth, run: Run::begun(task.problem) });
         match self {
             Self::Marquardt { analytic, scaled } => {
                 levenberg_marquardt(task, analytic, scaled, &log);
             }
             Self::One => {
-                let watch = Watch { clock: &|| 0.0, cancelled: surroundings.cancelled, progress: &|_| {} };
+                let watch = Observer { clock: &|| 0.0, cancelled: surroundings.cancelled, progress: &|_| {} };
                 _ = minimise(&Recorded { problem: task.problem, log: &log }, Effort::Full, watch);
             }
             Self::Many => {
                 let clock = surroundings.clock;
-                let watch = Watch { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
+                let watch = Observer { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
                 let report = fit(task.problem, Starts::Automatic, SEED, watch);
                 let mut log = log.borrow_mut();
                 log.run.steps = report.trace.iter().map(|point| [point.elapsed_ms, point.objective, f64::NAN]).collect();
@@ -154,7 +154,7 @@ pub(crate) struct Run {
     /// ΔE.
     pub objective: f64,
     pub parameters: Parameters,
-    pub steps: Vec<Step>,
+    pub steps: Vec<TraceStep>,
 }
 
 impl Run {
@@ -164,13 +164,13 @@ impl Run {
 }
 
 /// Notes improvements.
-pub(crate) struct Log<'a> {
+pub(crate) struct Trace<'a> {
     pub clock: &'a dyn Fn() -> f64,
     pub truth: Option<&'a Parameters>,
     pub run: Run,
 }
 
-impl Log<'_> {
+impl Trace<'_> {
     pub(crate) fn note(&mut self, problem: &Problem, parameters: Parameters, residuals: &DVector<f64>) {
         let objective = residuals.norm_squared();
         if objective < self.run.objective {
@@ -190,7 +190,7 @@ fn distance(problem: &Problem, parameters: &Parameters, truth: &Parameters) -> f
 /// The program's own problem, its evaluations noted.
 struct Recorded<'a, 'b> {
     problem: &'a Problem,
-    log: &'a RefCell<Log<'b>>,
+    log: &'a RefCell<Trace<'b>>,
 }
 
 impl LeastSquares for Recorded<'_, '_> {
@@ -230,16 +230,16 @@ impl LeastSquares for Recorded<'_, '_> {
         self.problem.negligible()
     }
 
-    fn straighten(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
-        self.problem.straighten(x, moving, jacobian);
+    fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
+        self.problem.to_local(x, moving, jacobian);
     }
 
-    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
-        self.problem.reach(x, unknown)
+    fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+        self.problem.local_bounds(x, unknown)
     }
 
-    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
-        self.problem.advance(x, moving, step, out);
+    fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+        self.problem.retract(x, moving, step, out);
     }
 }
 
@@ -272,7 +272,7 @@ pub(crate) fn simulate(preset: &Preset, dense: bool, noise: f64) -> Measurement 
 }
 
 pub(crate) fn problem(preset: &Preset, measurement: &Measurement, start: Parameters) -> Option<Problem> {
-    let choices = Choices { dolp_only: preset.dolp_only, ..Choices::default() };
+    let choices = FitOptions { dolp_only: preset.dolp_only, ..FitOptions::default() };
     let free = free_by_default(preset.model, measurement, &choices);
     Problem::new(measurement, preset.model, start, free, Bounds::default(), choices).ok()
 }
@@ -304,7 +304,7 @@ fn instances(starts: u32) -> Vec<Instance> {
         for (dense, noise) in [(true, 0.0), (true, 0.005), (false, 0.0), (false, 0.005)] {
             let measurement = simulate(preset, dense, noise);
             let Some(problem) = problem(preset, &measurement, Parameters::default()) else { continue };
-            let best = fit(&problem, Starts::Automatic, SEED, Watch::NOBODY).parameters;
+            let best = fit(&problem, Starts::Automatic, SEED, Observer::NONE).parameters;
             let best = objective(&problem, &best);
             for i in 0..starts {
                 let start = start(i, &problem);
@@ -320,9 +320,9 @@ fn median(mut values: Vec<f64>) -> f64 {
     quantile(&values, 0.5)
 }
 
-impl Race {
+impl SolverBenchmark {
     /// Runs it; what there is when it is cancelled.
-    pub(crate) fn run(extent: Extent, surroundings: Surroundings<'_>) -> Self {
+    pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> Self {
         let mut race = Self::default();
         let truth = truth();
         let mut instances = instances(extent.starts);
@@ -432,9 +432,9 @@ fn profiles(times: &[Vec<f64>]) -> Vec<Vec<[f64; 2]>> {
 #[cfg(test)]
 mod tests {
     use super::{METHODS, Method, Run, Task, instances, profiles, together, truth, typical};
-    use crate::selftest::Surroundings;
+    use crate::selftest::Host;
 
-    const NOBODY: Surroundings<'static> = Surroundings { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
+    const NONE: Host<'static> = Host { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
 
     #[test]
     fn a_method_that_solves_half_of_all_at_twice_the_time_has_that_profile() {
@@ -469,12 +469,12 @@ mod tests {
         let truth = truth();
         let task = Task { problem: &instance.problem, truth: Some(&truth) };
         for method in METHODS {
-            let run = method.run(&task, NOBODY);
+            let run = method.run(&task, NONE);
             let first = run.steps.first().expect("a first evaluation")[1];
             assert!(run.objective < 0.01 * first, "{}: {first} to {}", method.name(), run.objective);
             assert!(run.steps.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{}", method.name());
         }
-        let run = Method::One.run(&task, NOBODY);
+        let run = Method::One.run(&task, NONE);
         assert!(run.objective <= 1e-20, "{}", run.objective);
     }
 
@@ -483,7 +483,7 @@ mod tests {
         let instance = instances(1).swap_remove(1);
         let task = Task { problem: &instance.problem, truth: None };
         for method in METHODS {
-            let run = method.run(&task, NOBODY);
+            let run = method.run(&task, NONE);
             let (last, delta_e) = (run.steps.last().expect("a step")[1], instance.problem.delta_e(&run.parameters).expect("data"));
             // The noisy minimum is flat: the two are sums of the same squares.
             assert!(

@@ -2,14 +2,14 @@
 //!
 //! Evaluation cases come from `assets/reference/stability_gallery.csv`, values and derivatives to 60 digits; fits from [`crate::selftest::stability_fits`].
 
-use crate::fit::Watch;
+use crate::fit::Observer;
 use crate::measurement::Measurement;
-use crate::model::{Gradient, Model, Parameters, Reflection, Wanted};
+use crate::model::{Gradient, GradientRequest, Model, Parameters, Reflection};
 use crate::optics::{Facet, Geometry};
 use crate::selftest::reference::{Reference, critical_angle_factor, gradient_error, references, relative_error};
 use crate::selftest::stability_fits::StiffFit;
 use crate::selftest::textbook::textbook_f64;
-use crate::selftest::{Cell, Machine, Report, Row, Surroundings};
+use crate::selftest::{Cell, Host, Machine, Report, Row};
 
 /// The evaluation cases.
 const GALLERY: &str = include_str!("../../assets/reference/stability_gallery.csv");
@@ -86,12 +86,12 @@ impl Row for Stability {
 impl Stability {
     /// Makes the report.
     #[must_use]
-    pub fn run(machine: Machine, date: String, surroundings: Surroundings<'_>) -> Report<Self> {
+    pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
         let (evaluations, fits) = (references(GALLERY), StiffFit::all());
         #[expect(clippy::cast_precision_loss, reason = "a number of fits")]
         let whole = fits.len() as f64;
         let mut rows: Vec<Self> = evaluations.iter().map(Self::of_evaluation).collect();
-        let watch = Watch { clock: surroundings.clock, cancelled: surroundings.cancelled, progress: &|_| {} };
+        let watch = Observer { clock: surroundings.clock, cancelled: surroundings.cancelled, progress: &|_| {} };
         for (done, fit) in fits.into_iter().enumerate() {
             if (surroundings.cancelled)() {
                 break;
@@ -119,7 +119,7 @@ impl Stability {
     fn of_evaluation(reference: &Reference) -> Self {
         let Reference { case, surface, geometry, .. } = reference;
         let (model, parameters) = (surface.model(), *surface.parameters());
-        let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(*geometry), Wanted::ALL);
+        let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(*geometry), GradientRequest::ALL);
         let error = |brdf: f64, dolp: f64| (relative_error(brdf, reference.brdf), relative_error(dolp, reference.dolp));
         let (brdf_error, dolp_error) = error(reflection.brdf, reflection.dolp);
         let of_gradient = |[brdf, dolp]: [[f64; 9]; 2]| {
@@ -169,7 +169,7 @@ fn condition(reflection: &Reflection, gradient: &Gradient, parameters: &Paramete
 #[cfg(test)]
 mod tests {
     use super::{GALLERY, Stability, references};
-    use crate::fit::Watch;
+    use crate::fit::Observer;
     use crate::selftest::stability_fits::StiffFit;
 
     #[test]
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn every_fit_does_what_its_name_asks_for() {
         for fit in StiffFit::all() {
-            let row = fit.run(Watch::NOBODY);
+            let row = fit.run(Observer::NONE);
             assert!(row.pass, "{}: {}", row.case, row.outcome);
         }
     }

@@ -1,6 +1,6 @@
 //! The fits of the stability gallery: simulated data whose truth is known, and what has to come out.
 
-use crate::fit::{Bounds, Choices, Edge, FitReport, Loss, Problem, Starts, StopReason, Watch, fit, free_by_default};
+use crate::fit::{Bounds, Edge, FitOptions, FitResult, Loss, Observer, Problem, Starts, StopReason, fit, free_by_default};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model::{Parameter, ParameterSet, Parameters, Pbrdf, Preset};
 use crate::selftest::stability::{Setting, Stability};
@@ -84,7 +84,7 @@ fn steel_dolp(noise: f64) -> Measurement {
 impl StiffFit {
     fn new(case: &'static str, truth: Parameters, measurement: Measurement, bar: Bar) -> Self {
         let start = Parameters::default();
-        Self { case, preset: "cauchy", truth, start, starts: Starts::Automatic, measurement, free: None, loss: Loss::Linear, bar }
+        Self { case, preset: "cauchy", truth, start, starts: Starts::Automatic, measurement, free: None, loss: Loss::Squared, bar }
     }
 
     /// All of them.
@@ -167,7 +167,7 @@ impl StiffFit {
     }
 
     /// Fits, and judges what comes out.
-    pub(crate) fn run(self, watch: Watch<'_>) -> Stability {
+    pub(crate) fn run(self, watch: Observer<'_>) -> Stability {
         let report = self.problem().map(|problem| (fit(&problem, self.starts, SEED, watch), problem));
         let (condition, outcome, pass) = match &report {
             Some((report, problem)) => (condition(problem, report), outcome(report), self.bar.is_met(problem, report, &self.truth)),
@@ -193,14 +193,14 @@ impl StiffFit {
 
     fn problem(&self) -> Option<Problem> {
         let preset = Preset::from_key(self.preset)?;
-        let choices = Choices { loss: self.loss, dolp_only: preset.dolp_only, ..Choices::default() };
+        let choices = FitOptions { loss: self.loss, dolp_only: preset.dolp_only, ..FitOptions::default() };
         let free = self.free.unwrap_or_else(|| free_by_default(preset.model, &self.measurement, &choices));
         Problem::new(&self.measurement, preset.model, self.start, free, Bounds::default(), choices).ok()
     }
 }
 
 impl Bar {
-    fn is_met(self, problem: &Problem, report: &FitReport, truth: &Parameters) -> bool {
+    fn is_met(self, problem: &Problem, report: &FitResult, truth: &Parameters) -> bool {
         let exact = report.objective.is_some_and(|objective| objective <= EXACT);
         let near = |parameter: Parameter, tolerance: f64| {
             (report.parameters[parameter] - truth[parameter]).abs() <= tolerance * truth[parameter].abs()
@@ -236,7 +236,7 @@ impl Bar {
 }
 
 /// How a fit ended, in a few words.
-fn outcome(report: &FitReport) -> String {
+fn outcome(report: &FitResult) -> String {
     let objective = report.objective.map_or_else(String::new, |objective| format!(", ΔE {objective:.1e}"));
     let open = match report.undetermined.len() {
         0 => String::new(),
@@ -247,7 +247,7 @@ fn outcome(report: &FitReport) -> String {
 }
 
 /// Largest over smallest singular value of the Jacobian scaled by max(|p|, 1e-3), at the end of a fit.
-fn condition(problem: &Problem, report: &FitReport) -> f64 {
+fn condition(problem: &Problem, report: &FitResult) -> f64 {
     let Some((_, mut jacobian)) = problem.linearised(&report.parameters) else { return f64::NAN };
     if jacobian.is_empty() {
         return f64::NAN;

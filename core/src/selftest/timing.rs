@@ -2,7 +2,7 @@
 
 /// Where reports get what they cannot know: a clock, a wish to stop, and somebody to tell how far they are.
 #[derive(Clone, Copy)]
-pub struct Surroundings<'a> {
+pub struct Host<'a> {
     /// Milliseconds since some moment, never running backwards.
     pub clock: &'a (dyn Fn() -> f64 + Sync),
     /// Whether to stop with what there is.

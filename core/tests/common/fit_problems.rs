@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its own part of this module")]
 
-use pbrdf::fit::{Bounds, Choices, Problem, free_by_default};
+use pbrdf::fit::{Bounds, FitOptions, Problem, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
@@ -60,8 +60,9 @@ pub struct Case {
 impl Case {
     pub fn problem(&self) -> Problem {
         let model = Model::full(self.distribution);
-        let free = free_by_default(model, &self.measurement, &Choices::default());
-        Problem::new(&self.measurement, model, Parameters::default(), free, Bounds::default(), Choices::default()).expect("a valid problem")
+        let free = free_by_default(model, &self.measurement, &FitOptions::default());
+        Problem::new(&self.measurement, model, Parameters::default(), free, Bounds::default(), FitOptions::default())
+            .expect("a valid problem")
     }
 }
 

@@ -29,9 +29,9 @@ impl Background {
 }
 
 /// Ends a job in the count and wakes the window, also when the job panics.
-struct Ending(Background);
+struct MemoResult(Background);
 
-impl Drop for Ending {
+impl Drop for MemoResult {
     fn drop(&mut self) {
         self.0.running.fetch_sub(1, Ordering::Release);
         self.0.ctx.request_repaint();
@@ -41,7 +41,7 @@ impl Drop for Ending {
 /// What a job answers with. The fields end in this order: the answer, or that there is none, is known before the window wakes.
 struct Reply<V> {
     sender: Sender<V>,
-    _ending: Ending,
+    _ending: MemoResult,
 }
 
 /// A job on its way. Letting go of it tells it to stop.
@@ -64,8 +64,8 @@ pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// A [`crate::app::jobs::memo::Memo`] that is made in the background. At most one job runs; inputs that come meanwhile wait, and only the
 /// newest are taken up. Until their value is there, the one before is shown. Letting go of it stops its job.
-pub struct LatestJob<K, V> {
-    shown: Option<Shown<K, V>>,
+pub struct AsyncMemo<K, V> {
+    shown: Option<MemoState<K, V>>,
     running: Option<Running<K, V>>,
     /// Inputs whose job panicked or could not be started: not tried again.
     failed: Option<K>,
@@ -73,20 +73,20 @@ pub struct LatestJob<K, V> {
 }
 
 /// A value that is done.
-struct Shown<K, V> {
+struct MemoState<K, V> {
     key: K,
     value: V,
     /// The last frame that wanted it.
     wanted_at: u64,
 }
 
-impl<K, V> Default for LatestJob<K, V> {
+impl<K, V> Default for AsyncMemo<K, V> {
     fn default() -> Self {
         Self { shown: None, running: None, failed: None, frames_behind: 0 }
     }
 }
 
-impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
+impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
     /// Takes up what is done, and begins a job if the value belongs to other inputs than these. Call it before every frame that
     /// shows the value. `make` owns its inputs; it runs on another thread, and what it answers after a stop is not seen.
     pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
@@ -96,7 +96,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
             return;
         }
         let (sender, receiver) = channel();
-        let reply = Reply { sender, _ending: Ending(background.clone()) };
+        let reply = Reply { sender, _ending: MemoResult(background.clone()) };
         background.running.fetch_add(1, Ordering::Release);
         let stop = Arc::new(AtomicBool::new(false));
         let looked_at = stop.clone();
@@ -125,7 +125,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
     fn take_up(&mut self) {
         let Some(running) = self.running.take() else { return };
         match running.receiver.try_recv() {
-            Ok(value) => self.shown = Some(Shown { key: running.key.clone(), value, wanted_at: running.wanted_at }),
+            Ok(value) => self.shown = Some(MemoState { key: running.key.clone(), value, wanted_at: running.wanted_at }),
             Err(TryRecvError::Empty) => self.running = Some(running),
             Err(TryRecvError::Disconnected) => self.failed = Some(running.key.clone()),
         }
@@ -169,7 +169,7 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> LatestJob<K, V> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Background, LatestJob};
+    use super::{AsyncMemo, Background};
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn the_newest_inputs_win_and_the_old_value_is_shown_meanwhile() {
         let background = Background::new(&context());
-        let mut job: LatestJob<u32, u32> = LatestJob::default();
+        let mut job: AsyncMemo<u32, u32> = AsyncMemo::default();
         job.refresh(&background, &1, |_| 10);
         wait(&background);
         let (let_go, hold) = channel::<()>();
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn a_job_that_panics_is_not_tried_again_with_the_same_inputs() {
         let background = Background::new(&context());
-        let mut job: LatestJob<u32, u32> = LatestJob::default();
+        let mut job: AsyncMemo<u32, u32> = AsyncMemo::default();
         job.refresh(&background, &1, |_| std::panic::panic_any("on purpose"));
         wait(&background);
         job.refresh(&background, &1, |_| 10);
@@ -231,7 +231,7 @@ mod tests {
     }
 
     /// A job that answers whether it was told to stop, once it is let go.
-    fn held(job: &mut LatestJob<u32, bool>, background: &Background, key: u32) -> std::sync::mpsc::Sender<()> {
+    fn held(job: &mut AsyncMemo<u32, bool>, background: &Background, key: u32) -> std::sync::mpsc::Sender<()> {
         let (let_go, hold) = channel::<()>();
         job.refresh(background, &key, move |stopped| {
             let _ = hold.recv();
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn a_useless_job_is_stopped_and_the_next_does_not_wait_for_it() {
         let background = Background::new(&context());
-        let mut job = LatestJob::default();
+        let mut job = AsyncMemo::default();
         let first = held(&mut job, &background, 1);
         job.stop_if(|key| *key != 1);
         assert!(job.is_running(), "it is of use");
@@ -265,7 +265,7 @@ mod tests {
         let background = Background::new(&context());
         let (sender, told) = channel();
         let (let_go, hold) = channel::<()>();
-        let mut job: LatestJob<u32, ()> = LatestJob::default();
+        let mut job: AsyncMemo<u32, ()> = AsyncMemo::default();
         job.refresh(&background, &1, move |stopped| {
             let before = stopped();
             let _ = hold.recv();
@@ -281,7 +281,7 @@ mod tests {
     fn frames_are_counted_since_the_inputs_of_what_is_shown_were_the_newest() {
         let ctx = context();
         let background = Background::new(&ctx);
-        let mut job = LatestJob::default();
+        let mut job = AsyncMemo::default();
         let mut in_frame = |key: u32, let_go: bool| {
             end_frame(&ctx);
             let (sender, hold) = channel::<()>();

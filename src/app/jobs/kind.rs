@@ -4,11 +4,11 @@ use tr::tr;
 
 /// A kind of job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
+pub enum JobKind {
     Dialog,
     Read,
     ReadSession,
-    Import,
+    ImportDialog,
     Save,
     Export,
     Autosave,
@@ -20,14 +20,14 @@ pub enum Task {
     Report,
 }
 
-impl Task {
+impl JobKind {
     /// The name of its thread.
     pub fn name(self) -> &'static str {
         match self {
             Self::Dialog => "dialog",
             Self::Read => "read measurement",
             Self::ReadSession => "read session",
-            Self::Import => "import measurement",
+            Self::ImportDialog => "import measurement",
             Self::Save => "save measurement",
             Self::Export => "export",
             Self::Autosave => "autosave",
@@ -44,7 +44,7 @@ impl Task {
     pub fn broken(self) -> String {
         match self {
             Self::Dialog => tr!("The file dialog ended unexpectedly; nothing was lost."),
-            Self::Read | Self::ReadSession | Self::Import => tr!("Reading the file ended unexpectedly; what is open stays."),
+            Self::Read | Self::ReadSession | Self::ImportDialog => tr!("Reading the file ended unexpectedly; what is open stays."),
             Self::Save | Self::Export => tr!("Writing the file ended unexpectedly; a file that was there is as it was."),
             Self::Autosave => tr!("Saving the working state ended unexpectedly; it is saved again after the next change."),
             Self::Fit | Self::Refit => tr!("The fit ended unexpectedly; nothing was lost."),

@@ -3,24 +3,24 @@
 //! Jobs and results are values. Each job has a flag to stop it, and wakes the window when there is something to see; results of a job
 //! that was replaced meanwhile are dropped by its number.
 
-use crate::app::jobs::kind::Task;
-use crate::app::shell::benchmarks::{Made, Subject};
-use crate::app::shell::file_dialogs::{Answer, Question};
+use crate::app::jobs::kind::JobKind;
+use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
+use crate::app::shell::file_dialogs::{FileReply, FileRequest};
 use crate::app::shell::import_dialog::Origin;
-use crate::app::storage::export::{Outgoing, Write};
+use crate::app::storage::export::{ExportKind, Write};
 use crate::app::storage::import;
-use crate::app::storage::import::{Arrived, Choice, Foreign, Hashing, Imported};
-use crate::app::storage::session::{Again, Recipe, Session};
+use crate::app::storage::import::{Hashing, ImportOptions, ImportResult, ImportSource, Loaded};
+use crate::app::storage::session::{RestoredFit, SavedFit, Session};
 use crate::app::text::i18n::phrase;
 use crate::app::work::document::{Document, Mask};
 use crate::open_file::open_file;
 use crate::write_file::write_file;
-use pbrdf::fit::{FitReport, Problem, ProblemError, Profile, Scatter, Starts, TracePoint, Watch, fit};
+use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, fit};
 use pbrdf::fit::{bootstrap, profile};
 use pbrdf::measurement;
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Parameter, Preset};
-use pbrdf::selftest::Surroundings;
+use pbrdf::selftest::Host;
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -33,57 +33,57 @@ use tr::tr;
 /// What a job has come to.
 pub enum Event {
     /// A path was chosen in a dialog, or none.
-    Answered(Question, Answer),
+    Answered(FileRequest, FileReply),
     /// A measurement was written there, or why not.
     Saved(Result<PathBuf, String>),
     /// An export was written there, or why not.
-    Exported(Outgoing, Result<PathBuf, String>),
+    Exported(ExportKind, Result<PathBuf, String>),
     /// The working state was written, or why not.
     Autosaved(Result<(), String>),
     /// A session was read, or why not.
     SessionRead {
         path: PathBuf,
-        result: Result<Box<Opened>, String>,
+        result: Result<Box<OpenedSession>, String>,
     },
     /// A file was read, or why not, as a sentence.
     Loaded {
         origin: Origin,
-        result: Result<Arrived, String>,
+        result: Result<Loaded, String>,
     },
     /// A foreign file was read as it was chosen, or why not, as a phrase.
-    Imported(Result<Imported, String>),
+    ImportResult(Result<ImportResult, String>),
     Fitted {
-        report: Box<FitReport>,
+        report: Box<FitResult>,
         problem: Arc<Problem>,
         generation: u64,
         mask: Mask,
     },
     /// A fit from the sliders while they move.
-    Refitted(Box<FitReport>),
+    Refitted(Box<FitResult>),
     /// The ladder of models.
-    Compared(Vec<Rung>),
+    Compared(Vec<ModelFit>),
     Profiled(Profile),
     /// A report of the program about itself, and whether it was stopped before its end.
     Reported {
-        made: Box<Made>,
+        made: Box<BenchmarkResult>,
         is_part: bool,
     },
     /// How the parameters scatter over so many data sets.
     Scattered {
         replicates: usize,
-        scatter: Vec<Scatter>,
+        scatter: Vec<BootstrapEstimate>,
     },
     /// A job panicked: there is nothing else to hear of it.
-    Broken(Task),
+    Broken(JobKind),
 }
 
 /// A session with its fits made again, the newest first.
-pub struct Opened {
+pub struct OpenedSession {
     pub session: Session,
-    pub fits: Vec<Again>,
+    pub fits: Vec<RestoredFit>,
 }
 
-impl Opened {
+impl OpenedSession {
     /// Reads a session; the error is a sentence.
     pub fn read(path: &Path) -> Result<Self, String> {
         let mut text = String::new();
@@ -96,16 +96,16 @@ impl Opened {
 
     /// With the fits made again that its data still allow.
     pub fn new(session: Session) -> Self {
-        let again = |recipe: &Recipe| recipe.again(session.measurement.as_ref()?);
+        let again = |recipe: &SavedFit| recipe.again(session.measurement.as_ref()?);
         let fits = session.fits.iter().filter_map(again).collect();
         Self { session, fits }
     }
 }
 
 /// A model of the ladder with its fit, or why there is none.
-pub struct Rung {
+pub struct ModelFit {
     pub preset: &'static Preset,
-    pub result: Result<Box<FitReport>, ProblemError>,
+    pub result: Result<Box<FitResult>, ProblemError>,
 }
 
 /// A job on its way.
@@ -148,26 +148,26 @@ pub struct Worker {
     pub scan: Option<Job<()>>,
     dialog: Option<u64>,
     /// Asks for a path; no dialog where there is nobody to answer it.
-    pub ask: fn(Question) -> Answer,
+    pub ask: fn(FileRequest) -> FileReply,
 }
 
 /// What a job tells its progress to.
-struct Teller<P> {
+struct ProgressSender<P> {
     ctx: egui::Context,
     progress: Arc<Mutex<Option<P>>>,
     last: Mutex<Instant>,
 }
 
 /// Sends what a job has come to and wakes the window, also when the job panics.
-struct Ending {
+struct Completion {
     ctx: egui::Context,
     sender: SyncSender<(u64, Event)>,
     number: u64,
-    task: Task,
+    task: JobKind,
     event: Option<Event>,
 }
 
-impl Drop for Ending {
+impl Drop for Completion {
     fn drop(&mut self) {
         let event = self.event.take().unwrap_or(Event::Broken(self.task));
         // The window may be gone.
@@ -176,7 +176,7 @@ impl Drop for Ending {
     }
 }
 
-impl<P> Teller<P> {
+impl<P> ProgressSender<P> {
     fn tell(&self, progress: P) {
         if let (Ok(mut slot), Ok(mut last)) = (self.progress.lock(), self.last.lock()) {
             *slot = Some(progress);
@@ -213,13 +213,13 @@ impl Worker {
     /// Begins a job on a thread of its own; none if the machine refuses a thread.
     fn spawn<P: Send + 'static>(
         &mut self,
-        task: Task,
-        body: impl FnOnce(&Teller<P>, &AtomicBool) -> Event + Send + 'static,
+        task: JobKind,
+        body: impl FnOnce(&ProgressSender<P>, &AtomicBool) -> Event + Send + 'static,
     ) -> Result<Job<P>, String> {
         self.jobs += 1;
         let number = self.jobs;
         let job = Job { number, stop: Arc::default(), progress: Arc::new(Mutex::new(None)) };
-        let teller = Teller { ctx: self.ctx.clone(), progress: job.progress.clone(), last: Mutex::new(Instant::now()) };
+        let teller = ProgressSender { ctx: self.ctx.clone(), progress: job.progress.clone(), last: Mutex::new(Instant::now()) };
         let (ctx, sender, stop) = (self.ctx.clone(), self.sender.clone(), job.stop.clone());
         #[cfg(test)]
         let language = crate::app::text::i18n::current();
@@ -227,7 +227,7 @@ impl Worker {
             // Each thread of a test has a language of its own.
             #[cfg(test)]
             crate::app::text::i18n::set(language);
-            let mut ending = Ending { ctx, sender, number, task, event: None };
+            let mut ending = Completion { ctx, sender, number, task, event: None };
             ending.event = Some(body(&teller, &stop));
         };
         match std::thread::Builder::new().name(task.name().to_owned()).spawn(run) {
@@ -242,28 +242,28 @@ impl Worker {
     }
 
     /// Asks the desktop, one question at a time.
-    pub fn ask(&mut self, question: Question) -> Result<(), String> {
+    pub fn ask(&mut self, question: FileRequest) -> Result<(), String> {
         if self.dialog.is_none() {
             let ask = self.ask;
-            let job: Job<()> = self.spawn(Task::Dialog, move |_, _| Event::Answered(question.clone(), ask(question)))?;
+            let job: Job<()> = self.spawn(JobKind::Dialog, move |_, _| Event::Answered(question.clone(), ask(question)))?;
             self.dialog = Some(job.number);
         }
         Ok(())
     }
 
     /// Writes an export, one at a time.
-    pub fn export(&mut self, what: Outgoing, path: PathBuf, write: Write) -> Result<(), String> {
+    pub fn export(&mut self, what: ExportKind, path: PathBuf, write: Write) -> Result<(), String> {
         if self.export.is_some() {
             return Err(tr!("The export before this one is still being written."));
         }
-        let job = self.spawn(Task::Export, move |_: &Teller<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
+        let job = self.spawn(JobKind::Export, move |_: &ProgressSender<()>, _| Event::Exported(what, write(&path).map(|()| path)))?;
         self.export = Some(job);
         Ok(())
     }
 
     /// Writes the working state.
     pub fn autosave(&mut self, path: PathBuf, session: Session) -> Result<(), String> {
-        let job = self.spawn(Task::Autosave, move |_: &Teller<()>, _| Event::Autosaved(save_session(&path, &session)))?;
+        let job = self.spawn(JobKind::Autosave, move |_: &ProgressSender<()>, _| Event::Autosaved(save_session(&path, &session)))?;
         self.autosave = Some(job);
         Ok(())
     }
@@ -271,8 +271,8 @@ impl Worker {
     /// Reads a session.
     pub fn open_session(&mut self, path: PathBuf) -> Result<(), String> {
         self.abandon_load();
-        let job = self.spawn(Task::ReadSession, move |_: &Teller<()>, _| {
-            let result = Opened::read(&path).map(Box::new);
+        let job = self.spawn(JobKind::ReadSession, move |_: &ProgressSender<()>, _| {
+            let result = OpenedSession::read(&path).map(Box::new);
             Event::SessionRead { path, result }
         })?;
         self.session = Some(job);
@@ -284,7 +284,7 @@ impl Worker {
         if self.save.is_some() {
             return Err(tr!("The measurement is still being saved."));
         }
-        let job = self.spawn(Task::Save, move |_: &Teller<()>, _| {
+        let job = self.spawn(JobKind::Save, move |_: &ProgressSender<()>, _| {
             let written = write_file(&path, |out| measurement::write(&measurement, out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
@@ -320,7 +320,7 @@ impl Worker {
         self.abandon_load();
         // A session that is still being read is not wanted any more.
         self.session = None;
-        let job = self.spawn(Task::Read, move |teller: &Teller<f64>, stop| {
+        let job = self.spawn(JobKind::Read, move |teller: &ProgressSender<f64>, stop| {
             let mut progress = while_reading(teller, stop);
             let mut sha256 = None;
             let result = source().and_then(|(at, source, length)| {
@@ -338,10 +338,10 @@ impl Worker {
     }
 
     /// Reads a foreign file, which is in memory, as it was chosen.
-    pub fn import(&mut self, foreign: Foreign, choice: Choice) -> Result<(), String> {
+    pub fn import(&mut self, foreign: ImportSource, choice: ImportOptions) -> Result<(), String> {
         self.abandon_load();
-        let job = self.spawn(Task::Import, move |teller: &Teller<f64>, stop| {
-            Event::Imported(foreign.import(&choice, &mut while_reading(teller, stop)))
+        let job = self.spawn(JobKind::ImportDialog, move |teller: &ProgressSender<f64>, stop| {
+            Event::ImportResult(foreign.import(&choice, &mut while_reading(teller, stop)))
         })?;
         self.load = Some(job);
         Ok(())
@@ -360,9 +360,9 @@ impl Worker {
             job.cancel();
         }
         let (generation, mask) = (document.generation, document.mask().clone());
-        let job = self.spawn(Task::Fit, move |teller: &Teller<TracePoint>, stop| {
+        let job = self.spawn(JobKind::Fit, move |teller: &ProgressSender<TracePoint>, stop| {
             let begun = Instant::now();
-            let watch = Watch {
+            let watch = Observer {
                 clock: &|| begun.elapsed().as_secs_f64() * 1e3,
                 cancelled: &|| stop.load(Ordering::Relaxed),
                 progress: &|point| teller.tell(point),
@@ -376,8 +376,8 @@ impl Worker {
 
     /// Fits from the sliders alone, for a window that follows while they move.
     pub fn start_refit(&mut self, problem: Problem) -> Result<(), String> {
-        let job = self.spawn(Task::Refit, move |_: &Teller<()>, stop| {
-            let watch = Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
+        let job = self.spawn(JobKind::Refit, move |_: &ProgressSender<()>, stop| {
+            let watch = Observer { cancelled: &|| stop.load(Ordering::Relaxed), ..Observer::NONE };
             Event::Refitted(Box::new(fit(&problem, Starts::One, 0, watch)))
         })?;
         self.refit = Some(job);
@@ -391,7 +391,7 @@ impl Worker {
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {
-        let job = self.spawn(Task::Compare, move |teller: &Teller<&'static str>, stop| {
+        let job = self.spawn(JobKind::Compare, move |teller: &ProgressSender<&'static str>, stop| {
             let mut rungs = Vec::new();
             for (preset, problem) in problems {
                 if stop.load(Ordering::Relaxed) {
@@ -399,9 +399,12 @@ impl Worker {
                 }
                 teller.tell(preset.name);
                 let begun = Instant::now();
-                let watch =
-                    Watch { clock: &|| begun.elapsed().as_secs_f64() * 1e3, cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY };
-                rungs.push(Rung { preset, result: problem.map(|problem| Box::new(fit(&problem, starts, seed, watch))) });
+                let watch = Observer {
+                    clock: &|| begun.elapsed().as_secs_f64() * 1e3,
+                    cancelled: &|| stop.load(Ordering::Relaxed),
+                    ..Observer::NONE
+                };
+                rungs.push(ModelFit { preset, result: problem.map(|problem| Box::new(fit(&problem, starts, seed, watch))) });
             }
             Event::Compared(rungs)
         })?;
@@ -409,32 +412,34 @@ impl Worker {
         Ok(())
     }
 
-    /// Scans a parameter of a finished fit.
-    pub fn start_profile(&mut self, problem: Problem, report: FitReport, parameter: Parameter) -> Result<(), String> {
-        self.scan(Task::Profile, move |watch| Event::Profiled(profile(&problem, &report, parameter, watch)))
+    /// Diagnostics a parameter of a finished fit.
+    pub fn start_profile(&mut self, problem: Problem, report: FitResult, parameter: Parameter) -> Result<(), String> {
+        self.scan(JobKind::Profile, move |watch| Event::Profiled(profile(&problem, &report, parameter, watch)))
     }
 
     /// Fits the data of a finished fit again with its residuals dealt out anew.
-    pub fn start_bootstrap(&mut self, problem: Problem, report: FitReport, replicates: usize, seed: u64) -> Result<(), String> {
-        let run = move |watch: Watch<'_>| Event::Scattered { replicates, scatter: bootstrap(&problem, &report, replicates, seed, watch) };
-        self.scan(Task::Bootstrap, run)
+    pub fn start_bootstrap(&mut self, problem: Problem, report: FitResult, replicates: usize, seed: u64) -> Result<(), String> {
+        let run =
+            move |watch: Observer<'_>| Event::Scattered { replicates, scatter: bootstrap(&problem, &report, replicates, seed, watch) };
+        self.scan(JobKind::Bootstrap, run)
     }
 
-    fn scan(&mut self, task: Task, run: impl FnOnce(Watch<'_>) -> Event + Send + 'static) -> Result<(), String> {
+    fn scan(&mut self, task: JobKind, run: impl FnOnce(Observer<'_>) -> Event + Send + 'static) -> Result<(), String> {
         if let Some(job) = self.scan.take() {
             job.cancel();
         }
-        let job =
-            self.spawn(task, move |_: &Teller<()>, stop| run(Watch { cancelled: &|| stop.load(Ordering::Relaxed), ..Watch::NOBODY }))?;
+        let job = self.spawn(task, move |_: &ProgressSender<()>, stop| {
+            run(Observer { cancelled: &|| stop.load(Ordering::Relaxed), ..Observer::NONE })
+        })?;
         self.scan = Some(job);
         Ok(())
     }
 
     /// Makes a report; the caller keeps its job.
-    pub fn start_report(&mut self, subject: Subject) -> Result<Job<f64>, String> {
-        self.spawn(Task::Report, move |teller: &Teller<f64>, stop| {
+    pub fn start_report(&mut self, subject: BenchmarkId) -> Result<Job<f64>, String> {
+        self.spawn(JobKind::Report, move |teller: &ProgressSender<f64>, stop| {
             let begun = Instant::now();
-            let surroundings = Surroundings {
+            let surroundings = Host {
                 clock: &|| begun.elapsed().as_secs_f64() * 1e3,
                 cancelled: &|| stop.load(Ordering::Relaxed),
                 progress: &|done| teller.tell(done),
@@ -477,7 +482,7 @@ impl Worker {
                 // One at a time, and never replaced: each one matters.
                 Event::Reported { .. } => true,
                 Event::Saved(_) => self.save.take_if(|job| job.number == number).is_some(),
-                Event::Loaded { .. } | Event::Imported(_) => self.load.take_if(|job| job.number == number).is_some(),
+                Event::Loaded { .. } | Event::ImportResult(_) => self.load.take_if(|job| job.number == number).is_some(),
                 Event::Refitted(_) => self.refit.take_if(|job| job.number == number).is_some(),
                 Event::Compared(_) => self.comparison.take_if(|job| job.number == number).is_some(),
                 Event::Fitted { .. } => self.fit.take_if(|job| job.number == number).is_some(),
@@ -491,30 +496,30 @@ impl Worker {
     }
 
     /// Whether somebody waits for the job of that number, which will not answer; nobody does any more.
-    fn is_missed(&mut self, task: Task, number: u64) -> bool {
+    fn is_missed(&mut self, task: JobKind, number: u64) -> bool {
         fn is_missed<P>(slot: &mut Option<Job<P>>, number: u64) -> bool {
             slot.take_if(|job| job.number == number).is_some()
         }
         match task {
-            Task::Dialog => self.dialog.take_if(|dialog| *dialog == number).is_some(),
-            Task::Read | Task::Import => is_missed(&mut self.load, number),
-            Task::ReadSession => is_missed(&mut self.session, number),
-            Task::Save => is_missed(&mut self.save, number),
-            Task::Export => is_missed(&mut self.export, number),
-            Task::Autosave => is_missed(&mut self.autosave, number),
-            Task::Fit => is_missed(&mut self.fit, number),
-            Task::Refit => is_missed(&mut self.refit, number),
-            Task::Compare => is_missed(&mut self.comparison, number),
-            Task::Profile | Task::Bootstrap => is_missed(&mut self.scan, number),
+            JobKind::Dialog => self.dialog.take_if(|dialog| *dialog == number).is_some(),
+            JobKind::Read | JobKind::ImportDialog => is_missed(&mut self.load, number),
+            JobKind::ReadSession => is_missed(&mut self.session, number),
+            JobKind::Save => is_missed(&mut self.save, number),
+            JobKind::Export => is_missed(&mut self.export, number),
+            JobKind::Autosave => is_missed(&mut self.autosave, number),
+            JobKind::Fit => is_missed(&mut self.fit, number),
+            JobKind::Refit => is_missed(&mut self.refit, number),
+            JobKind::Compare => is_missed(&mut self.comparison, number),
+            JobKind::Profile | JobKind::Bootstrap => is_missed(&mut self.scan, number),
             // Kept by who asked for it.
-            Task::Report => true,
+            JobKind::Report => true,
         }
     }
 
     /// Begins a job that panics.
     #[cfg(test)]
-    pub fn start_broken<P: Send + 'static>(&mut self, task: Task) -> Job<P> {
-        self.spawn(task, |_: &Teller<P>, _| std::panic::panic_any("on purpose")).expect("a thread")
+    pub fn start_broken<P: Send + 'static>(&mut self, task: JobKind) -> Job<P> {
+        self.spawn(task, |_: &ProgressSender<P>, _| std::panic::panic_any("on purpose")).expect("a thread")
     }
 
     /// Whether a job is on its way.
@@ -541,7 +546,7 @@ pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
 }
 
 /// Tells how much is read, and stops when asked to.
-fn while_reading(teller: &Teller<f64>, stop: &AtomicBool) -> impl FnMut(f64) -> ControlFlow<()> {
+fn while_reading(teller: &ProgressSender<f64>, stop: &AtomicBool) -> impl FnMut(f64) -> ControlFlow<()> {
     move |done| {
         teller.tell(done);
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

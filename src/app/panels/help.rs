@@ -1,7 +1,7 @@
 //! The pages of help, each in a dialog.
 
 use crate::app::TITLE;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::help::{DOI, FIRST_STEPS, Help, PAPER, WORDS};
 use crate::app::text::i18n::translated;
@@ -14,7 +14,7 @@ const WIDTH: f32 = 620.0;
 const WORD_WIDTH: f32 = 130.0;
 const HEIGHT: f32 = 480.0;
 
-pub fn help_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
     let Some(page) = explorer.help else { return };
     let response = egui::Modal::new(egui::Id::unique("help")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
@@ -62,7 +62,7 @@ fn words_ui(ui: &mut Ui) {
     });
 }
 
-fn about_ui(explorer: &Explorer, ui: &mut Ui) {
+fn about_ui(explorer: &App, ui: &mut Ui) {
     let line = |ui: &mut Ui, text: String| ui.add(Label::new(text).wrap());
     line(ui, format!("{TITLE} · {}", tr!("version {}", env!("CARGO_PKG_VERSION"))));
     line(ui, tr!("Licence: MIT or Apache-2.0, at your option"));

@@ -1,10 +1,10 @@
 //! The question that a foreign file asks: which wavelength, which slices, which column is what; with the first rows of the answer.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::import_dialog::Import;
+use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::theme;
-use crate::app::storage::import::{Choice, ForeignTable, Imported, Slices};
+use crate::app::storage::import::{ForeignTable, ImportOptions, ImportResult, Slices};
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::phrase;
 use crate::app::work::design::Span;
@@ -21,11 +21,11 @@ const SHOWN: usize = 5;
 /// Above so many wavelengths there is a slider in place of a list.
 const LISTED: usize = 12;
 
-pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { import: Some(import), worker, commands, .. } = explorer else { return };
+pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { import: Some(import), worker, commands, .. } = explorer else { return };
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
-        ui.heading(tr!("Import {}", import.origin.name));
+        ui.heading(tr!("ImportDialog {}", import.origin.name));
         choice_ui(import, ui);
         ui.separator();
         let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
@@ -38,7 +38,7 @@ pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
             } else {
                 let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
                 if open.clicked() {
-                    commands.push(Command::Import);
+                    commands.push(Command::ImportDialog);
                 }
                 // Enter opens.
                 if is_sound && ui.memory(|memory| memory.focused().is_none()) {
@@ -56,19 +56,19 @@ pub fn import_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
 }
 
-fn choice_ui(import: &mut Import, ui: &mut Ui) {
-    let Import { foreign, choice, wavelengths_nm, .. } = import;
+fn choice_ui(import: &mut ImportDialog, ui: &mut Ui) {
+    let ImportDialog { foreign, choice, wavelengths_nm, .. } = import;
     match (choice, &*foreign) {
-        (Choice::Ellipsometry(wavelength_nm), _) => {
+        (ImportOptions::Ellipsometry(wavelength_nm), _) => {
             ui.label(tr!("Woollam ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."));
             wavelength_ui(wavelength_nm, wavelengths_nm, ui);
         }
-        (Choice::Tensor(slices), _) => {
+        (ImportOptions::Tensor(slices), _) => {
             ui.label(tr!("A tensor of Mueller matrices: slices through it become BRDF and DoLP for unpolarised light."));
             slices_ui(slices, wavelengths_nm, ui);
         }
-        (Choice::Table(mapping), crate::app::storage::import::Foreign::Table(table)) => columns_ui(mapping, table, ui),
-        (Choice::Table(_), _) => {}
+        (ImportOptions::Table(mapping), crate::app::storage::import::ImportSource::Table(table)) => columns_ui(mapping, table, ui),
+        (ImportOptions::Table(_), _) => {}
     }
 }
 
@@ -250,7 +250,7 @@ fn column_ui(mapping: &mut Mapping, table: &ForeignTable, index: usize, name: &s
 }
 
 /// The first rows of the answer, or why there is none; whether there is one.
-fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
+fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
     let warning = theme::warning(ui.visuals().dark_mode);
     match import.preview.get() {
         None => return false,
@@ -266,7 +266,7 @@ fn answer_ui(import: &Import, ui: &mut Ui) -> bool {
     true
 }
 
-fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
+fn rows_ui(imported: &ImportResult, is_all: bool, ui: &mut Ui) {
     let rows = &imported.measurement.rows;
     ui.weak(if is_all { tr!("The first of {} rows as they will be:", rows.len()) } else { tr!("The first rows as they will be:") });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {

@@ -1,6 +1,6 @@
 //! The open lesson, under the panes that it speaks of: what to move, what to watch, why.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n;
 use crate::app::work::lesson::Wording;
@@ -11,14 +11,14 @@ use tr::tr;
 const HEIGHT: f32 = 172.0;
 
 /// The panel, while a lesson is open.
-pub fn lesson_panel(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn lesson_panel(explorer: &mut App, ui: &mut Ui) {
     if explorer.lessons.current().is_some() {
         egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(explorer, ui));
     }
 }
 
-fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { lessons, commands, .. } = explorer;
+fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { lessons, commands, .. } = explorer;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
@@ -44,7 +44,7 @@ fn lesson_ui(explorer: &mut Explorer, ui: &mut Ui) {
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.columns(3, |columns| {
             for (ui, (heading, text)) in
-                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Watch"), &step.watch), (tr!("Why"), &step.why)])
+                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Observer"), &step.watch), (tr!("Why"), &step.why)])
             {
                 part_ui(&heading, text, code, ui);
             }

@@ -1,6 +1,6 @@
 //! The menu bar: the table of commands, sorted into menus.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Command, Item, Menu, Status};
 use crate::app::shell::path_entry::path_in;
@@ -8,7 +8,7 @@ use egui::containers::menu::MenuConfig;
 use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
 
-pub fn menu_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn menu_ui(explorer: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
         bar_menu_ui(tr!("File"), ui, |ui| file_ui(explorer, ui));
         for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
@@ -60,9 +60,9 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     popup.open_memory(set).close_behavior(behavior).info(info).show(content);
 }
 
-fn file_ui(explorer: &mut Explorer, ui: &mut Ui) {
+fn file_ui(explorer: &mut App, ui: &mut Ui) {
     let (quit, items): (Vec<Item>, Vec<Item>) = commands::items(explorer).into_iter().partition(|item| item.command == Command::Quit);
-    let Explorer { commands, typed, window, .. } = explorer;
+    let App { commands, typed, window, .. } = explorer;
     items_ui(&items, Menu::File, commands, ui);
     ui.separator();
     ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
@@ -105,10 +105,10 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
     field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))
 }
 
-fn view_ui(explorer: &mut Explorer, ui: &mut Ui) {
+fn view_ui(explorer: &mut App, ui: &mut Ui) {
     let items = commands::items(explorer);
-    ui.weak(tr!("Panes"));
-    items_ui(&items, Menu::Pane, &mut explorer.commands, ui);
+    ui.weak(tr!("Dock"));
+    items_ui(&items, Menu::PaneId, &mut explorer.commands, ui);
     ui.separator();
     items_ui(&items, Menu::View, &mut explorer.commands, ui);
     ui.separator();
@@ -130,8 +130,8 @@ fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui
             }
             status => ui.add_enabled(status == Status::Possible, egui::Button::new(item.text.as_ref()).shortcut_text(keys)),
         };
-        let obstacle = item.command.obstacle().unwrap_or_else(|| item.tooltip.to_string());
-        if clicked.on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(obstacle).clicked() {
+        let why_disabled = item.command.why_disabled().unwrap_or_else(|| item.tooltip.to_string());
+        if clicked.on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(why_disabled).clicked() {
             commands.push(item.command.clone());
             ui.close();
         }

@@ -2,7 +2,7 @@
 
 use crate::app::panels::beside::Beside as _;
 use crate::app::panels::stepping::{Step, step_with_arrows};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::lessons::Lessons;
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
@@ -15,8 +15,8 @@ use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
 
-pub fn parameters_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, notices, lessons, .. } = explorer;
+pub fn parameters_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, notices, lessons, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);

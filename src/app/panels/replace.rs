@@ -1,6 +1,6 @@
 //! The question before a file is replaced.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use egui::{Label, RichText, Ui};
 use tr::tr;
@@ -8,8 +8,8 @@ use tr::tr;
 /// Width of the dialog.
 const WIDTH: f32 = 420.0;
 
-pub fn replace_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { replacing: Some(replacing), commands, .. } = explorer else { return };
+pub fn replace_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { replacing: Some(replacing), commands, .. } = explorer else { return };
     let name = replacing.path.file_name().unwrap_or_default().to_string_lossy();
     let response = egui::Modal::new(egui::Id::unique("replace")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);

@@ -1,6 +1,6 @@
 //! The line under the plots, and sentences over them.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
@@ -16,8 +16,8 @@ const WIDTH: f32 = 640.0;
 const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
-pub fn status_ui(explorer: &mut Explorer, ui: &mut egui::Ui) {
-    let Explorer { derived, document, worker, commands, window, frame_times, .. } = explorer;
+pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
+    let App { derived, document, worker, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",
@@ -55,8 +55,8 @@ pub fn delta_e_text(delta_e: Option<f64>) -> String {
 }
 
 /// What there is to say, over the foot of the plots: they stay where they are.
-pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
-    let Explorer { notices, commands, derived, .. } = explorer;
+pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
+    let App { notices, commands, derived, .. } = explorer;
     let now = ui.input(|input| input.time);
     if let Some(seconds) = notices.rest(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
@@ -72,8 +72,8 @@ pub fn notices_ui(explorer: &mut Explorer, ui: &egui::Ui, room: egui::Rect) {
     let area = area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room);
     let shown = area.show(ui.ctx(), |ui| {
         let warning = theme::warning(ui.visuals().dark_mode);
-        let is_brief = fault.is_none() && notices.iter().all(|notice| notice.is_brief);
-        let color = if is_brief { ui.visuals().widgets.noninteractive.fg_stroke.color } else { warning };
+        let transient = fault.is_none() && notices.iter().all(|notice| notice.transient);
+        let color = if transient { ui.visuals().widgets.noninteractive.fg_stroke.color } else { warning };
         egui::Frame::popup(ui.style()).stroke(egui::Stroke::new(1.0, color)).show(ui, |ui| {
             ui.set_width(width);
             if let Some(fault) = fault {
@@ -103,7 +103,7 @@ fn sentences_ui(notices: &Notices, commands: &mut Vec<Command>, ui: &mut egui::U
                     let label = ui.add(Label::new(RichText::new(&notice.text).color(notice.color(ui.visuals()))).wrap());
                     // Read out without being asked for.
                     ui.ctx().accesskit_node_builder(label.id, |node| {
-                        node.set_live(if notice.is_brief { Live::Polite } else { Live::Assertive });
+                        node.set_live(if notice.transient { Live::Polite } else { Live::Assertive });
                     });
                 }
             });

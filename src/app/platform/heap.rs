@@ -10,6 +10,6 @@ use std::hint::black_box;
 const BLOCK: usize = 12 << 20;
 
 /// Lets the C library keep up to twice [`BLOCK`] bytes that are free; other ones do as they always do.
-pub fn keep_heap() {
+pub fn raise_trim_threshold() {
     drop(black_box(Vec::<u8>::with_capacity(black_box(BLOCK))));
 }

@@ -5,7 +5,7 @@ use crate::app::plots::axis::{axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
 use crate::app::shell::theme;
 use crate::app::text::i18n::{phrase, translated};
-use crate::app::views::curves::{Pieces, pieces};
+use crate::app::views::curves::{Polyline, pieces};
 use crate::figure;
 use crate::figure::{Dash, Drawn, Figure, Panel, Scale};
 use egui::text::{LayoutJob, TextFormat};
@@ -43,8 +43,8 @@ struct Item {
 }
 
 enum Kind {
-    Line(Pieces, Option<LineStyle>),
-    Points(Pieces),
+    Line(Polyline, Option<LineStyle>),
+    Points(Polyline),
     Level(f64),
     Upright(f64),
 }
@@ -224,7 +224,7 @@ fn style(dash: Dash) -> Option<LineStyle> {
 
 /// A line as its edges, each a piece of its own, since the sharp corners of one long line are drawn as filled wedges; with steps, one edge
 /// along and one up or down.
-fn edges(points: &[Option<(f64, f64)>], steps: bool) -> Pieces {
+fn edges(points: &[Option<(f64, f64)>], steps: bool) -> Polyline {
     let edge = |pair: &[Option<(f64, f64)>]| {
         let (Some((x0, y0)), Some((x1, y1))) = (pair[0], pair[1]) else { return Vec::new() };
         let piece = |ends: [(f64, f64); 2]| ends.map(|(x, y)| PlotPoint::new(x, y)).to_vec();

@@ -1,6 +1,6 @@
 //! Error bars, which `egui_plot` lacks: one item with a cap at either end of each bar.
 
-use crate::app::views::curves::Bar;
+use crate::app::views::curves::ErrorBar;
 use egui::{Color32, Shape, Stroke, Ui, pos2};
 use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotPoint, PlotTransform};
 use std::ops::RangeInclusive;
@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 /// Bars of one colour.
 pub struct ErrorBars<'a> {
     base: PlotItemBase,
-    bars: &'a [Bar],
+    bars: &'a [ErrorBar],
     color: Color32,
 }
 
@@ -17,7 +17,7 @@ const CAP: f32 = 2.5;
 
 impl<'a> ErrorBars<'a> {
     /// Of that name: the one of the points they belong to, so that the legend has one entry for both.
-    pub fn new(name: String, bars: &'a [Bar], color: Color32) -> Self {
+    pub fn new(name: String, bars: &'a [ErrorBar], color: Color32) -> Self {
         Self { base: PlotItemBase::new(name), bars, color }
     }
 }

@@ -22,7 +22,7 @@ pub use range::{Following, Range, round_up};
 pub use ribbon::{Ribbon, ribbons_in};
 
 use crate::app::shell::theme;
-use crate::app::views::curves::Pieces;
+use crate::app::views::curves::Polyline;
 use egui::{Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi};
 
@@ -91,7 +91,7 @@ pub fn line<'a>(name: &str, points: &'a [PlotPoint]) -> Line<'a> {
 }
 
 /// A curve in its pieces, under one name.
-pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: egui::Color32, style: Option<LineStyle>, width: f32) {
+pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Polyline, name: &str, color: egui::Color32, style: Option<LineStyle>, width: f32) {
     for piece in pieces {
         let line = line(name, piece).color(color).width(width);
         plot.line(if let Some(style) = style { line.style(style) } else { line });
@@ -99,7 +99,7 @@ pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: e
 }
 
 /// The same, filled down to that height.
-pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Pieces, name: &str, color: egui::Color32, floor: f64) {
+pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Polyline, name: &str, color: egui::Color32, floor: f64) {
     #[expect(clippy::cast_possible_truncation, reason = "egui_plot takes a height as f32")]
     let floor = floor as f32;
     for piece in pieces {

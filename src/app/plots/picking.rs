@@ -2,7 +2,7 @@
 
 use crate::app::shell::commands::Command;
 use crate::app::views::curves::drawn;
-use crate::app::work::document::{Document, Mark, Series};
+use crate::app::work::document::{DataPoint, Document, Series};
 use egui::Ui;
 use egui_plot::{PlotPoint, PlotResponse};
 
@@ -18,12 +18,12 @@ pub fn clicked_mask<R>(
     response: &PlotResponse<R>,
     ui: &Ui,
     document: &Document,
-    marks: impl Fn(usize, &Series) -> &[Mark],
-    coordinate: impl Fn(&Mark) -> Option<f64>,
+    marks: impl Fn(usize, &Series) -> &[DataPoint],
+    coordinate: impl Fn(&DataPoint) -> Option<f64>,
 ) -> Option<Command> {
     let modifiers = ui.input(|input| input.modifiers);
     let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked() && modifiers.command)?;
-    let distance = |mark: &Mark| {
+    let distance = |mark: &DataPoint| {
         let point = PlotPoint::new(mark.theta_r, coordinate(mark)?);
         Some(response.transform.position_from_point(&point).distance(at))
     };

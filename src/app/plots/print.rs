@@ -1,7 +1,7 @@
 //! What figures for print have in common: inks, and curves as the core's figures have them.
 
 use crate::app::plots::Range;
-use crate::app::views::curves::Pieces;
+use crate::app::views::curves::Polyline;
 use crate::figure::{Axis, Rgb};
 
 /// Ink of what is no series: totals, rays, marks.
@@ -14,12 +14,12 @@ pub const WHITE: Rgb = Rgb(255, 255, 255);
 pub const MARK: Rgb = Rgb(235, 50, 60);
 
 /// Coordinates of a curve; a gap between pieces stays one.
-pub fn points(pieces: &Pieces, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+pub fn points(pieces: &Polyline, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     placed(pieces, |[x, value]| [x, y(value)])
 }
 
 /// The same, where both coordinates are others than on the screen.
-pub fn placed(pieces: &Pieces, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+pub fn placed(pieces: &Polyline, place: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
     let gap = [[f64::NAN; 2]];
     pieces.iter().flat_map(|piece| piece.iter().map(|point| place([point.x, point.y])).chain(gap)).collect()
 }

@@ -1,41 +1,41 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
 use crate::app::jobs::async_memo::Background;
-use crate::app::jobs::kind::Task;
-use crate::app::jobs::worker::{Event, Rung, Worker};
+use crate::app::jobs::kind::JobKind;
+use crate::app::jobs::worker::{Event, ModelFit, Worker};
 use crate::app::panels;
-use crate::app::shell::benchmarks::Reports;
+use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::command_palette::{Palette, palette_ui};
 use crate::app::shell::commands;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{Pane, Panes, panes_ui};
-use crate::app::shell::file_dialogs::NoDialog;
+use crate::app::shell::docking::{Dock, PaneId, panes_ui};
+use crate::app::shell::file_dialogs::DialogUnavailable;
 use crate::app::shell::frame_times::FrameTimes;
 use crate::app::shell::help::Help;
-use crate::app::shell::import_dialog::Import;
-use crate::app::shell::lesson_session::Aside;
+use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::lesson_session::LessonSession;
 use crate::app::shell::lessons;
 use crate::app::shell::lessons::Lessons;
-use crate::app::shell::path_entry::{Replacing, Typed};
+use crate::app::shell::path_entry::{OverwritePrompt, PathEntry};
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
-use crate::app::storage::autosave::Working;
-use crate::app::storage::export::Outgoing;
-use crate::app::storage::import::Arrived;
+use crate::app::storage::autosave::AutosaveKey;
+use crate::app::storage::export::ExportKind;
+use crate::app::storage::import::Loaded;
 use crate::app::storage::{export, settings_file};
 use crate::app::text::i18n;
 use crate::app::text::i18n::phrase;
 use crate::app::views::Views;
 use crate::app::views::derived::Derived;
-use crate::app::work::diagnostics::{Bootstrap, ProfileCurve, Scans};
+use crate::app::work::diagnostics::{Bootstrap, Diagnostics, ProfileCurve};
 use crate::app::work::document::{Document, EXAMPLES, Mask};
-use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::fit_setup::{problem, reason};
 use crate::app::work::history::History;
 use crate::app::work::layout::Layout;
 use crate::app::work::parameter_text;
-use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings};
-use pbrdf::fit::{Choices, Eq17, FitReport, Problem};
+use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
+use pbrdf::fit::{DolpFormula, FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
@@ -55,7 +55,7 @@ pub struct Setup {
 }
 
 /// The window.
-pub struct Explorer {
+pub struct App {
     pub settings: Settings,
     pub window: WindowSettings,
     /// Where the settings go; nowhere in tests.
@@ -64,68 +64,68 @@ pub struct Explorer {
     pub derived: Derived,
     pub worker: Worker,
     /// The fit that is shown.
-    pub last_fit: Option<Rc<PastFit>>,
+    pub last_fit: Option<Rc<FitEntry>>,
     /// The fits before it.
-    pub past_fits: PastFits,
+    pub fit_history: FitHistory,
     /// The ladder of models on the open measurement.
-    pub comparison: Vec<Rung>,
+    pub comparison: Vec<ModelFit>,
     /// What the program found out about itself.
-    pub reports: Reports,
+    pub reports: Benchmarks,
     /// What was asked about the fit that is shown.
-    pub scans: Scans,
+    pub scans: Diagnostics,
     pub history: History<Setup>,
     /// Whether the panel shows what the data would determine.
-    pub outlook_is_shown: bool,
+    pub show_predicted_errors: bool,
     /// Where the last refit left the sliders: what differs from it was moved since.
     pub(crate) refitted: Option<Parameters>,
     pub notices: Notices,
     pub views: Views,
-    pub panes: Panes,
+    pub panes: Dock,
     pub palette: Palette,
     /// The page of help that is open.
     pub help: Option<Help>,
     /// A foreign file that waits for a choice.
-    pub import: Option<Import>,
+    pub import: Option<ImportDialog>,
     pub lessons: Lessons,
     /// The user's own work, while a lesson is on.
-    pub(crate) aside: Option<Box<Aside>>,
+    pub(crate) aside: Option<Box<LessonSession>>,
     /// Where panes make what takes longer than a frame.
     pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub dragging: bool,
     /// Paths typed by hand, where there is no file dialog.
-    pub typed: Typed,
+    pub typed: PathEntry,
     /// A file that is asked about before it is replaced.
-    pub replacing: Option<Replacing>,
+    pub replacing: Option<OverwritePrompt>,
     /// The file of the session that is open.
     pub session_file: Option<PathBuf>,
     /// Where the working state goes; nowhere in tests.
     pub working_file: Option<PathBuf>,
     /// The working state as it was written last.
-    pub(crate) autosaved: Option<Working>,
+    pub(crate) autosaved: Option<AutosaveKey>,
     /// Since when it is another one.
     pub(crate) unsaved_since: Option<Instant>,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
     generation: u64,
-    saved: Stored,
+    saved: SettingsFile,
     changed_at: Option<Instant>,
 }
 
 /// How long settings rest before they are written.
 pub(crate) const SAVE_AFTER: Duration = Duration::from_millis(1500);
 
-impl Explorer {
-    pub fn new(ctx: &egui::Context, stored: Stored) -> Self {
+impl App {
+    pub fn new(ctx: &egui::Context, stored: SettingsFile) -> Self {
         theme::install(ctx);
         i18n::install();
         i18n::set(stored.window.language);
         set_theme(ctx, stored.window.theme);
         let saved = stored.clone();
-        let Stored { settings, window } = stored;
+        let SettingsFile { settings, window } = stored;
         Self {
             saved,
-            panes: Panes::new(&window.layout),
+            panes: Dock::new(&window.layout),
             settings,
             window,
             settings_file: None,
@@ -133,12 +133,12 @@ impl Explorer {
             derived: Derived::default(),
             worker: Worker::new(ctx),
             last_fit: None,
-            past_fits: PastFits::default(),
+            fit_history: FitHistory::default(),
             comparison: Vec::new(),
-            reports: Reports::default(),
-            scans: Scans::default(),
+            reports: Benchmarks::default(),
+            scans: Diagnostics::default(),
             history: History::default(),
-            outlook_is_shown: false,
+            show_predicted_errors: false,
             refitted: None,
             notices: Notices::default(),
             views: Views::default(),
@@ -149,7 +149,7 @@ impl Explorer {
             aside: None,
             background: Background::new(ctx),
             dragging: false,
-            typed: Typed::default(),
+            typed: PathEntry::default(),
             replacing: None,
             session_file: None,
             working_file: None,
@@ -216,7 +216,7 @@ impl Explorer {
             self.receive(event);
         }
         for command in std::mem::take(&mut self.commands) {
-            if let Err(sentence) = self.carry_out(ctx, command) {
+            if let Err(sentence) = self.execute(ctx, command) {
                 self.say(sentence);
             }
         }
@@ -240,7 +240,7 @@ impl Explorer {
     fn refresh(&mut self) {
         self.derived.refresh_status(&self.settings, &self.document);
         let free = self.free();
-        self.derived.refresh_outlook(&self.settings, &self.document, free, self.outlook_is_shown);
+        self.derived.refresh_outlook(&self.settings, &self.document, free, self.show_predicted_errors);
         self.refresh_import();
         self.panes.settle();
         let on_screen = self.panes.on_screen();
@@ -254,7 +254,7 @@ impl Explorer {
         match event {
             // It was asked before whatever waits to be carried out, and is about the work of then.
             Event::Answered(question, Ok(path)) => drop(self.commands.splice(..0, path.map(|path| question.command(path)))),
-            Event::Answered(question, Err(NoDialog)) => self.say(question.without_dialog()),
+            Event::Answered(question, Err(DialogUnavailable)) => self.say(question.without_dialog()),
             Event::Exported(what, result) => self.exported(what, result),
             Event::Autosaved(result) => {
                 if let Err(sentence) = result {
@@ -265,19 +265,19 @@ impl Explorer {
             Event::SessionRead { path, result } => self.session_read(&path, result),
             Event::Saved(Ok(path)) => {
                 self.typed.served(&path);
-                self.notices.say_briefly(tr!("The measurement is saved to {}.", path.display()));
+                self.notices.info(tr!("The measurement is saved to {}.", path.display()));
             }
             Event::Saved(Err(sentence)) => self.say(sentence),
-            Event::Loaded { origin, result: Ok(Arrived::Measurement(imported)) } => self.loaded(origin, *imported),
-            Event::Loaded { origin, result: Ok(Arrived::Foreign(foreign)) } => {
+            Event::Loaded { origin, result: Ok(Loaded::Measurement(imported)) } => self.loaded(origin, *imported),
+            Event::Loaded { origin, result: Ok(Loaded::ImportSource(foreign)) } => {
                 origin.path.iter().for_each(|path| self.typed.served(path));
-                self.import = Some(Import::new(origin, foreign));
+                self.import = Some(ImportDialog::new(origin, foreign));
             }
             Event::Loaded { origin, result: Err(sentence) } => {
                 origin.path.iter().for_each(|path| self.window.forget(path));
-                self.notices.say_of_reading(sentence);
+                self.notices.load_error(sentence);
             }
-            Event::Imported(result) => self.imported(result),
+            Event::ImportResult(result) => self.imported(result),
             Event::Refitted(report) => {
                 // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
                 for parameter in self.free() {
@@ -294,7 +294,7 @@ impl Explorer {
             }
             Event::Broken(task) => self.broken(task),
             Event::Profiled(profile) => {
-                let curve = |fit: &Rc<PastFit>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
+                let curve = |fit: &Rc<FitEntry>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
                 self.scans.profile = self.last_fit.as_ref().map(curve);
             }
             Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
@@ -305,17 +305,17 @@ impl Explorer {
                 let Document { name, number, .. } = &self.document;
                 let (document, number) = (name.clone(), *number);
                 // The list of past fits numbers them.
-                let fit = PastFit { id: 0, report: *report, problem, before, document, number, generation, mask };
-                let fit = self.past_fits.push(fit);
+                let fit = FitEntry { id: 0, report: *report, problem, before, document, number, generation, mask };
+                let fit = self.fit_history.push(fit);
                 self.show_fit(Some(fit));
             }
         }
     }
 
     /// A job panicked.
-    fn broken(&mut self, task: Task) {
+    fn broken(&mut self, task: JobKind) {
         self.say(task.broken());
-        if task == Task::Report {
+        if task == JobKind::Report {
             self.reports.give_up();
             self.go_on_with_reports();
         }
@@ -360,7 +360,7 @@ impl Explorer {
     fn compare_models(&mut self) -> Result<(), String> {
         let Self { settings, document, .. } = self;
         let problems = PRESETS.iter().map(|preset| {
-            let choices = Choices { dolp_only: preset.dolp_only, ..settings.choices };
+            let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
             let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
             let problem = problem(settings, &document.measurement, preset.model, free, choices);
             (preset, problem)
@@ -370,12 +370,12 @@ impl Explorer {
         self.worker.start_comparison(problems, self.settings.starts, self.settings.seed)
     }
 
-    pub(crate) fn carry_out(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+    pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         match command {
             Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
                 self.choose(&command)?;
             }
-            Command::OpenMeasurement(path) if export::Outgoing::Session.check(&path).is_ok() => {
+            Command::OpenMeasurement(path) if export::ExportKind::Session.check(&path).is_ok() => {
                 self.worker.open_session(path)?;
             }
             Command::OpenMeasurement(path) => self.worker.open(path)?,
@@ -394,7 +394,7 @@ impl Explorer {
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
             Command::CloseLesson => self.end_lesson()?,
             Command::KeepLesson => self.keep_lesson(),
-            Command::Import => self.start_import()?,
+            Command::ImportDialog => self.start_import()?,
             Command::CancelImport => self.cancel_import(),
             Command::CancelLoading => self.worker.load.iter().for_each(crate::app::jobs::worker::Job::cancel),
             Command::StartFit => self.start_fit()?,
@@ -423,7 +423,7 @@ impl Explorer {
             Command::CancelScan => self.worker.scan.iter().for_each(crate::app::jobs::worker::Job::cancel),
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => {
-                self.panes.show(Pane::Models);
+                self.panes.show(PaneId::Models);
                 self.compare_models()?;
             }
             Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
@@ -438,7 +438,7 @@ impl Explorer {
             Command::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
             Command::TogglePane(pane) => self.panes.show(pane),
             Command::ClosePane(pane) => self.panes.close(pane),
-            Command::ResetLayout => self.panes = Panes::new(&Layout::default()),
+            Command::ResetLayout => self.panes = Dock::new(&Layout::default()),
             Command::ForgetRecent => self.window.recent.clear(),
             Command::OpenPalette => self.palette.open(),
             Command::ShowHelp(page) => self.help = Some(page),
@@ -453,7 +453,7 @@ impl Explorer {
         Ok(())
     }
 
-    fn export(&mut self, what: Outgoing, path: PathBuf) -> Result<(), String> {
+    fn export(&mut self, what: ExportKind, path: PathBuf) -> Result<(), String> {
         what.check(&path)?;
         let write = what.taken_from(self)?;
         self.worker.export(what, path, write)
@@ -488,7 +488,7 @@ impl Explorer {
     /// The table of the pane Data to the clipboard.
     fn copy_table(&mut self, ctx: &egui::Context) {
         ctx.copy_text(crate::app::views::table_text(self));
-        self.notices.say_briefly(tr!("{} rows are copied; paste them into a spreadsheet.", self.document.measurement.rows.len()));
+        self.notices.info(tr!("{} rows are copied; paste them into a spreadsheet.", self.document.measurement.rows.len()));
     }
 
     /// Everything the user sets as a step of undo has it.
@@ -529,7 +529,7 @@ impl Explorer {
         let (has_brdf, planned) = (self.document.measurement.has_brdf(), self.settings.plan.has_brdf());
         let locked = match self.settings.locked {
             locked if has_brdf == planned => locked,
-            locked if planned || self.settings.choices.eq17 == Eq17::Printed => locked.without(Parameter::Ks),
+            locked if planned || self.settings.choices.eq17 == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
             locked => locked.with(Parameter::Ks),
         };
         self.free_with(planned).without_all(locked)
@@ -539,15 +539,17 @@ impl Explorer {
         let model = self.settings.model;
         match self.settings.choices.eq17 {
             _ if has_brdf => model.parameters(),
-            Eq17::Consistent => model.dolp_parameters(),
+            DolpFormula::Consistent => model.dolp_parameters(),
             // As printed, k_s is a gain of its own.
-            Eq17::Printed => model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks))),
+            DolpFormula::AsPrinted => {
+                model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks)))
+            }
         }
     }
 
     /// Sliders, model and results as an earlier fit left them.
     fn return_to(&mut self, index: usize) {
-        if let Some(fit) = self.past_fits.get(index) {
+        if let Some(fit) = self.fit_history.get(index) {
             self.settings.parameters = fit.report.parameters;
             self.settings.model = fit.report.model;
             self.refitted = Some(fit.report.parameters);
@@ -556,7 +558,7 @@ impl Explorer {
     }
 
     /// Shows a fit; scans around another one end.
-    pub(crate) fn show_fit(&mut self, fit: Option<Rc<PastFit>>) {
+    pub(crate) fn show_fit(&mut self, fit: Option<Rc<FitEntry>>) {
         self.last_fit = fit;
         self.scans.forget();
         self.worker.abandon_scan();
@@ -564,7 +566,7 @@ impl Explorer {
 
     /// Sliders and terms of a model that was compared.
     fn use_rung(&mut self, index: usize) {
-        if let Some(Rung { result: Ok(report), .. }) = self.comparison.get(index) {
+        if let Some(ModelFit { result: Ok(report), .. }) = self.comparison.get(index) {
             self.settings.parameters = report.parameters;
             self.settings.model = report.model;
             self.refitted = Some(report.parameters);
@@ -594,7 +596,7 @@ impl Explorer {
     }
 
     /// The fit that is shown, with the problem that it solved.
-    fn shown_fit(&self) -> Option<(Problem, FitReport)> {
+    fn shown_fit(&self) -> Option<(Problem, FitResult)> {
         let fit = self.last_fit.as_ref()?;
         // An automatic scale of the loss belongs to the fit, not to its problem.
         Some((fit.problem.with_loss_scales(fit.report.loss_scales), fit.report.clone()))
@@ -642,7 +644,7 @@ impl Explorer {
     /// Writes the settings now.
     pub fn save(&mut self) {
         self.changed_at = None;
-        self.saved = Stored { settings: self.own_settings().clone(), window: self.window.clone() };
+        self.saved = SettingsFile { settings: self.own_settings().clone(), window: self.window.clone() };
         if let Some(path) = &self.settings_file
             && let Err(error) = settings_file::save(path, &self.saved)
         {
@@ -682,7 +684,7 @@ fn set_theme(ctx: &egui::Context, theme: Theme) {
     });
 }
 
-impl eframe::App for Explorer {
+impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         Self::logic(self, ctx);
     }

@@ -2,56 +2,56 @@
 
 use crate::app::jobs::worker::{Job, Worker};
 use crate::app::plots::Drawing;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::export::{machine, now};
 use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
-use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability, Surroundings};
+use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
 
 /// Which report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Subject {
+pub enum BenchmarkId {
     ErrorVsTime,
     Stability,
     Cost,
 }
 
-impl Subject {
+impl BenchmarkId {
     pub const ALL: [Self; 3] = [Self::ErrorVsTime, Self::Stability, Self::Cost];
 
     /// Where it is shown.
-    pub fn pane(self) -> Pane {
+    pub fn pane(self) -> PaneId {
         match self {
-            Self::ErrorVsTime => Pane::ErrorVsTime,
-            Self::Stability => Pane::Stability,
-            Self::Cost => Pane::Cost,
+            Self::ErrorVsTime => PaneId::ErrorVsTime,
+            Self::Stability => PaneId::Stability,
+            Self::Cost => PaneId::Cost,
         }
     }
 
     /// The report shown in that pane.
-    pub fn of(pane: Pane) -> Option<Self> {
+    pub fn of(pane: PaneId) -> Option<Self> {
         Self::ALL.into_iter().find(|subject| subject.pane() == pane)
     }
 
     /// Makes it; takes seconds to a minute.
-    pub fn make(self, surroundings: Surroundings<'_>) -> Made {
+    pub fn make(self, surroundings: Host<'_>) -> BenchmarkResult {
         match self {
-            Self::ErrorVsTime => Made::ErrorVsTime(ErrorVsTime::run(machine(), now(), surroundings)),
-            Self::Stability => Made::Stability(Stability::run(machine(), now(), surroundings)),
-            Self::Cost => Made::Cost(Cost::run(machine(), now(), surroundings)),
+            Self::ErrorVsTime => BenchmarkResult::ErrorVsTime(ErrorVsTime::run(machine(), now(), surroundings)),
+            Self::Stability => BenchmarkResult::Stability(Stability::run(machine(), now(), surroundings)),
+            Self::Cost => BenchmarkResult::Cost(Cost::run(machine(), now(), surroundings)),
         }
     }
 }
 
 /// A report of one kind or another.
-pub enum Made {
+pub enum BenchmarkResult {
     ErrorVsTime(Report<ErrorVsTime>),
     Stability(Report<Stability>),
     Cost(Report<Cost>),
 }
 
 /// A report as it is shown.
-pub struct Shown<R> {
+pub struct BenchmarkView<R> {
     pub report: Report<R>,
     /// Whether it was stopped before its end.
     pub is_part: bool,
@@ -65,7 +65,7 @@ pub struct Shown<R> {
     pub page: usize,
 }
 
-impl<R: Row> Shown<R>
+impl<R: Row> BenchmarkView<R>
 where
     Report<R>: BenchmarkFigures,
 {
@@ -86,18 +86,18 @@ where
 
 /// The reports that there are, and the one that is being made.
 #[derive(Default)]
-pub struct Reports {
-    pub running: Option<(Subject, Job<f64>)>,
+pub struct Benchmarks {
+    pub running: Option<(BenchmarkId, Job<f64>)>,
     /// Those that come next.
-    waiting: Vec<Subject>,
-    pub error_vs_time: Option<Shown<ErrorVsTime>>,
-    pub stability: Option<Shown<Stability>>,
-    pub cost: Option<Shown<Cost>>,
+    waiting: Vec<BenchmarkId>,
+    pub error_vs_time: Option<BenchmarkView<ErrorVsTime>>,
+    pub stability: Option<BenchmarkView<Stability>>,
+    pub cost: Option<BenchmarkView<Cost>>,
 }
 
-impl Reports {
+impl Benchmarks {
     /// Begins one, or puts it behind the one that is being made: the two would disturb each other.
-    pub fn start(&mut self, subject: Subject, worker: &mut Worker) -> Result<(), String> {
+    pub fn start(&mut self, subject: BenchmarkId, worker: &mut Worker) -> Result<(), String> {
         if self.running.is_none() {
             self.running = Some((subject, worker.start_report(subject)?));
         } else if self.can_start(subject) {
@@ -116,34 +116,34 @@ impl Reports {
     }
 
     /// Whether it is neither being made nor waiting.
-    pub fn can_start(&self, subject: Subject) -> bool {
+    pub fn can_start(&self, subject: BenchmarkId) -> bool {
         !self.is_waiting(subject) && self.running.as_ref().is_none_or(|(running, _)| *running != subject)
     }
 
     /// Whether it comes after another one.
-    pub fn is_waiting(&self, subject: Subject) -> bool {
+    pub fn is_waiting(&self, subject: BenchmarkId) -> bool {
         self.waiting.contains(&subject)
     }
 
     /// Takes it out of the row of those that wait.
-    pub fn forget(&mut self, subject: Subject) {
+    pub fn forget(&mut self, subject: BenchmarkId) {
         self.waiting.retain(|other| *other != subject);
     }
 
     /// Takes the report that was being made in the place of the one before.
-    pub fn take(&mut self, made: Made, is_part: bool) {
+    pub fn take(&mut self, made: BenchmarkResult, is_part: bool) {
         self.running = None;
-        fn again<R: Row>(slot: &mut Option<Shown<R>>, report: Report<R>, is_part: bool)
+        fn again<R: Row>(slot: &mut Option<BenchmarkView<R>>, report: Report<R>, is_part: bool)
         where
             Report<R>: BenchmarkFigures,
         {
             let page = slot.as_ref().map_or(0, |before| before.page);
-            *slot = Some(Shown::new(report, is_part, page));
+            *slot = Some(BenchmarkView::new(report, is_part, page));
         }
         match made {
-            Made::ErrorVsTime(report) => again(&mut self.error_vs_time, report, is_part),
-            Made::Stability(report) => again(&mut self.stability, report, is_part),
-            Made::Cost(report) => again(&mut self.cost, report, is_part),
+            BenchmarkResult::ErrorVsTime(report) => again(&mut self.error_vs_time, report, is_part),
+            BenchmarkResult::Stability(report) => again(&mut self.stability, report, is_part),
+            BenchmarkResult::Cost(report) => again(&mut self.cost, report, is_part),
         }
     }
 
@@ -153,16 +153,16 @@ impl Reports {
     }
 
     /// The figure in front of a report that was made.
-    pub fn figure(&self, subject: Subject) -> Option<&Figure> {
+    pub fn figure(&self, subject: BenchmarkId) -> Option<&Figure> {
         match subject {
-            Subject::ErrorVsTime => self.error_vs_time.as_ref()?.figure(),
-            Subject::Stability => self.stability.as_ref()?.figure(),
-            Subject::Cost => self.cost.as_ref()?.figure(),
+            BenchmarkId::ErrorVsTime => self.error_vs_time.as_ref()?.figure(),
+            BenchmarkId::Stability => self.stability.as_ref()?.figure(),
+            BenchmarkId::Cost => self.cost.as_ref()?.figure(),
         }
     }
 
     /// How far the one that is being made is.
-    pub fn progress(&self) -> Option<(Subject, f64)> {
+    pub fn progress(&self) -> Option<(BenchmarkId, f64)> {
         self.running.as_ref().map(|(subject, job)| (*subject, job.progress().unwrap_or(0.0)))
     }
 }

@@ -1,6 +1,6 @@
 //! The command palette: every command by words of its name and its menu.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Command, Item, Status};
 use crate::app::text::i18n;
@@ -32,12 +32,12 @@ impl Palette {
 const LIST_HEIGHT: f32 = 400.0;
 
 /// Draws the palette, if it is open, and orders what is chosen.
-pub fn palette_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
     if !explorer.palette.is_open {
         return;
     }
     let items = matching(found(explorer), english_names(explorer), &explorer.palette.filter);
-    let Explorer { palette, commands, .. } = explorer;
+    let App { palette, commands, .. } = explorer;
     let area = egui::Modal::default_area(egui::Id::unique("palette")).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 80.0));
     let response = egui::Modal::new(egui::Id::unique("palette")).area(area).show(ui.ctx(), |ui| {
         ui.set_width(520.0);
@@ -89,8 +89,8 @@ fn row_ui(found: &Found, is_chosen: bool, ui: &mut Ui) -> egui::Response {
     let state = if item.status == Status::On { tr!("on") } else { String::new() };
     let button = egui::Button::selectable(is_chosen, found.shown()).right_text(format!("{state}  {keys}"));
     let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
-    let obstacle = item.command.obstacle().unwrap_or_else(|| item.tooltip.to_string());
-    ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(obstacle)
+    let why_disabled = item.command.why_disabled().unwrap_or_else(|| item.tooltip.to_string());
+    ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(why_disabled)
 }
 
 /// A command with what it is found by.
@@ -116,7 +116,7 @@ impl Found {
 }
 
 /// Every command, as the menus have them.
-fn found(explorer: &Explorer) -> Vec<Found> {
+fn found(explorer: &App) -> Vec<Found> {
     let mut items = commands::items(explorer);
     items.sort_by_key(|item| (item.menu, item.command == Command::Quit));
     let found = |item: Item| {
@@ -127,7 +127,7 @@ fn found(explorer: &Explorer) -> Vec<Found> {
 }
 
 /// The names of all commands in English, where the window speaks another language.
-fn english_names(explorer: &Explorer) -> Option<Vec<Name>> {
+fn english_names(explorer: &App) -> Option<Vec<Name>> {
     let names = || found(explorer).into_iter().map(|found| found.name).collect();
     (i18n::current() != Language::English).then(|| i18n::in_english(names))
 }

@@ -1,10 +1,10 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
-use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
+use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::shell::help::Help;
-use crate::app::storage::export::{Outgoing, PLOTS};
+use crate::app::storage::export::{ExportKind, PLOTS};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
@@ -40,12 +40,12 @@ pub enum Command {
     /// Into the file that it came from or went to last; asks where there is none.
     SaveSession,
     /// Ask the desktop where to write that.
-    ChooseExport(Outgoing),
-    Export(Outgoing, PathBuf),
+    ChooseExport(ExportKind),
+    Export(ExportKind, PathBuf),
     /// The same into a new file; asks if there is one already.
-    ExportNew(Outgoing, PathBuf),
+    ExportNew(ExportKind, PathBuf),
     /// The plot of a pane to the clipboard, as an image.
-    CopyPlot(Pane),
+    CopyPlot(PaneId),
     /// The measurement to the clipboard, as text.
     CopyTable,
     /// Load the bundled example of that number.
@@ -57,7 +57,7 @@ pub enum Command {
     /// Out of the lesson, and on with what it set.
     KeepLesson,
     /// Read the foreign file as it was chosen.
-    Import,
+    ImportDialog,
     /// Leave it; what is open stays.
     CancelImport,
     /// Stop reading.
@@ -103,16 +103,16 @@ pub enum Command {
     CompareModels,
     CancelComparison,
     /// Measure, in the background.
-    MakeReport(Subject),
+    MakeReport(BenchmarkId),
     CancelReport,
     /// Not to be made after the one that is being made.
-    ForgetReport(Subject),
+    ForgetReport(BenchmarkId),
     /// Sliders, terms and angles as that case of the stability gallery has them.
     UseCase(usize),
     Toggle(Switch),
     /// A pane to the screen, or off it.
-    TogglePane(Pane),
-    ClosePane(Pane),
+    TogglePane(PaneId),
+    ClosePane(PaneId),
     ResetLayout,
     SetTheme(Theme),
     SetLanguage(Language),
@@ -134,12 +134,12 @@ pub enum Switch {
 
 impl Command {
     /// Why it cannot be carried out, where that is not said by what it does.
-    pub fn obstacle(&self) -> Option<String> {
+    pub fn why_disabled(&self) -> Option<String> {
         match self {
-            Self::ChooseExport(Outgoing::Plot(pane)) | Self::CopyPlot(pane) => {
+            Self::ChooseExport(ExportKind::Plot(pane)) | Self::CopyPlot(pane) => {
                 Some(tr!("Open the pane {} first (menu View).", translated(pane.entry().title)))
             }
-            Self::ChooseExport(Outgoing::Fitted | Outgoing::Report) | Self::UseFit | Self::Back | Self::Bootstrap => {
+            Self::ChooseExport(ExportKind::Fitted | ExportKind::Report) | Self::UseFit | Self::Back | Self::Bootstrap => {
                 Some(tr!("Fit first (F5)."))
             }
             _ => None,
@@ -149,7 +149,7 @@ impl Command {
 
 impl Switch {
     /// Where it is kept.
-    pub fn of(self, explorer: &mut Explorer) -> &mut bool {
+    pub fn of(self, explorer: &mut App) -> &mut bool {
         match self {
             Self::LogBrdf => &mut explorer.settings.log_brdf,
             Self::Limit => &mut explorer.settings.show_limit,
@@ -169,7 +169,7 @@ pub enum Menu {
     Export,
     Edit,
     Fit,
-    Pane,
+    PaneId,
     View,
     Theme,
     Language,
@@ -189,7 +189,7 @@ impl Menu {
             Self::Export => tr!("Export"),
             Self::Edit => tr!("Edit"),
             Self::Fit => tr!("Fitting"),
-            Self::Pane => tr!("Panes"),
+            Self::PaneId => tr!("Dock"),
             Self::View => tr!("View"),
             Self::Theme => tr!("Theme"),
             Self::Language => tr!("Language"),
@@ -226,7 +226,7 @@ struct Entry {
     text: &'static str,
     tooltip: &'static str,
     shortcut: Option<KeyboardShortcut>,
-    status: fn(&Explorer) -> Status,
+    status: fn(&App) -> Status,
 }
 
 const fn ctrl(key: Key) -> Option<KeyboardShortcut> {
@@ -241,7 +241,7 @@ const fn plain(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::NONE, key))
 }
 
-fn always(_: &Explorer) -> Status {
+fn always(_: &App) -> Status {
     Status::Possible
 }
 
@@ -260,7 +260,7 @@ const fn row(
     text: &'static str,
     tooltip: &'static str,
     shortcut: Option<KeyboardShortcut>,
-    status: fn(&Explorer) -> Status,
+    status: fn(&App) -> Status,
 ) -> Entry {
     Entry { command, menu, text, tooltip, shortcut, status }
 }
@@ -274,12 +274,12 @@ static ENTRIES: &[Entry] = &[
         always),
     row(Command::SaveSession, Menu::File, "Save session", "Sliders, data, masks, fits and layout in one file that opens on any machine",
         ctrl_shift(Key::S), always),
-    row(Command::ChooseExport(Outgoing::Session), Menu::File, "Save session as…", "The session into another file", None, always),
-    row(Command::ChooseExport(Outgoing::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
+    row(Command::ChooseExport(ExportKind::Session), Menu::File, "Save session as…", "The session into another file", None, always),
+    row(Command::ChooseExport(ExportKind::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
         always),
-    row(Command::ChooseExport(Outgoing::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
+    row(Command::ChooseExport(ExportKind::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
         |e| only_if(e.last_fit.is_some())),
-    row(Command::ChooseExport(Outgoing::Report), Menu::Export, "Fit as a report…",
+    row(Command::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |e| only_if(e.last_fit.is_some())),
     row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
@@ -299,17 +299,17 @@ static ENTRIES: &[Entry] = &[
     row(Command::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
         |e| only_if(e.last_fit.is_some())),
     row(Command::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
-        |e| only_if(e.past_fits.len() > 1)),
+        |e| only_if(e.fit_history.len() > 1)),
     row(Command::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
         |e| only_if(e.worker.comparison.is_none())),
     row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
         |e| only_if(e.worker.comparison.is_some())),
-    row(Command::MakeReport(Subject::ErrorVsTime), Menu::None, "Measure error against run time",
-        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.can_start(Subject::ErrorVsTime))),
-    row(Command::MakeReport(Subject::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
-        None, |e| only_if(e.reports.can_start(Subject::Stability))),
-    row(Command::MakeReport(Subject::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
-        |e| only_if(e.reports.can_start(Subject::Cost))),
+    row(Command::MakeReport(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
+        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.can_start(BenchmarkId::ErrorVsTime))),
+    row(Command::MakeReport(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
+        None, |e| only_if(e.reports.can_start(BenchmarkId::Stability))),
+    row(Command::MakeReport(BenchmarkId::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
+        |e| only_if(e.reports.can_start(BenchmarkId::Cost))),
     row(Command::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
         |e| only_if(e.reports.running.is_some())),
     row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
@@ -353,7 +353,7 @@ fn finishes() -> impl Iterator<Item = Item> {
 }
 
 /// Of the panes with a plot; possible for those on screen.
-fn plots(on_screen: &[Pane]) -> impl Iterator<Item = Item> {
+fn plots(on_screen: &[PaneId]) -> impl Iterator<Item = Item> {
     PLOTS.iter().flat_map(move |&pane| {
         let title = translated(pane.entry().title);
         let status = only_if(on_screen.contains(&pane));
@@ -361,7 +361,7 @@ fn plots(on_screen: &[Pane]) -> impl Iterator<Item = Item> {
         let copy = tr!("Copy plot {}", title);
         [
             item(
-                Command::ChooseExport(Outgoing::Plot(pane)),
+                Command::ChooseExport(ExportKind::Plot(pane)),
                 Menu::Export,
                 export.into(),
                 tr!("With axes and legend, for print").into(),
@@ -373,7 +373,7 @@ fn plots(on_screen: &[Pane]) -> impl Iterator<Item = Item> {
 }
 
 /// Every command that there is at the moment.
-pub fn items(explorer: &Explorer) -> Vec<Item> {
+pub fn items(explorer: &App) -> Vec<Item> {
     let fixed = ENTRIES.iter().map(|entry| Item {
         command: entry.command.clone(),
         menu: entry.menu,
@@ -412,7 +412,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
         shortcut: entry.shortcut.and_then(ctrl),
         ..item(
             Command::TogglePane(entry.pane),
-            Menu::Pane,
+            Menu::PaneId,
             translated(entry.title).into(),
             translated(entry.tooltip).into(),
             switch(on_screen.contains(&entry.pane)),
@@ -452,7 +452,7 @@ pub fn items(explorer: &Explorer) -> Vec<Item> {
 }
 
 /// The command whose keys are pressed, if it is possible now.
-pub fn pressed(explorer: &Explorer, ctx: &egui::Context) -> Option<Command> {
+pub fn pressed(explorer: &App, ctx: &egui::Context) -> Option<Command> {
     let any_key = ctx.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Key { pressed: true, .. })));
     if !any_key {
         return None;

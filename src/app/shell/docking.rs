@@ -3,7 +3,7 @@
 //! A pane that is not on screen is not refreshed: what is not seen is not computed. To add one: a variant, a row in [`PANES`], a
 //! file in `views/` with its functions, and a field in [`crate::app::views::Views`] for what it keeps.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n::translated;
 use crate::app::views;
@@ -16,7 +16,7 @@ use tr::tr;
 /// Which pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "&'static str")]
-pub enum Pane {
+pub enum PaneId {
     Dolp,
     Lobes,
     PolarLobes,
@@ -43,8 +43,8 @@ pub enum Place {
 }
 
 /// What there is to know of a pane.
-pub struct Entry {
-    pub pane: Pane,
+pub struct PaneSpec {
+    pub pane: PaneId,
     /// Name in files.
     pub key: &'static str,
     pub title: &'static str,
@@ -53,17 +53,17 @@ pub struct Entry {
     pub shortcut: Option<Key>,
     pub place: Place,
     /// Makes anew what it draws, where inputs are others; called before each frame that has it on screen, and at no other time.
-    pub refresh: fn(&mut Explorer),
+    pub refresh: fn(&mut App),
     /// Draws it; evaluates nothing.
-    pub ui: fn(&mut Explorer, &mut Ui),
+    pub ui: fn(&mut App, &mut Ui),
     /// What its *Show* menu holds, if it has one.
-    pub options: Option<fn(&mut Explorer, &mut Ui)>,
+    pub options: Option<fn(&mut App, &mut Ui)>,
 }
 
 /// All panes, in the order of the enumeration and of menus.
-pub static PANES: [Entry; 16] = [
-    Entry {
-        pane: Pane::Dolp,
+pub static PANES: [PaneSpec; 16] = [
+    PaneSpec {
+        pane: PaneId::Dolp,
         key: "dolp",
         title: "DoLP",
         tooltip: "Degree of linear polarisation against the angle of view, Eq. (17), with the measured points and what the model misses; Ctrl+click masks a point",
@@ -73,8 +73,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::dolp_ui,
         options: Some(views::dolp_options_ui),
     },
-    Entry {
-        pane: Pane::Lobes,
+    PaneSpec {
+        pane: PaneId::Lobes,
         key: "lobes",
         title: "Lobes",
         tooltip: "BRDF against the angle of view: specular, diffuse and volume lobe and their sum, Eq. (14)",
@@ -84,8 +84,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::lobes_ui,
         options: Some(views::lobes_options_ui),
     },
-    Entry {
-        pane: Pane::PolarLobes,
+    PaneSpec {
+        pane: PaneId::PolarLobes,
         key: "polar_lobes",
         title: "Polar lobes",
         tooltip: "The lobes around the point of incidence, with surface, incident ray and mirror direction",
@@ -95,8 +95,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::polar_ui,
         options: Some(views::polar_options_ui),
     },
-    Entry {
-        pane: Pane::Facets,
+    PaneSpec {
+        pane: PaneId::Facets,
         key: "facets",
         title: "Facets",
         tooltip: "Densities of facet tilts for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6)",
@@ -106,8 +106,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::facets_ui,
         options: Some(views::facets_options_ui),
     },
-    Entry {
-        pane: Pane::Convergence,
+    PaneSpec {
+        pane: PaneId::Convergence,
         key: "convergence",
         title: "Convergence",
         tooltip: "The way of the last fit: ΔE, Eq. (18), against evaluations or time",
@@ -117,8 +117,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::convergence_ui,
         options: Some(views::convergence_options_ui),
     },
-    Entry {
-        pane: Pane::Data,
+    PaneSpec {
+        pane: PaneId::Data,
         key: "data",
         title: "Data table",
         tooltip: "The measurement row by row with the model's values; masks by row and by series; metadata",
@@ -128,8 +128,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::table_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Planner,
+    PaneSpec {
+        pane: PaneId::Planner,
         key: "planner",
         title: "Angle planner",
         tooltip: "What a measurement at these angles would determine, before it is made",
@@ -139,8 +139,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::planner_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Models,
+    PaneSpec {
+        pane: PaneId::Models,
         key: "models",
         title: "Models",
         tooltip: "The ladder of models side by side on the open measurement",
@@ -150,19 +150,19 @@ pub static PANES: [Entry; 16] = [
         ui: views::comparison_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Metals,
+    PaneSpec {
+        pane: PaneId::Metals,
         key: "metals",
         title: "Metals",
-        tooltip: "Tabulated n and k of metals against wavelength, all sources side by side, and surface finishes",
+        tooltip: "MetalSelection n and k of metals against wavelength, all sources side by side, and surface finishes",
         shortcut: None,
         place: Place::Lower,
         refresh: views::metals_refresh,
         ui: views::metals_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Hemisphere,
+    PaneSpec {
+        pane: PaneId::Hemisphere,
         key: "hemisphere",
         title: "Hemisphere",
         tooltip: "DoLP, angle of polarisation, BRDF or specular share over all directions of view, also outside the plane of incidence",
@@ -172,8 +172,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::hemisphere_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Mueller,
+    PaneSpec {
+        pane: PaneId::Mueller,
         key: "mueller",
         title: "Mueller matrix",
         tooltip: "All sixteen elements over m00 against θr, Eqs. (8, 9, 14), and as numbers at one direction",
@@ -183,8 +183,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::mueller_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Landscape,
+    PaneSpec {
+        pane: PaneId::Landscape,
         key: "landscape",
         title: "Landscape",
         tooltip: "The objective over any two parameters: valleys, ways of the last fits, minima; a click sets the sliders",
@@ -194,8 +194,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::landscape_ui,
         options: Some(views::landscape_options_ui),
     },
-    Entry {
-        pane: Pane::Audit,
+    PaneSpec {
+        pane: PaneId::Audit,
         key: "audit",
         title: "Audit",
         tooltip: "What the physics says of the sliders: reciprocity, reflectance, DoLP against its limit, admissible Mueller matrices",
@@ -205,8 +205,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::audit_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::ErrorVsTime,
+    PaneSpec {
+        pane: PaneId::ErrorVsTime,
         key: "error_vs_time",
         title: "Error against time",
         tooltip: "Error against run time of evaluations and of fits, measured on this machine",
@@ -216,8 +216,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::error_vs_time_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Stability,
+    PaneSpec {
+        pane: PaneId::Stability,
         key: "stability",
         title: "Stability",
         tooltip: "Stiff and extreme cases against 60 digits, beside the textbook form; a click on a case loads it",
@@ -227,8 +227,8 @@ pub static PANES: [Entry; 16] = [
         ui: views::stability_ui,
         options: None,
     },
-    Entry {
-        pane: Pane::Cost,
+    PaneSpec {
+        pane: PaneId::Cost,
         key: "cost",
         title: "Cost",
         tooltip: "What a scene costs, and what is left out because it does not need it, measured on this machine",
@@ -240,20 +240,20 @@ pub static PANES: [Entry; 16] = [
     },
 ];
 
-impl Pane {
+impl PaneId {
     /// Its row in the table.
-    pub fn entry(self) -> &'static Entry {
+    pub fn entry(self) -> &'static PaneSpec {
         &PANES[self as usize]
     }
 }
 
-impl From<Pane> for &'static str {
-    fn from(pane: Pane) -> Self {
+impl From<PaneId> for &'static str {
+    fn from(pane: PaneId) -> Self {
         pane.entry().key
     }
 }
 
-impl TryFrom<String> for Pane {
+impl TryFrom<String> for PaneId {
     type Error = String;
 
     fn try_from(key: String) -> Result<Self, String> {
@@ -262,18 +262,18 @@ impl TryFrom<String> for Pane {
 }
 
 /// The panes and where they lie.
-pub struct Panes {
-    tree: Tree<Pane>,
+pub struct Dock {
+    tree: Tree<PaneId>,
     /// Those that the frame before drew.
-    drawn: Vec<Pane>,
+    drawn: Vec<PaneId>,
     /// Those whose tabs are being brought into view, and for how many frames still.
-    revealed: Vec<(Pane, u8)>,
+    revealed: Vec<(PaneId, u8)>,
 }
 
 /// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of their room.
 const REVEALING: u8 = 4;
 
-impl Panes {
+impl Dock {
     pub fn new(layout: &Layout) -> Self {
         Self { tree: layout.tree(), drawn: Vec::new(), revealed: Vec::new() }
     }
@@ -284,11 +284,11 @@ impl Panes {
     }
 
     /// Those that the next frame draws.
-    pub fn on_screen(&self) -> Vec<Pane> {
+    pub fn on_screen(&self) -> Vec<PaneId> {
         self.tree.active_tiles().into_iter().filter_map(|tile| self.tree.tiles.get_pane(&tile).copied()).collect()
     }
 
-    /// Sees to it that every group of tabs has one in front, so that [`Panes::on_screen`] knows it before it is drawn.
+    /// Sees to it that every group of tabs has one in front, so that [`Dock::on_screen`] knows it before it is drawn.
     pub fn settle(&mut self) {
         self.tree.simplify(&SIMPLIFICATION);
         let ids: Vec<TileId> = self.tree.tiles.tile_ids().filter(|tile| is_tabs(&self.tree.tiles, *tile)).collect();
@@ -308,12 +308,12 @@ impl Panes {
         self.drawn = on_screen;
     }
 
-    pub fn is_on_screen(&self, pane: Pane) -> bool {
+    pub fn is_on_screen(&self, pane: PaneId) -> bool {
         self.on_screen().contains(&pane)
     }
 
     /// Puts a pane on screen, where it lies or, if it is closed, beside its neighbours.
-    pub fn show(&mut self, pane: Pane) {
+    pub fn show(&mut self, pane: PaneId) {
         if self.tree.tiles.find_pane(&pane).is_none() {
             self.insert(pane);
         }
@@ -322,7 +322,7 @@ impl Panes {
 
     /// Puts panes on screen side by side: one that lies behind another of them moves to a group of tabs that shows none of them,
     /// if there is one.
-    pub fn show_together(&mut self, panes: &[Pane]) {
+    pub fn show_together(&mut self, panes: &[PaneId]) {
         let mut taken: Vec<TileId> = Vec::new();
         for pane in panes {
             let group = self.group(*pane).or_else(|| self.tabs_for(*pane));
@@ -340,12 +340,12 @@ impl Panes {
     }
 
     /// The tabs that a pane is one of.
-    fn group(&self, pane: Pane) -> Option<TileId> {
+    fn group(&self, pane: PaneId) -> Option<TileId> {
         let tiles = &self.tree.tiles;
         tiles.parent_of(tiles.find_pane(&pane)?).filter(|parent| is_tabs(tiles, *parent))
     }
 
-    fn insert(&mut self, pane: Pane) {
+    fn insert(&mut self, pane: PaneId) {
         let tile = self.tree.tiles.insert_pane(pane);
         let tabs = self.tabs_for(pane).and_then(|tabs| self.tree.tiles.get_mut(tabs));
         if let Some(Tile::Container(container)) = tabs {
@@ -358,14 +358,14 @@ impl Panes {
     }
 
     /// The tabs that a closed pane opens in: those with a pane of the same place, or else any.
-    fn tabs_for(&self, pane: Pane) -> Option<TileId> {
+    fn tabs_for(&self, pane: PaneId) -> Option<TileId> {
         let tiles = &self.tree.tiles;
         let beside = PANES.iter().filter(|entry| entry.place == pane.entry().place);
         let parent = beside.filter_map(|entry| tiles.parent_of(tiles.find_pane(&entry.pane)?)).find(|parent| is_tabs(tiles, *parent));
         parent.or_else(|| self.tree.active_tiles().into_iter().find(|tile| is_tabs(tiles, *tile)))
     }
 
-    pub fn close(&mut self, pane: Pane) {
+    pub fn close(&mut self, pane: PaneId) {
         if let Some(tile) = self.tree.tiles.find_pane(&pane) {
             self.tree.remove_recursively(tile);
         }
@@ -383,12 +383,12 @@ const SIMPLIFICATION: SimplificationOptions = SimplificationOptions {
     flatten_tabs_in_tabs: true,
 };
 
-fn is_tabs(tiles: &Tiles<Pane>, tile: TileId) -> bool {
+fn is_tabs(tiles: &Tiles<PaneId>, tile: TileId) -> bool {
     matches!(tiles.get(tile), Some(Tile::Container(Container::Tabs(_))))
 }
 
 /// Draws the panes.
-pub fn panes_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn panes_ui(explorer: &mut App, ui: &mut Ui) {
     if explorer.panes.on_screen().is_empty() {
         ui.centered_and_justified(|ui| ui.label(tr!("All panes are closed. The View menu opens them again.")));
         return;
@@ -396,18 +396,18 @@ pub fn panes_ui(explorer: &mut Explorer, ui: &mut Ui) {
     // The panes draw from the explorer that holds their tiles.
     explorer.panes.reveal();
     let mut tree = std::mem::replace(&mut explorer.panes.tree, Tree::empty(egui::Id::unique("no panes")));
-    tree.ui(&mut Shown { explorer }, ui);
+    tree.ui(&mut PaneBehavior { explorer }, ui);
     explorer.panes.tree = tree;
 }
 
 /// How tiles look and behave.
-struct Shown<'a> {
-    explorer: &'a mut Explorer,
+struct PaneBehavior<'a> {
+    explorer: &'a mut App,
 }
 
-impl Shown<'_> {
+impl PaneBehavior<'_> {
     /// Brings the tab of a pane that has come to the front into view, if it is not.
-    fn reveal(&mut self, pane: Pane, tab: &egui::Response) {
+    fn reveal(&mut self, pane: PaneId, tab: &egui::Response) {
         let revealed = &mut self.explorer.panes.revealed;
         let Some(place) = revealed.iter().position(|(other, _)| *other == pane) else { return };
         let frames = &mut revealed[place].1;
@@ -424,36 +424,36 @@ impl Shown<'_> {
     }
 }
 
-impl Behavior<Pane> for Shown<'_> {
-    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+impl Behavior<PaneId> for PaneBehavior<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut PaneId) -> UiResponse {
         egui::Frame::new().inner_margin(egui::Margin { left: 4, right: 10, top: 8, bottom: 2 }).show(ui, |ui| {
             (pane.entry().ui)(self.explorer, ui);
         });
         UiResponse::None
     }
 
-    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+    fn tab_title_for_pane(&mut self, pane: &PaneId) -> WidgetText {
         translated(pane.entry().title).into()
     }
 
-    fn on_tab_button(&mut self, tiles: &mut Tiles<Pane>, tile: TileId, response: egui::Response) -> egui::Response {
+    fn on_tab_button(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId, response: egui::Response) -> egui::Response {
         let Some(pane) = tiles.get_pane(&tile) else { return response };
         self.reveal(*pane, &response);
         response.on_hover_text(translated(pane.entry().tooltip))
     }
 
-    fn is_tab_closable(&self, _tiles: &Tiles<Pane>, _tile: TileId) -> bool {
+    fn is_tab_closable(&self, _tiles: &Tiles<PaneId>, _tile: TileId) -> bool {
         true
     }
 
-    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+    fn on_tab_close(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId) -> bool {
         // A group of tiles inside tabs is closed as a whole by the tiles themselves.
         let Some(pane) = tiles.get_pane(&tile) else { return true };
         self.explorer.commands.push(Command::ClosePane(*pane));
         false
     }
 
-    fn top_bar_right_ui(&mut self, tiles: &Tiles<Pane>, ui: &mut Ui, _tile: TileId, tabs: &egui_tiles::Tabs, _scroll: &mut f32) {
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<PaneId>, ui: &mut Ui, _tile: TileId, tabs: &egui_tiles::Tabs, _scroll: &mut f32) {
         let active = tabs.active.and_then(|tile| tiles.get_pane(&tile));
         if let Some((pane, options)) = active.and_then(|pane| Some((pane, pane.entry().options?))) {
             // A switch is seldom set alone.
@@ -482,23 +482,23 @@ impl Behavior<Pane> for Shown<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PANES, Pane, Panes};
+    use super::{Dock, PANES, PaneId};
     use crate::app::work::layout::Layout;
 
     #[test]
     fn the_table_is_in_the_order_of_the_enumeration_and_names_are_unique() {
         for (i, entry) in PANES.iter().enumerate() {
             assert_eq!(entry.pane as usize, i);
-            assert_eq!(Pane::try_from(entry.key.to_owned()), Ok(entry.pane));
+            assert_eq!(PaneId::try_from(entry.key.to_owned()), Ok(entry.pane));
             assert_eq!(PANES.iter().filter(|other| other.title == entry.title || other.key == entry.key).count(), 1);
         }
     }
 
     #[test]
     fn panes_of_one_group_are_shown_together() {
-        for panes in [[Pane::Dolp, Pane::Mueller], [Pane::Lobes, Pane::PolarLobes], [Pane::Dolp, Pane::Lobes]] {
+        for panes in [[PaneId::Dolp, PaneId::Mueller], [PaneId::Lobes, PaneId::PolarLobes], [PaneId::Dolp, PaneId::Lobes]] {
             for closed in [false, true] {
-                let mut all = Panes::new(&Layout::default());
+                let mut all = Dock::new(&Layout::default());
                 if closed {
                     all.close(panes[1]);
                 }
@@ -514,7 +514,7 @@ mod tests {
 
     #[test]
     fn panes_are_closed_and_opened_again() {
-        let mut panes = Panes::new(&Layout::default());
+        let mut panes = Dock::new(&Layout::default());
         for entry in &PANES {
             panes.close(entry.pane);
             assert!(!panes.is_on_screen(entry.pane));

@@ -1,15 +1,15 @@
 //! Dialogs of the desktop: what they ask for, what follows from the answer, and what is said where none can open.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::storage::export::Outgoing;
+use crate::app::storage::export::ExportKind;
 use std::cell::Cell;
 use std::path::PathBuf;
 use tr::tr;
 
 /// What a dialog asks for.
 #[derive(Debug, Clone)]
-pub enum Question {
+pub enum FileRequest {
     /// The measurement to open.
     Open,
     /// Where to save the measurement, with a name to begin with.
@@ -17,24 +17,24 @@ pub enum Question {
     /// The session to open.
     OpenSession,
     /// Where to write an export, with a name to begin with.
-    Export(Outgoing, String),
+    Export(ExportKind, String),
 }
 
 /// The path that was chosen, or none where the user chose none; the error is that no dialog could open.
-pub type Answer = Result<Option<PathBuf>, NoDialog>;
+pub type FileReply = Result<Option<PathBuf>, DialogUnavailable>;
 
 /// Neither the desktop's portal nor zenity opened a dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NoDialog;
+pub struct DialogUnavailable;
 
-impl Explorer {
+impl App {
     /// Asks the desktop what a command needs to know.
     pub(crate) fn choose(&mut self, command: &Command) -> Result<(), String> {
         let question = match command {
-            Command::ChooseMeasurement => Question::Open,
-            Command::ChooseSession => Question::OpenSession,
-            Command::ChooseSave => Question::Save(self.document.file_name()),
-            Command::ChooseExport(what) => Question::Export(*what, what.file_name(self)),
+            Command::ChooseMeasurement => FileRequest::Open,
+            Command::ChooseSession => FileRequest::OpenSession,
+            Command::ChooseSave => FileRequest::Save(self.document.file_name()),
+            Command::ChooseExport(what) => FileRequest::Export(*what, what.file_name(self)),
             // No other one asks.
             _ => return Ok(()),
         };
@@ -42,7 +42,7 @@ impl Explorer {
     }
 }
 
-impl Question {
+impl FileRequest {
     /// What to do with the path that was chosen.
     pub fn command(self, path: PathBuf) -> Command {
         match self {
@@ -61,7 +61,7 @@ impl Question {
     pub fn without_dialog(&self) -> String {
         let instead = match self {
             Self::Open | Self::OpenSession => tr!("Type the path in the menu File, under “Type a path to open”."),
-            Self::Save(_) | Self::Export(Outgoing::Session, _) => tr!("Type the path in the menu File, under “Save to a path”."),
+            Self::Save(_) | Self::Export(ExportKind::Session, _) => tr!("Type the path in the menu File, under “Save to a path”."),
             Self::Export(..) => tr!("Type the path in File › Export, at the end of that menu, and choose the export there again."),
         };
         let missing = tr!("No file dialog can open: there is neither a desktop portal (xdg-desktop-portal) nor the program zenity.");
@@ -70,28 +70,28 @@ impl Question {
 }
 
 /// Asks in a dialog of the desktop, and waits for the answer.
-pub fn ask_desktop(question: Question) -> Answer {
+pub fn ask_desktop(question: FileRequest) -> FileReply {
     // There can be another one already: then a dialog that cannot open is taken for one that was cancelled.
     let _ = log::set_logger(&LISTENER).map(|()| log::set_max_level(log::LevelFilter::Error));
     FAILED.set(false);
     let path = ask(question);
-    if path.is_none() && FAILED.get() { Err(NoDialog) } else { Ok(path) }
+    if path.is_none() && FAILED.get() { Err(DialogUnavailable) } else { Ok(path) }
 }
 
-fn ask(question: Question) -> Option<PathBuf> {
+fn ask(question: FileRequest) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
     match question {
-        Question::Open => {
+        FileRequest::Open => {
             let dialog = dialog.set_title(tr!("Open measurement")).add_filter(tr!("Measurements"), &["csv", "tsv", "txt", "dat", "pbsdf"]);
             dialog.add_filter(tr!("All files"), &["*"]).pick_file()
         }
-        Question::OpenSession => dialog.set_title(tr!("Open session")).add_filter(tr!("Sessions"), &["json"]).pick_file(),
-        Question::Export(what, name) => what
+        FileRequest::OpenSession => dialog.set_title(tr!("Open session")).add_filter(tr!("Sessions"), &["json"]).pick_file(),
+        FileRequest::Export(what, name) => what
             .extensions()
             .iter()
             .fold(dialog.set_title(tr!("Export")).set_file_name(name), |dialog, ending| dialog.add_filter(*ending, &[*ending]))
             .save_file(),
-        Question::Save(name) => dialog.set_title(tr!("Save measurement as")).add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
+        FileRequest::Save(name) => dialog.set_title(tr!("Save measurement as")).add_filter("CSV", &["csv"]).set_file_name(name).save_file(),
     }
 }
 
@@ -106,11 +106,11 @@ struct Listener;
 static LISTENER: Listener = Listener;
 
 /// Where rfd tries zenity after the portal has failed: an error from here means that nothing is left to try.
-const LAST_WAY: &str = "rfd::backend::xdg_desktop_portal";
+const RFD_LOG_TARGET: &str = "rfd::backend::xdg_desktop_portal";
 
 impl log::Log for Listener {
     fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
-        metadata.level() == log::Level::Error && metadata.target() == LAST_WAY
+        metadata.level() == log::Level::Error && metadata.target() == RFD_LOG_TARGET
     }
 
     fn log(&self, record: &log::Record<'_>) {

@@ -1,8 +1,8 @@
 //! A foreign file that waits for a choice, and what the window keeps while it is asked for.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::shell::app::Explorer;
-use crate::app::storage::import::{Choice, Foreign, Imported};
+use crate::app::shell::app::App;
+use crate::app::storage::import::{ImportOptions, ImportResult, ImportSource};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use std::path::PathBuf;
@@ -19,30 +19,30 @@ pub struct Origin {
 }
 
 /// The file that is asked about.
-pub struct Import {
+pub struct ImportDialog {
     pub origin: Origin,
-    pub foreign: Foreign,
-    pub choice: Choice,
+    pub foreign: ImportSource,
+    pub choice: ImportOptions,
     /// Wavelengths to choose from, in nm.
     pub wavelengths_nm: Vec<f64>,
     /// The beginning of what the choice leads to in the language of the window, or why it leads nowhere as a phrase in English.
-    pub preview: Memo<(Choice, Language), Result<Imported, String>>,
+    pub preview: Memo<(ImportOptions, Language), Result<ImportResult, String>>,
     /// Why the whole file could not be read so, as a phrase in English.
     pub error: Option<String>,
 }
 
-impl Import {
-    pub fn new(origin: Origin, foreign: Foreign) -> Self {
+impl ImportDialog {
+    pub fn new(origin: Origin, foreign: ImportSource) -> Self {
         let choice = foreign.first_choice();
         let wavelengths_nm = foreign.wavelengths_nm();
         Self { origin, foreign, choice, wavelengths_nm, preview: Memo::default(), error: None }
     }
 }
 
-impl Explorer {
+impl App {
     /// Before each frame: what the choice leads to.
     pub(crate) fn refresh_import(&mut self) {
-        let Some(Import { foreign, choice, preview, error, .. }) = &mut self.import else { return };
+        let Some(ImportDialog { foreign, choice, preview, error, .. }) = &mut self.import else { return };
         if preview.key().is_none_or(|(before, _)| before != choice) {
             *error = None;
         }
@@ -64,21 +64,21 @@ impl Explorer {
         }
     }
 
-    pub(crate) fn imported(&mut self, result: Result<Imported, String>) {
+    pub(crate) fn imported(&mut self, result: Result<ImportResult, String>) {
         match (result, self.import.take()) {
             (Ok(mut imported), Some(import)) => {
                 let name = import.origin.name.replace(char::is_control, " ");
                 imported.measurement.metadata.push(("imported_from".to_owned(), name));
                 self.loaded(import.origin, imported);
             }
-            (Err(reason), Some(import)) => self.import = Some(Import { error: Some(reason), ..import }),
+            (Err(reason), Some(import)) => self.import = Some(ImportDialog { error: Some(reason), ..import }),
             // The question was withdrawn meanwhile.
             (_, None) => {}
         }
     }
 
     /// Puts a measurement that was read in the place of the one that is open.
-    pub(crate) fn loaded(&mut self, origin: Origin, imported: Imported) {
+    pub(crate) fn loaded(&mut self, origin: Origin, imported: ImportResult) {
         let Origin { name, path, sha256 } = origin;
         self.notices.reading_succeeded();
         // A file is the user's own work, and takes the place of what was set aside.

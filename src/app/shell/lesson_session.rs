@@ -3,13 +3,13 @@
 //! What is kept without being asked, the settings and the working state, is the user's own work all the while: a crash in a lesson brings that
 //! back, without the lesson.
 
-use crate::app::jobs::worker::Rung;
-use crate::app::shell::app::{Explorer, Setup};
-use crate::app::shell::docking::Panes;
+use crate::app::jobs::worker::ModelFit;
+use crate::app::shell::app::{App, Setup};
+use crate::app::shell::docking::Dock;
 use crate::app::views::Views;
-use crate::app::work::diagnostics::Scans;
+use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::document::Document;
-use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::history::History;
 use crate::app::work::settings::Settings;
 use pbrdf::model::Parameters;
@@ -18,20 +18,20 @@ use std::rc::Rc;
 use tr::tr;
 
 /// What a lesson gives back.
-pub struct Aside {
+pub struct LessonSession {
     pub settings: Settings,
     pub document: Document,
-    pub last_fit: Option<Rc<PastFit>>,
-    pub past_fits: PastFits,
-    panes: Panes,
-    comparison: Vec<Rung>,
-    scans: Scans,
+    pub last_fit: Option<Rc<FitEntry>>,
+    pub fit_history: FitHistory,
+    panes: Dock,
+    comparison: Vec<ModelFit>,
+    scans: Diagnostics,
     history: History<Setup>,
     refitted: Option<Parameters>,
     session_file: Option<PathBuf>,
 }
 
-impl Explorer {
+impl App {
     /// Data, sliders and views as a step of a lesson wants them.
     pub(crate) fn show_step(&mut self, lesson: usize, step: usize) -> Result<(), String> {
         if self.lessons.all.get(lesson).is_none_or(|lesson| step >= lesson.steps.len()) {
@@ -57,11 +57,11 @@ impl Explorer {
         let setup = self.setup();
         self.history.rest(setup);
         let copy = self.panes_at_its_beginning();
-        self.aside = Some(Box::new(Aside {
+        self.aside = Some(Box::new(LessonSession {
             settings: std::mem::replace(&mut self.settings, Settings::for_measurement(&self.document.measurement)),
             document: self.document.clone(),
             last_fit: self.last_fit.take(),
-            past_fits: self.past_fits.clone(),
+            fit_history: self.fit_history.clone(),
             panes: std::mem::replace(&mut self.panes, copy),
             comparison: std::mem::take(&mut self.comparison),
             scans: std::mem::take(&mut self.scans),
@@ -96,16 +96,16 @@ impl Explorer {
     }
 
     /// The panes as a lesson finds them.
-    pub(crate) fn panes_at_its_beginning(&self) -> Panes {
+    pub(crate) fn panes_at_its_beginning(&self) -> Dock {
         let own = self.aside.as_ref().map_or(&self.panes, |aside| &aside.panes);
-        own.layout().map_or_else(|| Panes::new(&self.window.layout), |layout| Panes::new(&layout))
+        own.layout().map_or_else(|| Dock::new(&self.window.layout), |layout| Dock::new(&layout))
     }
 
     /// Closes the lesson; the user's own work is back as it was.
     pub(crate) fn close_lesson(&mut self) {
         self.lessons.open = None;
         let Some(aside) = self.aside.take() else { return };
-        let Aside { settings, document, last_fit, past_fits, panes, comparison, scans, history, refitted, session_file } = *aside;
+        let LessonSession { settings, document, last_fit, fit_history, panes, comparison, scans, history, refitted, session_file } = *aside;
         self.worker.abandon();
         self.worker.abandon_load();
         self.worker.session = None;
@@ -113,7 +113,7 @@ impl Explorer {
         self.settings = settings;
         self.document = document;
         self.last_fit = last_fit;
-        self.past_fits = past_fits;
+        self.fit_history = fit_history;
         self.panes = panes;
         self.comparison = comparison;
         self.scans = scans;
@@ -142,7 +142,7 @@ impl Explorer {
     }
 
     /// The fits that are the user's own.
-    pub(crate) fn own_fits(&self) -> &PastFits {
-        self.aside.as_ref().map_or(&self.past_fits, |aside| &aside.past_fits)
+    pub(crate) fn own_fits(&self) -> &FitHistory {
+        self.aside.as_ref().map_or(&self.fit_history, |aside| &aside.fit_history)
     }
 }

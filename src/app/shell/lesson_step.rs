@@ -1,14 +1,14 @@
 //! How a step of a lesson is set up: data, sliders and panes as the lesson's beginning and all steps up to it set them, whichever way the
 //! user came to it and whatever was moved meanwhile.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::app::App;
+use crate::app::shell::docking::PaneId;
 use crate::app::work::document::{EXAMPLES, Mask};
 use crate::app::work::lesson::{Data, Step};
 use crate::app::work::settings::Settings;
 use std::ops::ControlFlow;
 
-impl Explorer {
+impl App {
     /// Sets up a step. Undo leads to the step before as that is set up, so that the two can be compared.
     pub(crate) fn set_up_step(&mut self, lesson: usize, step: usize, begins: bool) {
         let Some(steps) = self.lessons.all.get(lesson).and_then(|lesson| lesson.steps.get(..=step)).map(<[Step]>::to_vec) else { return };
@@ -29,10 +29,10 @@ impl Explorer {
         self.refitted = Some(self.settings.parameters);
         let mut panes = self.panes_at_its_beginning();
         for step in &steps {
-            let named: Vec<Pane> = step.panes.iter().filter_map(|name| Pane::try_from(name.clone()).ok()).collect();
+            let named: Vec<PaneId> = step.panes.iter().filter_map(|name| PaneId::try_from(name.clone()).ok()).collect();
             panes.show_together(&named);
         }
-        // Panes that lie as they should stay, with what is unfolded in them.
+        // Dock that lie as they should stay, with what is unfolded in them.
         if panes.layout() != self.panes.layout() {
             self.panes = panes;
         }

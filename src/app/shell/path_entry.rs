@@ -1,14 +1,14 @@
 //! Paths typed by hand, for where the desktop has no dialog. A box keeps its path until that has served; a file that is there is
 //! replaced only after a question, which elsewhere the desktop's own dialog asks.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::storage::export::Outgoing;
+use crate::app::storage::export::ExportKind;
 use std::path::{Path, PathBuf};
 
 /// The boxes of the menu File.
 #[derive(Debug, Default)]
-pub struct Typed {
+pub struct PathEntry {
     pub open: String,
     pub save: String,
     pub export: String,
@@ -16,7 +16,7 @@ pub struct Typed {
 
 /// A file that is there, and what would be written in its place.
 #[derive(Debug)]
-pub struct Replacing {
+pub struct OverwritePrompt {
     pub path: PathBuf,
     pub command: Command,
 }
@@ -28,16 +28,16 @@ pub fn path_in(text: &str) -> Option<PathBuf> {
     Some(own.unwrap_or_else(|| PathBuf::from(text)))
 }
 
-impl Typed {
+impl PathEntry {
     /// The measurement or the session into the typed path, as its ending says.
     pub fn save_command(&self) -> Option<Command> {
         let path = path_in(&self.save)?;
-        let is_session = Outgoing::Session.check(&path).is_ok();
-        Some(if is_session { Command::ExportNew(Outgoing::Session, path) } else { Command::SaveNew(path) })
+        let is_session = ExportKind::Session.check(&path).is_ok();
+        Some(if is_session { Command::ExportNew(ExportKind::Session, path) } else { Command::SaveNew(path) })
     }
 
     /// An export into the typed path, which then has an ending.
-    pub fn export_command(&mut self, what: Outgoing) -> Option<Command> {
+    pub fn export_command(&mut self, what: ExportKind) -> Option<Command> {
         let path = what.with_ending(path_in(&self.export)?);
         self.export = path.display().to_string();
         Some(Command::ExportNew(what, path))
@@ -53,7 +53,7 @@ impl Typed {
     }
 }
 
-impl Explorer {
+impl App {
     /// Writes into a file that was typed, or asks first; or takes the answer.
     pub(crate) fn write_typed(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         let (path, command) = match command {
@@ -64,27 +64,27 @@ impl Explorer {
             }
             answer => {
                 let asked = self.replacing.take().filter(|_| answer == Command::Replace);
-                return asked.map_or(Ok(()), |asked| self.carry_out(ctx, asked.command));
+                return asked.map_or(Ok(()), |asked| self.execute(ctx, asked.command));
             }
         };
         if path.is_file() {
-            self.replacing = Some(Replacing { path, command });
+            self.replacing = Some(OverwritePrompt { path, command });
             return Ok(());
         }
-        self.carry_out(ctx, command)
+        self.execute(ctx, command)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Command, Outgoing, Typed, path_in};
+    use super::{Command, ExportKind, PathEntry, path_in};
     use std::path::Path;
 
     #[test]
     fn a_typed_path_says_by_its_ending_what_is_saved() {
-        let command = |name: &str| Typed { save: format!(" {name} "), ..Typed::default() }.save_command();
+        let command = |name: &str| PathEntry { save: format!(" {name} "), ..PathEntry::default() }.save_command();
         for name in ["a.pbrdf.json", "a.JSON"] {
-            assert_eq!(command(name), Some(Command::ExportNew(Outgoing::Session, name.into())));
+            assert_eq!(command(name), Some(Command::ExportNew(ExportKind::Session, name.into())));
         }
         for name in ["a.csv", "a", "a.json.csv"] {
             assert_eq!(command(name), Some(Command::SaveNew(name.into())));
@@ -99,15 +99,15 @@ mod tests {
         for text in ["/a/~/b", "~b.csv", "a~/b"] {
             assert_eq!(path_in(text), Some(text.into()));
         }
-        let mut typed = Typed { open: "~/a.csv".to_owned(), ..Typed::default() };
+        let mut typed = PathEntry { open: "~/a.csv".to_owned(), ..PathEntry::default() };
         typed.served(&home.join("a.csv"));
         assert_eq!(typed.open, "");
     }
 
     #[test]
     fn a_box_is_emptied_by_its_own_path_alone() {
-        let mut typed = Typed { open: "/a.csv".to_owned(), save: " /b.csv".to_owned(), export: "/c".to_owned() };
-        assert_eq!(typed.export_command(Outgoing::Curves), Some(Command::ExportNew(Outgoing::Curves, "/c.csv".into())));
+        let mut typed = PathEntry { open: "/a.csv".to_owned(), save: " /b.csv".to_owned(), export: "/c".to_owned() };
+        assert_eq!(typed.export_command(ExportKind::Curves), Some(Command::ExportNew(ExportKind::Curves, "/c.csv".into())));
         for path in ["/b.csv", "/c.csv", "/d.csv"] {
             typed.served(Path::new(path));
         }

@@ -14,7 +14,7 @@ pub struct Notices {
 pub struct Notice {
     pub text: String,
     /// Whether it goes by itself.
-    pub is_brief: bool,
+    pub transient: bool,
     /// Whether it tells why a file cannot be read.
     is_of_reading: bool,
     /// When it goes, in seconds of the window's clock; not known before it was shown.
@@ -29,12 +29,12 @@ const MOST: usize = 12;
 impl Notices {
     /// A sentence that stays until it is dismissed.
     pub fn say(&mut self, text: String) {
-        self.push(Notice { text, is_brief: false, is_of_reading: false, until: None });
+        self.push(Notice { text, transient: false, is_of_reading: false, until: None });
     }
 
     /// Why a file cannot be read: stays until another one is, or until it is dismissed.
-    pub fn say_of_reading(&mut self, text: String) {
-        self.push(Notice { text, is_brief: false, is_of_reading: true, until: None });
+    pub fn load_error(&mut self, text: String) {
+        self.push(Notice { text, transient: false, is_of_reading: true, until: None });
     }
 
     /// A file was read: what was said of those before is past.
@@ -43,8 +43,8 @@ impl Notices {
     }
 
     /// A sentence that goes by itself.
-    pub fn say_briefly(&mut self, text: String) {
-        self.push(Notice { text, is_brief: true, is_of_reading: false, until: None });
+    pub fn info(&mut self, text: String) {
+        self.push(Notice { text, transient: true, is_of_reading: false, until: None });
     }
 
     fn push(&mut self, notice: Notice) {
@@ -68,7 +68,7 @@ impl Notices {
 
     /// Lets go what was shown long enough; how many seconds the next one stays, if one goes by itself.
     pub fn rest(&mut self, now: f64) -> Option<f64> {
-        for notice in self.all.iter_mut().filter(|notice| notice.is_brief) {
+        for notice in self.all.iter_mut().filter(|notice| notice.transient) {
             notice.until.get_or_insert(now + BRIEF);
         }
         self.all.retain(|notice| notice.until.is_none_or(|until| now < until));
@@ -93,6 +93,6 @@ impl Notices {
 
 impl Notice {
     pub fn color(&self, visuals: &egui::Visuals) -> Color32 {
-        if self.is_brief { visuals.text_color() } else { crate::app::shell::theme::warning(visuals.dark_mode) }
+        if self.transient { visuals.text_color() } else { crate::app::shell::theme::warning(visuals.dark_mode) }
     }
 }

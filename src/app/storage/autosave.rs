@@ -1,14 +1,14 @@
 //! Sessions in the window: opened, saved, and the working state kept without being asked.
 
-use crate::app::jobs::worker::{Opened, save_session};
-use crate::app::shell::app::{Explorer, SAVE_AFTER};
+use crate::app::jobs::worker::{OpenedSession, save_session};
+use crate::app::shell::app::{App, SAVE_AFTER};
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Panes;
+use crate::app::shell::docking::Dock;
 use crate::app::storage::export;
-use crate::app::storage::export::Outgoing;
-use crate::app::storage::session::Again;
+use crate::app::storage::export::ExportKind;
+use crate::app::storage::session::RestoredFit;
 use crate::app::text::i18n::{phrase, translated};
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use tr::tr;
 
 /// What the working state depends on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Working {
+pub struct AutosaveKey {
     settings: Settings,
     layout: Layout,
     generation: u64,
@@ -28,7 +28,7 @@ pub struct Working {
 /// Rows that are kept without being asked: more would be written again and again at every change.
 const MOST_ROWS: usize = 20_000;
 
-impl Explorer {
+impl App {
     /// Goes on where the program ended the last time, if it left something.
     pub fn resume(&mut self) {
         if let Some(path) = self.working_file.clone().filter(|path| path.exists()) {
@@ -36,8 +36,8 @@ impl Explorer {
         }
     }
 
-    fn working(&self) -> Working {
-        Working {
+    fn working(&self) -> AutosaveKey {
+        AutosaveKey {
             settings: self.own_settings().clone(),
             layout: self.window.layout.clone(),
             generation: self.own_document().generation,
@@ -46,7 +46,7 @@ impl Explorer {
     }
 
     /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
-    fn due(&self) -> Option<(PathBuf, Working)> {
+    fn due(&self) -> Option<(PathBuf, AutosaveKey)> {
         let path = self.working_file.clone().filter(|_| self.own_document().measurement.rows.len() <= MOST_ROWS)?;
         let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
         let working = self.working();
@@ -80,18 +80,18 @@ impl Explorer {
     }
 
     pub fn save_session(&mut self, ctx: &egui::Context) -> Result<(), String> {
-        let what = Outgoing::Session;
+        let what = ExportKind::Session;
         let command = self.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
-        self.carry_out(ctx, command)
+        self.execute(ctx, command)
     }
 
-    pub fn exported(&mut self, what: Outgoing, result: Result<PathBuf, String>) {
+    pub fn exported(&mut self, what: ExportKind, result: Result<PathBuf, String>) {
         match result {
             Ok(path) => {
                 self.typed.served(&path);
-                self.notices.say_briefly(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
+                self.notices.info(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
                 // What was saved out of a lesson is no file of the work that comes back.
-                if what == Outgoing::Session && self.aside.is_none() {
+                if what == ExportKind::Session && self.aside.is_none() {
                     self.session_file = Some(path);
                 }
             }
@@ -100,7 +100,7 @@ impl Explorer {
     }
 
     /// Puts a session in the place of everything there is; where it cannot be read, all stays.
-    pub fn session_read(&mut self, path: &Path, result: Result<Box<Opened>, String>) {
+    pub fn session_read(&mut self, path: &Path, result: Result<Box<OpenedSession>, String>) {
         let is_working = self.working_file.as_deref() == Some(path);
         match result {
             Ok(opened) => {
@@ -129,30 +129,30 @@ impl Explorer {
             }
             Err(sentence) => {
                 self.window.forget(path);
-                self.notices.say_of_reading(sentence);
+                self.notices.load_error(sentence);
             }
         }
     }
 
-    fn show_session(&mut self, opened: Opened) {
+    fn show_session(&mut self, opened: OpenedSession) {
         // It takes the place of a lesson, and of what that would give back.
         self.lessons.open = None;
         self.aside = None;
-        let Opened { session, fits } = opened;
+        let OpenedSession { session, fits } = opened;
         let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
         self.take(session.name, measurement);
         self.document.sha256 = session.sha256;
         self.settings = session.settings;
         self.window.layout = session.layout;
-        self.panes = Panes::new(&self.window.layout);
+        self.panes = Dock::new(&self.window.layout);
         self.refitted = Some(self.settings.parameters);
         let shown = session.shown;
-        for (index, Again { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
+        for (index, RestoredFit { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
             let (document, number) = (self.document.name.clone(), self.document.number);
             // None of this document, where the mask was another one.
             let generation = if mask == *self.document.mask() { self.document.generation } else { 0 };
-            let fit = PastFit { id: 0, report, problem, before, document, number, generation, mask };
-            let fit = self.past_fits.push(fit);
+            let fit = FitEntry { id: 0, report, problem, before, document, number, generation, mask };
+            let fit = self.fit_history.push(fit);
             if Some(index) == shown {
                 self.show_fit(Some(fit));
             }

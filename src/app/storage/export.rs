@@ -2,16 +2,16 @@
 
 use crate::app::plots::Ribbon;
 use crate::app::plots::print::{FOREGROUND, MUTED, points};
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
-use crate::app::shell::docking::Pane;
-use crate::app::storage::session::{Recipe, Session};
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
+use crate::app::shell::docking::PaneId;
+use crate::app::storage::session::{SavedFit, Session};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, phrase, translated};
 use crate::app::views;
 use crate::app::views::curves::{Curves, Marks};
 use crate::app::work::document::Document;
-use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
 use crate::export;
@@ -26,8 +26,8 @@ use tr::tr;
 
 /// Something that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outgoing {
-    Plot(Pane),
+pub enum ExportKind {
+    Plot(PaneId),
     /// The model along every measured θi.
     Curves,
     /// The measurement with the fit beside it.
@@ -40,26 +40,26 @@ pub enum Outgoing {
 pub type Write = Box<dyn FnOnce(&Path) -> Result<(), String> + Send>;
 
 /// The panes with a plot that can be exported.
-pub const PLOTS: [Pane; 13] = [
-    Pane::Dolp,
-    Pane::Lobes,
-    Pane::PolarLobes,
-    Pane::Facets,
-    Pane::Convergence,
-    Pane::Metals,
-    Pane::Hemisphere,
-    Pane::Mueller,
-    Pane::Landscape,
-    Pane::Audit,
-    Pane::ErrorVsTime,
-    Pane::Stability,
-    Pane::Cost,
+pub const PLOTS: [PaneId; 13] = [
+    PaneId::Dolp,
+    PaneId::Lobes,
+    PaneId::PolarLobes,
+    PaneId::Facets,
+    PaneId::Convergence,
+    PaneId::Metals,
+    PaneId::Hemisphere,
+    PaneId::Mueller,
+    PaneId::Landscape,
+    PaneId::Audit,
+    PaneId::ErrorVsTime,
+    PaneId::Stability,
+    PaneId::Cost,
 ];
 
 /// Resolution of a plot on the clipboard.
 const SCREEN_DPI: f64 = 150.0;
 
-impl Outgoing {
+impl ExportKind {
     /// What it is called in a sentence.
     pub fn name(self) -> &'static str {
         match self {
@@ -82,7 +82,7 @@ impl Outgoing {
     }
 
     /// A name to begin with.
-    pub fn file_name(self, explorer: &Explorer) -> String {
+    pub fn file_name(self, explorer: &App) -> String {
         let name = explorer.document.file_name();
         let stem = name.trim_end_matches(".csv");
         let what = match self {
@@ -115,7 +115,7 @@ impl Outgoing {
     }
 
     /// What is needed to write it, taken from the window as it is now; the error is a sentence.
-    pub fn taken_from(self, explorer: &Explorer) -> Result<Write, String> {
+    pub fn taken_from(self, explorer: &App) -> Result<Write, String> {
         match self {
             Self::Plot(pane) => {
                 let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to export."))?;
@@ -155,11 +155,11 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
     Box::new(move |path| write_file(path, body).map_err(|error| failure(path, &error)))
 }
 
-fn surface(explorer: &Explorer) -> Result<Pbrdf, String> {
+fn surface(explorer: &App) -> Result<Pbrdf, String> {
     Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| tr!("There are no curves: {}.", phrase(&error)))
 }
 
-fn report(explorer: &Explorer) -> Result<Write, String> {
+fn report(explorer: &App) -> Result<Write, String> {
     let fit = explorer.last_fit.clone().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
     let (measurement, document) = (explorer.document.measurement.clone(), &explorer.document);
@@ -178,21 +178,21 @@ fn report(explorer: &Explorer) -> Result<Write, String> {
 }
 
 /// The session as it is shown, that of a lesson included.
-pub fn session(explorer: &Explorer) -> Session {
-    let Explorer { settings, document, past_fits, last_fit, .. } = explorer;
+pub fn session(explorer: &App) -> Session {
+    let App { settings, document, fit_history, last_fit, .. } = explorer;
     let layout = explorer.panes.layout().unwrap_or_else(|| explorer.window.layout.clone());
-    session_of(settings, layout, document, past_fits, last_fit.as_ref())
+    session_of(settings, layout, document, fit_history, last_fit.as_ref())
 }
 
 /// The session of the user's own work, which a lesson sets aside.
-pub fn own_session(explorer: &Explorer) -> Session {
+pub fn own_session(explorer: &App) -> Session {
     let last_fit = explorer.aside.as_ref().map_or(&explorer.last_fit, |aside| &aside.last_fit);
     let layout = explorer.window.layout.clone();
     session_of(explorer.own_settings(), layout, explorer.own_document(), explorer.own_fits(), last_fit.as_ref())
 }
 
-fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &PastFits, shown: Option<&Rc<PastFit>>) -> Session {
-    let fits: Vec<&Rc<PastFit>> = fits.iter().filter(|fit| fit.number == document.number).collect();
+fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &FitHistory, shown: Option<&Rc<FitEntry>>) -> Session {
+    let fits: Vec<&Rc<FitEntry>> = fits.iter().filter(|fit| fit.number == document.number).collect();
     Session {
         settings: settings.clone(),
         layout,
@@ -200,36 +200,36 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &P
         sha256: document.sha256.clone(),
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
         shown: fits.iter().position(|fit| shown.is_some_and(|shown| Rc::ptr_eq(fit, shown))),
-        fits: fits.into_iter().map(|fit| Recipe::new(fit)).collect(),
+        fits: fits.into_iter().map(|fit| SavedFit::new(fit)).collect(),
         left_out: Vec::new(),
     }
 }
 
 /// The plot of a pane as an image for the clipboard.
-pub fn image(explorer: &Explorer, pane: Pane) -> Result<egui::ColorImage, String> {
+pub fn image(explorer: &App, pane: PaneId) -> Result<egui::ColorImage, String> {
     let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to copy."))?;
     let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", phrase(&error)))?;
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
 }
 
 /// The figure of a pane, of the same curves and points that are drawn, in the language of the window.
-pub fn figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
+pub fn figure(explorer: &App, pane: PaneId) -> Option<Figure> {
     Some(plain_figure(explorer, pane)?.worded(&|text| phrase(text)))
 }
 
-fn plain_figure(explorer: &Explorer, pane: Pane) -> Option<Figure> {
+fn plain_figure(explorer: &App, pane: PaneId) -> Option<Figure> {
     match pane {
-        Pane::Dolp => dolp(explorer),
-        Pane::Lobes => lobes(explorer),
-        Pane::PolarLobes => views::polar_figure(explorer),
-        Pane::Facets => views::facets_figure(explorer),
-        Pane::Convergence => views::convergence_figure(explorer),
-        Pane::Metals => views::metals_figure(explorer),
-        Pane::Hemisphere => views::hemisphere_figure(explorer),
-        Pane::Mueller => views::mueller_figure(explorer),
-        Pane::Landscape => views::landscape_figure(explorer),
-        Pane::Audit => views::audit_figure(explorer),
-        _ => explorer.reports.figure(Subject::of(pane)?).cloned(),
+        PaneId::Dolp => dolp(explorer),
+        PaneId::Lobes => lobes(explorer),
+        PaneId::PolarLobes => views::polar_figure(explorer),
+        PaneId::Facets => views::facets_figure(explorer),
+        PaneId::Convergence => views::convergence_figure(explorer),
+        PaneId::Metals => views::metals_figure(explorer),
+        PaneId::Hemisphere => views::hemisphere_figure(explorer),
+        PaneId::Mueller => views::mueller_figure(explorer),
+        PaneId::Landscape => views::landscape_figure(explorer),
+        PaneId::Audit => views::audit_figure(explorer),
+        _ => explorer.reports.figure(BenchmarkId::of(pane)?).cloned(),
     }
 }
 
@@ -251,8 +251,8 @@ fn band(ribbons: &[Ribbon], name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> S
     Series::band(name, ribbons.iter().flat_map(piece).collect()).colored(color)
 }
 
-fn dolp(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { derived, settings, views, document, .. } = explorer;
+fn dolp(explorer: &App) -> Option<Figure> {
+    let App { derived, settings, views, document, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
     let plain = |y: f64| y;
     let limit = |curves: &Curves, color| Series::dashed("Fresnel limit", points(&curves.limit, plain), Dash::Dashed).colored(color);
@@ -288,8 +288,8 @@ fn dolp(explorer: &Explorer) -> Option<Figure> {
     Some(Figure { title: document.name.clone(), panels: vec![panel], ..Figure::default() })
 }
 
-fn lobes(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { derived, settings, views, document, .. } = explorer;
+fn lobes(explorer: &App) -> Option<Figure> {
+    let App { derived, settings, views, document, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
     let log = key.brdf.log;
     let quantity = if key.brdf.times_cosine { "BRDF × cos θr" } else { "BRDF" };

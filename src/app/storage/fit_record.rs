@@ -1,8 +1,8 @@
 //! How a fit came about, as a session tells it: where its starts ended and the way of the winning one. Data and solution do not tell that
 //! again.
 
-use crate::app::work::fit_history::PastFit;
-use pbrdf::fit::{Descent, FitReport, Found, Loss, Problem, Search, StopReason, TracePoint};
+use crate::app::work::fit_history::FitEntry;
+use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint};
 use pbrdf::model::{Parameter, Parameters};
 use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Deserialize, Serialize, Serializer};
@@ -21,7 +21,7 @@ fn is_loss_scale(scale: &f64) -> bool {
 
 /// How a fit came about.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Account {
+pub struct FitRecord {
     /// Of the residuals, by all starts.
     evaluations: usize,
     elapsed_ms: f64,
@@ -72,12 +72,12 @@ pub fn on_one_line<T: Serialize, S: Serializer>(value: &T, serializer: S) -> Res
     to_raw_value(value).map_err(S::Error::custom)?.serialize(serializer)
 }
 
-impl Account {
+impl FitRecord {
     /// What is known of a fit; none where nothing is.
-    pub fn new(fit: &PastFit) -> Option<Self> {
-        let PastFit { report, problem, mask, .. } = fit;
+    pub fn new(fit: &FitEntry) -> Option<Self> {
+        let FitEntry { report, problem, mask, .. } = fit;
         let free = problem.free();
-        let is_robust = problem.choices().loss != Loss::Linear;
+        let is_robust = problem.choices().loss != Loss::Squared;
         let at = |parameters: &Parameters| free.iter().map(|&parameter| parameters[parameter]).collect();
         let minima = report.minima.iter().map(|minimum| Ending {
             reached: minimum.reached,
@@ -141,7 +141,7 @@ impl Account {
     }
 
     /// The report as it was.
-    pub fn report(&self, problem: &Problem, free: &[Parameter]) -> Option<FitReport> {
+    pub fn report(&self, problem: &Problem, free: &[Parameter]) -> Option<FitResult> {
         let problem = self.loss_scales.map_or_else(|| problem.clone(), |scales| problem.with_loss_scales(scales));
         let start = *problem.start();
         let found = self.minima.iter().enumerate().map(|(i, ending)| {
@@ -153,7 +153,7 @@ impl Account {
                 evaluations: step.evaluations,
                 objective: step.delta_e.unwrap_or(f64::NAN),
             };
-            let descent = Descent {
+            let descent = LocalFit {
                 parameters,
                 sum_of_squares: problem.sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
                 stop_reason: ending.stop_reason,
@@ -161,10 +161,10 @@ impl Account {
                 trace: way.iter().map(point).collect(),
                 path: way.iter().map(|step| place(start, free, &step.at)).collect(),
             };
-            Found { descent, reached: ending.reached }
+            Basin { descent, reached: ending.reached }
         });
-        let search = Search { found: found.collect(), evaluations: self.evaluations };
-        FitReport::again(&problem, search, self.elapsed_ms)
+        let search = MultistartResult { found: found.collect(), evaluations: self.evaluations };
+        FitResult::again(&problem, search, self.elapsed_ms)
     }
 }
 

@@ -19,21 +19,21 @@ use tr::tr;
 
 /// A measurement with what is to be said about how it came about.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Imported {
+pub struct ImportResult {
     pub measurement: Measurement,
     pub notices: Vec<String>,
 }
 
 /// What came out of a file.
-pub enum Arrived {
-    Measurement(Box<Imported>),
+pub enum Loaded {
+    Measurement(Box<ImportResult>),
     /// Something that needs a choice.
-    Foreign(Foreign),
+    ImportSource(ImportSource),
 }
 
 /// A file of another form; shared with jobs.
 #[derive(Clone)]
-pub enum Foreign {
+pub enum ImportSource {
     Ellipsometry(Arc<Ellipsometry>),
     Tensor(Arc<Tensor>),
     Table(Arc<ForeignTable>),
@@ -62,7 +62,7 @@ pub struct Slices {
 
 /// What the user chose.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Choice {
+pub enum ImportOptions {
     /// Vacuum wavelength in nm.
     Ellipsometry(f64),
     Tensor(Slices),
@@ -121,29 +121,29 @@ pub fn bytes_of(mut source: impl Read, length: Option<u64>, progress: Progress<'
 }
 
 /// What those bytes hold; the error is a phrase.
-pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Arrived, String> {
+pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Loaded, String> {
     if is_woollam(&bytes) {
         let ellipsometry = Arc::new(read_woollam(&bytes[..], progress).map_err(|error| phrase(&error))?);
         return match ellipsometry.wavelengths_nm()[..] {
-            [only] => Foreign::Ellipsometry(ellipsometry).import(&Choice::Ellipsometry(only), progress).map(arrived),
-            _ => Ok(Arrived::Foreign(Foreign::Ellipsometry(ellipsometry))),
+            [only] => ImportSource::Ellipsometry(ellipsometry).import(&ImportOptions::Ellipsometry(only), progress).map(arrived),
+            _ => Ok(Loaded::ImportSource(ImportSource::Ellipsometry(ellipsometry))),
         };
     }
     if is_tensor(&bytes) {
         let tensor = tensor_from_bytes(bytes).map_err(|error| phrase(&error))?;
-        return Ok(Arrived::Foreign(Foreign::Tensor(Arc::new(tensor))));
+        return Ok(Loaded::ImportSource(ImportSource::Tensor(Arc::new(tensor))));
     }
     match measurement::read(&bytes[..], progress) {
-        Ok(measurement) => Ok(arrived(Imported { measurement, notices: Vec::new() })),
+        Ok(measurement) => Ok(arrived(ImportResult { measurement, notices: Vec::new() })),
         Err(error) if is_about_names(&error) => {
-            ForeignTable::new(bytes, &error).map(|table| Arrived::Foreign(Foreign::Table(Arc::new(table))))
+            ForeignTable::new(bytes, &error).map(|table| Loaded::ImportSource(ImportSource::Table(Arc::new(table))))
         }
         Err(error) => Err(phrase(&error)),
     }
 }
 
-fn arrived(imported: Imported) -> Arrived {
-    Arrived::Measurement(Box::new(imported))
+fn arrived(imported: ImportResult) -> Loaded {
+    Loaded::Measurement(Box::new(imported))
 }
 
 /// Whether a table fails for the names of its columns alone.
@@ -185,18 +185,18 @@ fn head(bytes: &[u8]) -> &[u8] {
     &bytes[..end]
 }
 
-impl Foreign {
+impl ImportSource {
     /// What is offered first.
-    pub fn first_choice(&self) -> Choice {
+    pub fn first_choice(&self) -> ImportOptions {
         match self {
-            Self::Ellipsometry(ellipsometry) => Choice::Ellipsometry(nearest(&ellipsometry.wavelengths_nm(), OFFERED)),
-            Self::Tensor(tensor) => Choice::Tensor(Slices {
+            Self::Ellipsometry(ellipsometry) => ImportOptions::Ellipsometry(nearest(&ellipsometry.wavelengths_nm(), OFFERED)),
+            Self::Tensor(tensor) => ImportOptions::Tensor(Slices {
                 wavelength_nm: nearest(tensor.wavelengths_nm(), OFFERED),
                 theta_i: Span::new(15.0, 75.0, 15.0),
                 theta_r: Span::new(-80.0, 80.0, 5.0),
                 dphi: 180.0,
             }),
-            Self::Table(table) => Choice::Table(Mapping::guess(&table.header, &table.metadata)),
+            Self::Table(table) => ImportOptions::Table(Mapping::guess(&table.header, &table.metadata)),
         }
     }
 
@@ -210,11 +210,11 @@ impl Foreign {
     }
 
     /// The measurement so chosen; the error is a phrase in English.
-    pub fn import(&self, choice: &Choice, progress: Progress<'_>) -> Result<Imported, String> {
+    pub fn import(&self, choice: &ImportOptions, progress: Progress<'_>) -> Result<ImportResult, String> {
         match (self, choice) {
-            (Self::Ellipsometry(ellipsometry), Choice::Ellipsometry(wavelength_nm)) => specular(ellipsometry, *wavelength_nm),
-            (Self::Tensor(tensor), Choice::Tensor(slices)) => sliced(tensor, slices),
-            (Self::Table(table), Choice::Table(mapping)) => mapped(&table.bytes, mapping, progress),
+            (Self::Ellipsometry(ellipsometry), ImportOptions::Ellipsometry(wavelength_nm)) => specular(ellipsometry, *wavelength_nm),
+            (Self::Tensor(tensor), ImportOptions::Tensor(slices)) => sliced(tensor, slices),
+            (Self::Table(table), ImportOptions::Table(mapping)) => mapped(&table.bytes, mapping, progress),
             // A choice is made for its own file.
             _ => Err("the choice belongs to another file".to_owned()),
         }
@@ -226,9 +226,9 @@ impl Foreign {
     }
 
     /// The beginning of the same, quickly.
-    pub fn preview(&self, choice: &Choice) -> Result<Imported, String> {
+    pub fn preview(&self, choice: &ImportOptions) -> Result<ImportResult, String> {
         match (self, choice) {
-            (Self::Table(table), Choice::Table(mapping)) => mapped(head(&table.bytes), mapping, &mut |_| ControlFlow::Continue(())),
+            (Self::Table(table), ImportOptions::Table(mapping)) => mapped(head(&table.bytes), mapping, &mut |_| ControlFlow::Continue(())),
             _ => self.import(choice, &mut |_| ControlFlow::Continue(())),
         }
     }
@@ -239,12 +239,12 @@ fn nearest(available: &[f64], wanted: f64) -> f64 {
     available.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(wanted)
 }
 
-fn mapped(bytes: &[u8], mapping: &Mapping, progress: Progress<'_>) -> Result<Imported, String> {
+fn mapped(bytes: &[u8], mapping: &Mapping, progress: Progress<'_>) -> Result<ImportResult, String> {
     let measurement = read_mapped(bytes, mapping, progress).map_err(|error| error.to_string())?;
-    Ok(Imported { measurement, notices: Vec::new() })
+    Ok(ImportResult { measurement, notices: Vec::new() })
 }
 
-fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported, String> {
+fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<ImportResult, String> {
     let slice = ellipsometry.specular_dolp(Some(wavelength_nm)).map_err(|error| error.to_string())?;
     let mut notices = Vec::new();
     if slice.wavelengths_nm != [wavelength_nm] {
@@ -260,10 +260,10 @@ fn specular(ellipsometry: &Ellipsometry, wavelength_nm: f64) -> Result<Imported,
     if !ellipsometry.depolarisation.is_empty() {
         notices.push(tr!("Depolarisation (dpolE) is named in the metadata, not applied to DoLP."));
     }
-    Ok(Imported { measurement: slice.measurement, notices })
+    Ok(ImportResult { measurement: slice.measurement, notices })
 }
 
-fn sliced(tensor: &Tensor, slices: &Slices) -> Result<Imported, String> {
+fn sliced(tensor: &Tensor, slices: &Slices) -> Result<ImportResult, String> {
     let angles = |span: Span| span.angles().collect::<Vec<f64>>();
     let geometries = grid_geometries(&angles(slices.theta_i), &angles(slices.theta_r), slices.dphi).map_err(|error| error.to_string())?;
     let slice = tensor.slice(&geometries, Some(slices.wavelength_nm)).map_err(|error| error.to_string())?;
@@ -281,5 +281,5 @@ fn sliced(tensor: &Tensor, slices: &Slices) -> Result<Imported, String> {
     if slice.beyond_one > 0 {
         notices.push(tr!("Left out the DoLP of {} directions where it is above 1.", slice.beyond_one));
     }
-    Ok(Imported { measurement: slice.measurement, notices })
+    Ok(ImportResult { measurement: slice.measurement, notices })
 }

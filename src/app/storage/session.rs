@@ -4,13 +4,13 @@
 //! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
 //! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
 
-use crate::app::storage::fit_record::{Account, on_one_line};
+use crate::app::storage::fit_record::{FitRecord, on_one_line};
 use crate::app::work::document::{Mask, masked_rows};
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, can_be_set};
 use crate::export::program;
-use pbrdf::fit::{Bounds, Choices, FitReport, Problem, ProblemError, Starts, Watch, fit};
+use pbrdf::fit::{Bounds, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
 use pbrdf::measurement;
 use pbrdf::measurement::{Measurement, ReadError};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
@@ -63,27 +63,27 @@ struct Data {
 
 /// What a fit was about, and where it ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Recipe {
+pub struct SavedFit {
     model: Model,
     start: Parameters,
     free: Vec<Parameter>,
     bounds: Vec<(Parameter, f64, f64)>,
-    choices: Choices,
+    choices: FitOptions,
     /// The solution.
     parameters: Parameters,
     /// The sliders before it.
     before: Parameters,
     /// How it came about; older files do not tell.
     #[serde(default)]
-    account: Option<Account>,
+    account: Option<FitRecord>,
     /// The rows that were masked, from 0, where no account tells; without, those that the measurement has masked.
     #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
     masked: Option<Vec<usize>>,
 }
 
 /// A fit of a session, made again.
-pub struct Again {
-    pub report: FitReport,
+pub struct RestoredFit {
+    pub report: FitResult,
     pub problem: Arc<Problem>,
     /// The sliders before it.
     pub before: Parameters,
@@ -102,7 +102,7 @@ pub struct Session {
     pub sha256: Option<String>,
     pub measurement: Option<Arc<Measurement>>,
     /// The newest first.
-    pub fits: Vec<Recipe>,
+    pub fits: Vec<SavedFit>,
     /// Which of them is shown.
     pub shown: Option<usize>,
     /// Why fits of its file are not among them; none of it is written.
@@ -136,14 +136,14 @@ impl SessionError {
     }
 }
 
-impl Recipe {
-    pub fn new(fit: &PastFit) -> Self {
+impl SavedFit {
+    pub fn new(fit: &FitEntry) -> Self {
         let problem = &fit.problem;
         let bounds = problem.free().iter().map(|&parameter| {
             let (low, high) = problem.bounds().of(parameter);
             (parameter, low, high)
         });
-        let account = Account::new(fit);
+        let account = FitRecord::new(fit);
         Self {
             masked: account.is_none().then(|| fit.mask.to_vec()),
             model: problem.model(),
@@ -172,7 +172,7 @@ impl Recipe {
 
     /// The rows that were masked, where the file tells.
     fn mask(&self) -> Option<&[usize]> {
-        self.account.as_ref().map(Account::mask).or(self.masked.as_deref())
+        self.account.as_ref().map(FitRecord::mask).or(self.masked.as_deref())
     }
 
     /// The measurement with the mask that it had.
@@ -207,19 +207,19 @@ impl Recipe {
     }
 
     /// The fit again. None where the data of the session are no longer such that there is one.
-    pub fn again(&self, measurement: &Measurement) -> Option<Again> {
+    pub fn again(&self, measurement: &Measurement) -> Option<RestoredFit> {
         let problem = self.problem(measurement).ok()?;
         let report = match &self.account {
             Some(account) => account.report(&problem, &self.free)?,
             None => self.without_account(&problem),
         };
         let mask = self.mask().map_or_else(|| masked_rows(&measurement.rows), Mask::from);
-        Some(Again { report, problem: Arc::new(problem), before: self.before, mask })
+        Some(RestoredFit { report, problem: Arc::new(problem), before: self.before, mask })
     }
 
     /// From its solution, where it stays; how it got there is not known.
-    fn without_account(&self, problem: &Problem) -> FitReport {
-        let mut report = fit(&problem.with_start(self.parameters), Starts::One, 0, Watch::NOBODY);
+    fn without_account(&self, problem: &Problem) -> FitResult {
+        let mut report = fit(&problem.with_start(self.parameters), Starts::One, 0, Observer::NONE);
         for estimate in &mut report.estimates {
             estimate.start = self.start[estimate.parameter];
         }
@@ -288,7 +288,7 @@ impl Session {
         let Contents { settings, layout, fits: stored, shown: stored_shown, .. } = contents;
         let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
         for (index, value) in stored.into_iter().enumerate() {
-            match Recipe::read(value, measurement.as_deref().unwrap_or(&Measurement::default())) {
+            match SavedFit::read(value, measurement.as_deref().unwrap_or(&Measurement::default())) {
                 Ok(recipe) => {
                     shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
                     fits.push(recipe);

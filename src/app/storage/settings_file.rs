@@ -1,7 +1,7 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
 use crate::app::text::i18n::{Language, phrase};
-use crate::app::work::settings::{Stored, WindowSettings};
+use crate::app::work::settings::{SettingsFile, WindowSettings};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tr::tr;
@@ -20,23 +20,23 @@ pub fn working_path() -> Option<PathBuf> {
 }
 
 /// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
-pub fn load() -> (Stored, Option<String>) {
-    path().map_or_else(|| (Stored::default(), None), |path| load_from(&path))
+pub fn load() -> (SettingsFile, Option<String>) {
+    path().map_or_else(|| (SettingsFile::default(), None), |path| load_from(&path))
 }
 
-pub fn load_from(path: &Path) -> (Stored, Option<String>) {
+pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
     let reason = match std::fs::read(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let window = WindowSettings { language: Language::of_environment(), ..WindowSettings::default() };
-            return (Stored { window, ..Stored::default() }, None);
+            return (SettingsFile { window, ..SettingsFile::default() }, None);
         }
         Err(error) => {
             return (
-                Stored::default(),
+                SettingsFile::default(),
                 Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", phrase(&error))),
             );
         }
-        Ok(bytes) => match serde_json::from_slice::<Stored>(&bytes) {
+        Ok(bytes) => match serde_json::from_slice::<SettingsFile>(&bytes) {
             Ok(settings) => match settings.fault() {
                 None => return (settings, None),
                 Some(fault) => fault,
@@ -50,13 +50,13 @@ pub fn load_from(path: &Path) -> (Stored, Option<String>) {
         Err(error) => tr!("it could not be set aside ({})", phrase(&error)),
     };
     (
-        Stored::default(),
+        SettingsFile::default(),
         Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), phrase(&reason), kept)),
     )
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.
-pub fn save(path: &Path, settings: &Stored) -> std::io::Result<()> {
+pub fn save(path: &Path, settings: &SettingsFile) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
     let mut file = tempfile::NamedTempFile::new_in(folder)?;

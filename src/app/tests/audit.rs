@@ -1,17 +1,17 @@
 //! The audit: findings of the sliders' surface, with verdicts and reasons, in both languages.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
 
-fn shown() -> Harness<'static, Option<Explorer>> {
+fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Audit));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Audit));
     wait(&mut harness);
     harness
 }

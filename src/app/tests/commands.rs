@@ -1,6 +1,6 @@
 //! The table of commands: menus, keyboard, palette.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Command, Status, Switch};
 use crate::app::storage::export::PLOTS;
@@ -57,7 +57,7 @@ fn commands_about_what_is_not_there_change_nothing() {
     let (settings, rows) = (explorer(&mut harness).settings.clone(), explorer(&mut harness).document.measurement.rows.clone());
     let profiles = pbrdf::model::Parameter::ALL.map(Command::Profile);
     let others = [
-        Command::Import,
+        Command::ImportDialog,
         Command::CancelImport,
         Command::Mask { rows: vec![usize::MAX], masked: true },
         Command::ReturnTo(99),
@@ -145,7 +145,7 @@ fn arrows_choose_in_the_palette_and_escape_leaves_it() {
 #[test]
 fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
     let mut harness = harness();
-    let open = |harness: &mut Harness<'static, Option<Explorer>>, text: &str| {
+    let open = |harness: &mut Harness<'static, Option<App>>, text: &str| {
         explorer(harness).commands.push(Command::OpenPalette);
         harness.run();
         harness.get_by_label("Find a command").type_text(text);

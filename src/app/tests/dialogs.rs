@@ -1,9 +1,9 @@
 //! Dialogs of the desktop, where there are some and where there are none.
 
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::shell::file_dialogs::{Answer, NoDialog, Question, ask_desktop};
-use crate::app::storage::export::Outgoing;
+use crate::app::shell::docking::PaneId;
+use crate::app::shell::file_dialogs::{DialogUnavailable, FileReply, FileRequest, ask_desktop};
+use crate::app::storage::export::ExportKind;
 use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::process::{Command as Process, Stdio};
@@ -14,13 +14,13 @@ const DESKTOP: &str = "PBRDF_TEST_DESKTOP";
 /// The process that asks on that desktop.
 #[test]
 fn asker() {
-    let expected: Answer = match std::env::var(DESKTOP).as_deref() {
-        Ok("empty") => Err(NoDialog),
+    let expected: FileReply = match std::env::var(DESKTOP).as_deref() {
+        Ok("empty") => Err(DialogUnavailable),
         Ok("cancelled") => Ok(None),
         Ok(path) => Ok(Some(path.into())),
         Err(_) => return,
     };
-    for question in [Question::Open, Question::Save("a.csv".to_owned()), Question::OpenSession] {
+    for question in [FileRequest::Open, FileRequest::Save("a.csv".to_owned()), FileRequest::OpenSession] {
         assert_eq!(ask_desktop(question), expected);
     }
 }
@@ -57,7 +57,7 @@ fn a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled() {
 
 #[test]
 fn an_ending_that_the_desktop_did_not_see_is_asked_about() {
-    let export = |path: &str| Question::Export(Outgoing::Plot(Pane::Dolp), String::new()).command(path.into());
-    assert_eq!(export("/a/plot.png"), Command::Export(Outgoing::Plot(Pane::Dolp), "/a/plot.png".into()));
-    assert_eq!(export("/a/plot"), Command::ExportNew(Outgoing::Plot(Pane::Dolp), Path::new("/a/plot.svg").into()));
+    let export = |path: &str| FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()).command(path.into());
+    assert_eq!(export("/a/plot.png"), Command::Export(ExportKind::Plot(PaneId::Dolp), "/a/plot.png".into()));
+    assert_eq!(export("/a/plot"), Command::ExportNew(ExportKind::Plot(PaneId::Dolp), Path::new("/a/plot.svg").into()));
 }

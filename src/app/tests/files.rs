@@ -4,7 +4,7 @@ use crate::app::shell::commands::Command;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, harness_with, wait};
 use crate::app::work::document::EXAMPLES;
-use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings};
+use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Parameter, Parameters};
 use std::path::{Path, PathBuf};
@@ -128,7 +128,7 @@ fn settings_survive_a_restart() {
     let settings = Settings { parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() }, log_brdf: true, ..Settings::default() };
     let mut window = WindowSettings { theme: Theme::Dark, ..WindowSettings::default() };
     window.remember(&path);
-    let settings = Stored { settings, window };
+    let settings = SettingsFile { settings, window };
     settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(settings_file::load_from(&path), (settings, None));
 }
@@ -138,7 +138,7 @@ fn sliders_that_are_no_surface_survive_a_restart_too() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("settings.json");
     let settings = Settings { parameters: Parameters { n: 0.0, k: 0.0, ..Parameters::default() }, ..Settings::default() };
-    let settings = Stored { settings, ..Stored::default() };
+    let settings = SettingsFile { settings, ..SettingsFile::default() };
     settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(settings_file::load_from(&path), (settings, None));
 }
@@ -157,7 +157,7 @@ fn damaged_settings_are_set_aside() {
     ] {
         let path = file(&folder, "settings.json", damage);
         let (settings, notice) = settings_file::load_from(&path);
-        assert_eq!(settings, Stored::default());
+        assert_eq!(settings, SettingsFile::default());
         let notice = notice.expect("a notice");
         assert!(notice.contains("damaged") && notice.contains(place), "{damage:?}: {notice}");
         assert!(!path.exists());

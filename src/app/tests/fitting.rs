@@ -150,7 +150,7 @@ fn a_fixed_parameter_stays() {
 #[test]
 fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
     let mut harness = harness();
-    let bands = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>>| {
+    let bands = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| {
         explorer(harness).views.dolp.band.get().cloned().unwrap_or_default()
     };
     assert!(bands(&mut harness).is_empty());
@@ -248,7 +248,7 @@ fn the_last_fit_stays_in_view_where_the_sliders_or_the_model_have_left_it() {
     // A fit far above the curves of the sliders is on the axis too.
     explorer(&mut harness).commands.push(Command::UseFit);
     wait(&mut harness);
-    let high = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>>| {
+    let high = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| {
         explorer(harness).views.dolp.range().expect("an axis").high
     };
     explorer(&mut harness).settings.show_limit = false;

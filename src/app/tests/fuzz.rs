@@ -11,21 +11,21 @@
 #[path = "../../../core/tests/common/damage.rs"]
 mod damage;
 
-use crate::app::jobs::worker::Opened;
-use crate::app::shell::app::Explorer;
+use crate::app::jobs::worker::OpenedSession;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, Panes};
+use crate::app::shell::docking::{Dock, PANES};
 use crate::app::shell::lessons::Lessons;
 use crate::app::storage::export;
 use crate::app::storage::import;
-use crate::app::storage::import::Arrived;
+use crate::app::storage::import::Loaded;
 use crate::app::storage::session::Session;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, wait};
 use crate::app::work::layout::Layout;
 use crate::app::work::lesson::Lesson;
 use crate::app::work::parameter_text;
-use crate::app::work::settings::{Settings, Stored, Theme, WindowSettings, can_be_set};
+use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings, can_be_set};
 use damage::{fuzz, texts};
 use egui_kittest::Harness;
 use pbrdf::measurement;
@@ -42,14 +42,14 @@ fn read_table(bytes: &[u8]) -> Option<Measurement> {
 }
 
 /// A window that draws a box for what its fonts lack, as the program does; other tests fail there.
-fn harness() -> Harness<'static, Option<Explorer>> {
+fn harness() -> Harness<'static, Option<App>> {
     let harness = crate::app::tests::harness();
     harness.ctx.set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     harness
 }
 
 /// A window with that small table open, and a fit of it.
-fn small() -> Harness<'static, Option<Explorer>> {
+fn small() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     let table = read_table(TABLE.as_bytes()).expect("a table");
     explorer(&mut harness).take("small.csv".to_owned(), table);
@@ -73,14 +73,14 @@ fn session() -> Session {
     export::session(explorer)
 }
 
-fn opened(bytes: &[u8]) -> Option<Opened> {
-    Some(Opened::new(Session::read(std::str::from_utf8(bytes).ok()?).ok()?))
+fn opened(bytes: &[u8]) -> Option<OpenedSession> {
+    Some(OpenedSession::new(Session::read(std::str::from_utf8(bytes).ok()?).ok()?))
 }
 
 #[test]
 fn sessions() {
     let whole = session();
-    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::Pane(PANES[0].pane), ..whole.clone() };
+    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::PaneId(PANES[0].pane), ..whole.clone() };
     fuzz("session", &[text(&whole), text(&bare)], |bytes| {
         let Some(opened) = opened(bytes) else { return false };
         let Session { settings, layout, name, measurement, fits, .. } = &opened.session;
@@ -96,7 +96,7 @@ fn sessions() {
 #[test]
 fn sessions_in_every_view() {
     let whole = session();
-    let samples: Vec<Vec<u8>> = PANES.iter().map(|entry| text(&Session { layout: Layout::Pane(entry.pane), ..whole.clone() })).collect();
+    let samples: Vec<Vec<u8>> = PANES.iter().map(|entry| text(&Session { layout: Layout::PaneId(entry.pane), ..whole.clone() })).collect();
     let mut harness = harness();
     fuzz("session-in-views", &samples, |bytes| {
         let Some(opened) = opened(bytes) else { return false };
@@ -108,11 +108,11 @@ fn sessions_in_every_view() {
 
 #[test]
 fn settings() {
-    let other = Stored {
+    let other = SettingsFile {
         settings: Settings { log_brdf: true, show_bounds: true, bounds: vec![(Parameter::K, 0.0, 5.0)], ..Settings::default() },
-        window: WindowSettings { theme: Theme::Dark, layout: Layout::Pane(PANES[1].pane), ..WindowSettings::default() },
+        window: WindowSettings { theme: Theme::Dark, layout: Layout::PaneId(PANES[1].pane), ..WindowSettings::default() },
     };
-    let samples = [Stored::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));
+    let samples = [SettingsFile::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let [path, copy] = ["settings.json", "copy.json"].map(|name| folder.path().join(name));
     let mut harness = harness();
@@ -120,13 +120,13 @@ fn settings() {
         std::fs::write(&path, bytes).expect("a writable folder for temporary files");
         let (stored, notice) = settings_file::load_from(&path);
         if notice.is_some() {
-            assert_eq!(stored, Stored::default());
+            assert_eq!(stored, SettingsFile::default());
             return false;
         }
         settings_file::save(&copy, &stored).expect("a writable folder for temporary files");
         assert_eq!(settings_file::load_from(&copy), (stored.clone(), None));
         let explorer = explorer(&mut harness);
-        explorer.panes = Panes::new(&stored.window.layout);
+        explorer.panes = Dock::new(&stored.window.layout);
         (explorer.settings, explorer.window) = (stored.settings, stored.window);
         wait(&mut harness);
         true
@@ -158,7 +158,7 @@ fn foreign_files() {
     fuzz("foreign", &samples, |bytes| {
         let go_on = &mut |_| ControlFlow::Continue(());
         let Ok(arrived) = import::read(bytes.to_vec(), go_on) else { return false };
-        if let Arrived::Foreign(foreign) = arrived {
+        if let Loaded::ImportSource(foreign) = arrived {
             let choice = foreign.first_choice();
             let (preview, whole) = (foreign.preview(&choice), foreign.import(&choice, go_on));
             assert!(!foreign.is_seen_whole() || preview == whole);

@@ -1,8 +1,8 @@
 //! The hemisphere map: what the pointer reads, what is made when, and what is not.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::settings::Quantity;
 use egui::accesskit::Role;
@@ -11,15 +11,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Facet, Geometry};
 
-fn shown() -> Harness<'static, Option<Explorer>> {
+fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Hemisphere));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Hemisphere));
     wait(&mut harness);
     harness
 }
 
 /// What the line under the map says with the pointer there.
-fn reading(harness: &mut Harness<'static, Option<Explorer>>, at: egui::Pos2) -> Option<String> {
+fn reading(harness: &mut Harness<'static, Option<App>>, at: egui::Pos2) -> Option<String> {
     harness.hover_at(at);
     harness.run();
     let lines: Vec<String> =
@@ -79,7 +79,7 @@ fn the_pointer_reads_what_the_model_gives_there() {
 }
 
 /// What happens before a frame, without the frame.
-fn logic(harness: &mut Harness<'static, Option<Explorer>>) {
+fn logic(harness: &mut Harness<'static, Option<App>>) {
     let ctx = harness.ctx.clone();
     explorer(harness).logic(&ctx);
 }

@@ -1,8 +1,8 @@
-//! Foreign files: each asks for the choice it needs, tells what it leads to, and leaves what is open where it fails.
+//! ImportSource files: each asks for the choice it needs, tells what it leads to, and leaves what is open where it fails.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::storage::import::{Choice, bytes_of};
+use crate::app::storage::import::{ImportOptions, bytes_of};
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 const OWN: &str = "45# steel (simulated)";
 
 /// The window after that file was opened, and its folder.
-fn opened(name: &str, contents: &[u8]) -> (Harness<'static, Option<Explorer>>, tempfile::TempDir) {
+fn opened(name: &str, contents: &[u8]) -> (Harness<'static, Option<App>>, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join(name);
     std::fs::write(&path, contents).expect("a writable folder for temporary files");
@@ -25,14 +25,14 @@ fn opened(name: &str, contents: &[u8]) -> (Harness<'static, Option<Explorer>>, t
     (harness, folder)
 }
 
-fn press(harness: &mut Harness<'static, Option<Explorer>>, button: &str) {
+fn press(harness: &mut Harness<'static, Option<App>>, button: &str) {
     // The question lies above everything else.
     harness.query_all_by_role_and_label(egui::accesskit::Role::Button, button).last().expect("a button").click();
     wait(harness);
 }
 
 /// Name and number of rows of what is open, and whether a question is.
-fn state(harness: &mut Harness<'static, Option<Explorer>>) -> (String, usize, bool) {
+fn state(harness: &mut Harness<'static, Option<App>>) -> (String, usize, bool) {
     let explorer = explorer(harness);
     (explorer.document.name.clone(), explorer.document.measurement.rows.len(), explorer.import.is_some())
 }
@@ -44,8 +44,8 @@ fn ellipsometry_asks_for_a_wavelength_and_becomes_specular_dolp() {
     let (mut harness, _folder) = opened("al.dat", ELLIPSOMETRY.as_bytes());
     assert_eq!(state(&mut harness), (OWN.to_owned(), 27, true));
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    assert_eq!(import.choice, Choice::Ellipsometry(650.0));
-    import.choice = Choice::Ellipsometry(600.0);
+    assert_eq!(import.choice, ImportOptions::Ellipsometry(650.0));
+    import.choice = ImportOptions::Ellipsometry(600.0);
     harness.run();
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("al.dat".to_owned(), 2, false));
@@ -77,7 +77,7 @@ pub(crate) fn tensor() -> Vec<u8> {
 fn a_tensor_asks_for_its_slices() {
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    let Choice::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
+    let ImportOptions::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
     assert_eq!(slices.wavelength_nm, 546.0);
     (slices.theta_i.from, slices.theta_i.to) = (30.0, 45.0);
     (slices.theta_r.from, slices.theta_r.to, slices.theta_r.step) = (-10.0, 20.0, 10.0);
@@ -85,7 +85,7 @@ fn a_tensor_asks_for_its_slices() {
     harness.run();
     // Out of the plane of incidence there is no backscatter side.
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    assert!(matches!(&import.choice, Choice::Tensor(slices) if slices.theta_r.from == 0.0));
+    assert!(matches!(&import.choice, ImportOptions::Tensor(slices) if slices.theta_r.from == 0.0));
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("mine.pbsdf".to_owned(), 6, false));
     let explorer = explorer(&mut harness);
@@ -111,8 +111,8 @@ fn a_foreign_table_is_guessed_shown_and_opened() {
 #[test]
 fn columns_without_a_guess_are_named_by_hand() {
     let (mut harness, _folder) = opened("letters.csv", b"a,b,c\n30,20,12\n30,40,14\n");
-    let question = |harness: &mut Harness<'static, Option<Explorer>>| match &explorer(harness).import.as_ref().expect("a question").choice {
-        Choice::Table(mapping) => mapping.clone(),
+    let question = |harness: &mut Harness<'static, Option<App>>| match &explorer(harness).import.as_ref().expect("a question").choice {
+        ImportOptions::Table(mapping) => mapping.clone(),
         other => panic!("{other:?}"),
     };
     assert_eq!(question(&mut harness), Mapping::default());
@@ -136,9 +136,9 @@ fn columns_without_a_guess_are_named_by_hand() {
     assert_eq!(state(&mut harness), ("letters.csv".to_owned(), 2, false));
 }
 
-fn mapping(harness: &mut Harness<'static, Option<Explorer>>) -> Mapping {
+fn mapping(harness: &mut Harness<'static, Option<App>>) -> Mapping {
     match &explorer(harness).import.as_ref().expect("a question").choice {
-        Choice::Table(mapping) => mapping.clone(),
+        ImportOptions::Table(mapping) => mapping.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -184,7 +184,7 @@ fn a_table_without_anything_measured_is_asked_about_with_that_reason() {
 
 #[test]
 fn the_question_stays_where_it_is_and_as_large_as_it_is() {
-    let area = |harness: &Harness<'static, Option<Explorer>>| {
+    let area = |harness: &Harness<'static, Option<App>>| {
         harness.ctx.memory(|memory| memory.area_rect(egui::Id::unique("import"))).expect("a question")
     };
     // Nothing is guessed; then what is chosen fails, with a long sentence; then it succeeds, with rows.
@@ -196,7 +196,8 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
         "theta_i=1,theta_r=2:radians,dolp=3:percent",
         "theta_i=1,theta_r=2,dolp=3:percent,brdf=4",
     ] {
-        explorer(&mut harness).import.as_mut().expect("a question").choice = Choice::Table(Mapping::from_text(text).expect("a mapping"));
+        explorer(&mut harness).import.as_mut().expect("a question").choice =
+            ImportOptions::Table(Mapping::from_text(text).expect("a mapping"));
         harness.run();
         assert_eq!(area(&harness), before, "{text}");
     }
@@ -204,7 +205,7 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
     let before = area(&harness);
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    let Choice::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
+    let ImportOptions::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
     (slices.theta_i.from, slices.theta_i.to, slices.dphi) = (30.0, 30.0, 90.0);
     harness.run();
     assert_eq!(area(&harness), before);

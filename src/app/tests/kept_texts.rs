@@ -1,9 +1,9 @@
 //! Texts that were made while the window spoke one language, and are shown when it speaks another.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::storage::import::{Choice, Foreign};
+use crate::app::shell::docking::PaneId;
+use crate::app::storage::import::{ImportOptions, ImportSource};
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::{Language, translated};
@@ -12,7 +12,7 @@ use pbrdf::fit::Starts;
 use pbrdf::measurement::{Mapping, Measurement, Quantity, Row};
 use pbrdf::optics::Geometry;
 
-type Window = Harness<'static, Option<Explorer>>;
+type Window = Harness<'static, Option<App>>;
 
 fn order(harness: &mut Window, command: Command) {
     explorer(harness).commands.push(command);
@@ -33,7 +33,7 @@ fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
     explorer(&mut harness).settings.starts = Starts::One;
     order(&mut harness, Command::StartFit);
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     harness.run_steps(4);
     // In an unoptimised build its maps take half a minute: nobody waits for them.
     for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {
@@ -52,7 +52,7 @@ fn why_a_model_was_skipped() {
     measurement.rows.iter_mut().for_each(|row| row.brdf = row.dolp.take());
     explorer(&mut harness).take("lobes".to_owned(), measurement);
     explorer(&mut harness).settings.starts = Starts::One;
-    explorer(&mut harness).panes.show(Pane::Models);
+    explorer(&mut harness).panes.show(PaneId::Models);
     order(&mut harness, Command::CompareModels);
     assert_eq!(is_there_in_both(&mut harness, "the model predicts DoLP only"), [true, false]);
 }
@@ -60,7 +60,7 @@ fn why_a_model_was_skipped() {
 #[test]
 fn why_nothing_is_predicted() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(Pane::Planner);
+    explorer(&mut harness).panes.show(PaneId::Planner);
     explorer(&mut harness).settings.plan.theta_r.clear();
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
@@ -69,7 +69,7 @@ fn why_nothing_is_predicted() {
 #[test]
 fn what_a_plan_leaves_open() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(Pane::Planner);
+    explorer(&mut harness).panes.show(PaneId::Planner);
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "a standard error above half of the value"), [true, false]);
 }
@@ -83,12 +83,12 @@ fn why_a_file_is_foreign_and_why_it_cannot_be_opened_yet() {
         let mut harness = harness();
         order(&mut harness, Command::OpenMeasurement(path.clone()));
         let import = explorer(&mut harness).import.as_mut().expect("a question");
-        import.choice = Choice::Table(Mapping::default());
+        import.choice = ImportOptions::Table(Mapping::default());
         wait(&mut harness);
         harness
     };
     let mut harness = open();
-    let Foreign::Table(table) = &explorer(&mut harness).import.as_ref().expect("a question").foreign else { panic!("a table") };
+    let ImportSource::Table(table) = &explorer(&mut harness).import.as_ref().expect("a question").foreign else { panic!("a table") };
     let why = table.reason.clone();
     assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
     let mut harness = open();

@@ -1,8 +1,8 @@
 //! The landscape: it follows the sliders, knows what lies on it, and a click puts the sliders there.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -12,9 +12,9 @@ use pbrdf::optics;
 
 const HINT: &str = "A click puts both sliders there; drag to move, Ctrl+wheel to zoom.";
 
-fn shown() -> Harness<'static, Option<Explorer>> {
+fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     harness
 }
@@ -58,7 +58,7 @@ fn it_is_coarser_while_a_slider_is_dragged() {
 fn nothing_is_computed_off_screen() {
     let mut harness = shown();
     let before = explorer(&mut harness).views.landscape.key().cloned();
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     explorer(&mut harness).settings.parameters.sigma = 0.2;
     wait(&mut harness);
@@ -67,16 +67,16 @@ fn nothing_is_computed_off_screen() {
 
 #[test]
 fn a_map_that_nobody_looks_at_is_not_finished() {
-    for pane in [Pane::Landscape, Pane::Hemisphere] {
+    for pane in [PaneId::Landscape, PaneId::Hemisphere] {
         let mut harness = harness();
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
         wait(&mut harness);
         let before = explorer(&mut harness).views.landscape.key().cloned();
         explorer(&mut harness).settings.parameters.sigma = 0.2;
         harness.step();
-        let running = |harness: &mut Harness<'static, Option<Explorer>>| {
+        let running = |harness: &mut Harness<'static, Option<App>>| {
             let views = &explorer(harness).views;
-            if pane == Pane::Landscape { views.landscape.is_running() } else { views.hemisphere.is_running() }
+            if pane == PaneId::Landscape { views.landscape.is_running() } else { views.hemisphere.is_running() }
         };
         assert!(running(&mut harness), "{pane:?}");
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
@@ -85,7 +85,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
         wait(&mut harness);
         let key = explorer(&mut harness).views.landscape.key().cloned();
-        assert!(pane == Pane::Hemisphere || key != before);
+        assert!(pane == PaneId::Hemisphere || key != before);
     }
 }
 

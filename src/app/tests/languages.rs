@@ -1,8 +1,8 @@
 //! Both languages: no text of the window is left in English, and every control has a name.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::{Command, items};
-use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::shell::help::{DOI, Help, PAPER};
 use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
@@ -15,7 +15,7 @@ use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use std::collections::BTreeSet;
 
 /// The window in Chinese after a fit and a comparison of models, so that every view has something to show.
-fn chinese() -> Harness<'static, Option<Explorer>> {
+fn chinese() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
     wait(&mut harness);
@@ -25,12 +25,12 @@ fn chinese() -> Harness<'static, Option<Explorer>> {
 }
 
 /// Puts that pane alone on screen.
-fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
+fn alone(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     for other in &PANES {
         explorer(harness).commands.push(Command::ClosePane(other.pane));
     }
     explorer(harness).commands.push(Command::TogglePane(pane));
-    if pane == Pane::Landscape {
+    if pane == PaneId::Landscape {
         // In an unoptimised build its maps take half a minute: nobody waits for them.
         harness.run_steps(4);
     } else {
@@ -39,7 +39,7 @@ fn alone(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
 }
 
 /// What is written on the screen, and what a screen reader says besides.
-pub(crate) fn written(harness: &Harness<'static, Option<Explorer>>) -> BTreeSet<String> {
+pub(crate) fn written(harness: &Harness<'static, Option<App>>) -> BTreeSet<String> {
     let mut texts = BTreeSet::new();
     let mut nodes = vec![harness.root()];
     while let Some(node) = nodes.pop() {
@@ -149,7 +149,7 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
 }
 
 /// What is in English on the screen, with the place.
-fn left(harness: &Harness<'static, Option<Explorer>>, place: &str) -> Vec<String> {
+fn left(harness: &Harness<'static, Option<App>>, place: &str) -> Vec<String> {
     written(harness).into_iter().filter(|text| is_english(text)).map(|text| format!("{place}: {text}")).collect()
 }
 
@@ -159,12 +159,12 @@ fn assert_chinese(english: &[String]) {
     assert!(missed.is_empty(), "not in assets/locales/zh_CN.po: {missed:#?}");
 }
 
-fn click(harness: &mut Harness<'static, Option<Explorer>>, label: &str) {
+fn click(harness: &mut Harness<'static, Option<App>>, label: &str) {
     harness.query_all_by_label(label).last().unwrap_or_else(|| panic!("there is no {label}")).click();
     harness.run();
 }
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
@@ -204,10 +204,10 @@ fn what_unfolds_is_in_chinese() {
         wait(&mut harness);
         english.extend(left(&harness, folded));
     }
-    alone(&mut harness, Pane::Models);
+    alone(&mut harness, PaneId::Models);
     click(&mut harness, "各起点及其终点");
     english.extend(left(&harness, "models"));
-    alone(&mut harness, Pane::Data);
+    alone(&mut harness, PaneId::Data);
     let series: Vec<String> = written(&harness).into_iter().filter(|text| text.starts_with("系列")).collect();
     for folded in &series {
         click(&mut harness, folded);
@@ -254,7 +254,7 @@ fn what_stays_open_is_said_in_the_language_of_the_window() {
     let mut harness = chinese();
     let free = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
     explorer(&mut harness).settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
-    alone(&mut harness, Pane::Planner);
+    alone(&mut harness, PaneId::Planner);
     assert!(written(&harness).contains("• k_s, k_d, k_v 一起：只有它们的比值进入 DoLP"));
 }
 
@@ -275,7 +275,7 @@ fn the_fonts_have_every_letter() {
 }
 
 /// Nodes that somebody can act on and that have no name.
-fn nameless(harness: &Harness<'static, Option<Explorer>>) -> Vec<String> {
+fn nameless(harness: &Harness<'static, Option<App>>) -> Vec<String> {
     let mut nameless = Vec::new();
     let mut nodes = vec![harness.root()];
     while let Some(node) = nodes.pop() {

@@ -1,11 +1,11 @@
 //! Plots, curves, fits and reports as files and on the clipboard.
 
 use crate::app::jobs::worker::Event;
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, Pane};
-use crate::app::storage::export::{Outgoing, PLOTS, figure};
+use crate::app::shell::docking::{PANES, PaneId};
+use crate::app::storage::export::{ExportKind, PLOTS, figure};
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::settings::Quantity;
 use crate::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
@@ -13,10 +13,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Facet, Geometry};
-use pbrdf::selftest::Surroundings;
+use pbrdf::selftest::Host;
 use std::ops::ControlFlow;
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
@@ -26,7 +26,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     let explorer = explorer(&mut harness);
-    let dolp = figure(explorer, Pane::Dolp).expect("a plot");
+    let dolp = figure(explorer, PaneId::Dolp).expect("a plot");
     let curves = explorer.derived.curves.get().expect("curves");
     let drawn = dolp.panels[0].series.iter().find_map(|series| match &series.drawn {
         Drawn::Line { points, .. } if series.name.starts_with("θi") => Some(points),
@@ -48,34 +48,34 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
 }
 
 /// Brings a pane to the front.
-fn show(harness: &mut Harness<'static, Option<Explorer>>, pane: Pane) {
+fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     if !explorer(harness).panes.is_on_screen(pane) {
         order(harness, Command::TogglePane(pane));
     }
     wait(harness);
 }
 
-/// Panes and a title of an axis or a colour bar in their figures; of the reports those in the tests of the core.
-const TITLES: [(Pane, &[&str]); 13] = [
-    (Pane::Dolp, &["θr / °", "DoLP"]),
-    (Pane::Lobes, &["θr / °", "BRDF / sr⁻¹"]),
-    (Pane::PolarLobes, &["BRDF / sr⁻¹"]),
-    (Pane::Facets, &["α / °", "density / sr⁻¹", "θr / °", "masking–shadowing G"]),
-    (Pane::Convergence, &["residual evaluations", "ΔE"]),
-    (Pane::Metals, &["wavelength / nm", "n", "k"]),
-    (Pane::Hemisphere, &["−θr cos Δφ / °", "−θr sin Δφ / °", "DoLP"]),
-    (Pane::Mueller, &["θr / °", "m00 / m00", "m01 / m00", "m33 / m00"]),
-    (Pane::Landscape, &["n", "k", "ΔE"]),
-    (Pane::Audit, &["θi / °", "directional-hemispherical reflectance"]),
-    (Pane::ErrorVsTime, &[]),
-    (Pane::Stability, &[]),
-    (Pane::Cost, &[]),
+/// Dock and a title of an axis or a colour bar in their figures; of the reports those in the tests of the core.
+const TITLES: [(PaneId, &[&str]); 13] = [
+    (PaneId::Dolp, &["θr / °", "DoLP"]),
+    (PaneId::Lobes, &["θr / °", "BRDF / sr⁻¹"]),
+    (PaneId::PolarLobes, &["BRDF / sr⁻¹"]),
+    (PaneId::Facets, &["α / °", "density / sr⁻¹", "θr / °", "masking–shadowing G"]),
+    (PaneId::Convergence, &["residual evaluations", "ΔE"]),
+    (PaneId::Metals, &["wavelength / nm", "n", "k"]),
+    (PaneId::Hemisphere, &["−θr cos Δφ / °", "−θr sin Δφ / °", "DoLP"]),
+    (PaneId::Mueller, &["θr / °", "m00 / m00", "m01 / m00", "m33 / m00"]),
+    (PaneId::Landscape, &["n", "k", "ΔE"]),
+    (PaneId::Audit, &["θi / °", "directional-hemispherical reflectance"]),
+    (PaneId::ErrorVsTime, &[]),
+    (PaneId::Stability, &[]),
+    (PaneId::Cost, &[]),
 ];
 
 #[test]
 fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
     // Tables and text.
-    let without = [Pane::Data, Pane::Planner, Pane::Models];
+    let without = [PaneId::Data, PaneId::Planner, PaneId::Models];
     assert!(PANES.iter().all(|entry| PLOTS.contains(&entry.pane) != without.contains(&entry.pane)));
     let mut harness = harness();
     order(&mut harness, Command::StartFit);
@@ -110,12 +110,12 @@ fn map_of(figure: &Figure) -> &HeatMap {
 #[test]
 fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
     let mut harness = harness();
-    show(&mut harness, Pane::Hemisphere);
+    show(&mut harness, PaneId::Hemisphere);
     for quantity in [Quantity::Dolp, Quantity::Brdf] {
         explorer(&mut harness).settings.shown.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        let exported = figure(explorer, Pane::Hemisphere).expect("a map");
+        let exported = figure(explorer, PaneId::Hemisphere).expect("a map");
         let map = map_of(&exported);
         let (row, column) = (60, 170);
         let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
@@ -137,9 +137,9 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
 fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
     let mut harness = harness();
     order(&mut harness, Command::StartFit);
-    show(&mut harness, Pane::Landscape);
+    show(&mut harness, PaneId::Landscape);
     let explorer = explorer(&mut harness);
-    let exported = figure(explorer, Pane::Landscape).expect("a map");
+    let exported = figure(explorer, PaneId::Landscape).expect("a map");
     let map = map_of(&exported);
     let fit = explorer.last_fit.as_ref().expect("a fit");
     let [n, k] = [fit.report.parameters.n, fit.report.parameters.k];
@@ -160,7 +160,7 @@ fn a_logarithmic_plot_is_exported_with_its_values() {
     explorer(&mut harness).settings.log_brdf = true;
     harness.run();
     let explorer = explorer(&mut harness);
-    let panel = &figure(explorer, Pane::Lobes).expect("a plot").panels[0];
+    let panel = &figure(explorer, PaneId::Lobes).expect("a plot").panels[0];
     assert_eq!((panel.y.scale, panel.y.title().as_str()), (Scale::Log, "BRDF / sr⁻¹"));
     let total = panel.series.last().expect("the total");
     let Drawn::Line { points, .. } = &total.drawn else { panic!("a curve") };
@@ -173,16 +173,16 @@ fn each_export_writes_its_file_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
     order(&mut harness, Command::StartFit);
-    for subject in Subject::ALL {
+    for subject in BenchmarkId::ALL {
         let stop = || true;
-        let made = Box::new(subject.make(Surroundings { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
+        let made = Box::new(subject.make(Host { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
         explorer(&mut harness).receive(Event::Reported { made, is_part: true });
     }
     let mut exports =
-        vec![(Outgoing::Curves, "c.csv"), (Outgoing::Fitted, "f.csv"), (Outgoing::Report, "r.html"), (Outgoing::Report, "r.md")];
+        vec![(ExportKind::Curves, "c.csv"), (ExportKind::Fitted, "f.csv"), (ExportKind::Report, "r.html"), (ExportKind::Report, "r.md")];
     for pane in PLOTS {
         show(&mut harness, pane);
-        exports.extend([(Outgoing::Plot(pane), "p.svg"), (Outgoing::Plot(pane), "p.png")]);
+        exports.extend([(ExportKind::Plot(pane), "p.svg"), (ExportKind::Plot(pane), "p.png")]);
     }
     for (what, name) in exports {
         let path = folder.path().join(name);
@@ -225,9 +225,9 @@ fn a_typed_path_serves_where_there_is_no_dialog() {
 fn a_name_of_another_kind_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
-    order(&mut harness, Command::Export(Outgoing::Plot(Pane::Dolp), folder.path().join("plot.pdf")));
+    order(&mut harness, Command::Export(ExportKind::Plot(PaneId::Dolp), folder.path().join("plot.pdf")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains(".svg or .png"));
-    order(&mut harness, Command::Export(Outgoing::Report, folder.path().join("r.html")));
+    order(&mut harness, Command::Export(ExportKind::Report, folder.path().join("r.html")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("no fit yet"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
@@ -235,7 +235,7 @@ fn a_name_of_another_kind_is_refused_in_words() {
 #[test]
 fn plots_and_tables_go_to_the_clipboard() {
     let mut harness = harness();
-    for (command, is_image) in [(Command::CopyPlot(Pane::Dolp), true), (Command::CopyTable, false)] {
+    for (command, is_image) in [(Command::CopyPlot(PaneId::Dolp), true), (Command::CopyTable, false)] {
         explorer(&mut harness).commands.push(command);
         harness.step();
         let commands = &harness.output().platform_output.commands;

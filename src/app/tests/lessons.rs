@@ -1,9 +1,9 @@
 //! Lessons: every step of every one is shown, and sets what it says.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::storage::export::Outgoing;
+use crate::app::shell::docking::PaneId;
+use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, wait};
@@ -27,10 +27,10 @@ fn every_step_of_every_lesson_is_shown() {
             assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
             assert_eq!(explorer(&mut harness).notices.text(), None, "{heading}");
             // Between the plots and the lower edge of the window.
-            let (buttons, text) = (harness.get_by_label("Set up again").rect(), harness.get_by_label("Watch").rect());
+            let (buttons, text) = (harness.get_by_label("Set up again").rect(), harness.get_by_label("Observer").rect());
             assert!(buttons.top() > 560.0 && text.top() > buttons.bottom() && text.bottom() < 700.0, "{heading}: {buttons} {text}");
             for name in explorer(&mut harness).lessons.all[lesson].steps[step].panes.clone() {
-                let pane = Pane::try_from(name.clone()).unwrap_or_else(|error| panic!("{heading}: {error}"));
+                let pane = PaneId::try_from(name.clone()).unwrap_or_else(|error| panic!("{heading}: {error}"));
                 assert!(explorer(&mut harness).panes.is_on_screen(pane), "{heading}: {name}");
             }
         }
@@ -85,7 +85,7 @@ fn a_damaged_lesson_is_named_and_the_window_goes_on() {
     assert!(harness.query_all_by_label_contains("My own step").next().is_some());
 }
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
@@ -104,37 +104,37 @@ struct Work {
     layout: Option<Layout>,
 }
 
-fn work(explorer: &Explorer) -> Work {
+fn work(explorer: &App) -> Work {
     Work {
         settings: explorer.settings.clone(),
         rows: explorer.document.measurement.rows.clone(),
         mask: explorer.document.mask().clone(),
-        fits: explorer.past_fits.iter().map(|fit| fit.id).collect(),
+        fits: explorer.fit_history.iter().map(|fit| fit.id).collect(),
         shown: explorer.last_fit.as_ref().map(|fit| fit.id),
         layout: explorer.panes.layout(),
     }
 }
 
 /// A window that somebody worked in.
-fn worked_in() -> Harness<'static, Option<Explorer>> {
+fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     order(&mut harness, Command::Mask { rows: vec![2, 7], masked: true });
     explorer(&mut harness).settings.starts = pbrdf::fit::Starts::One;
     order(&mut harness, Command::StartFit);
-    order(&mut harness, Command::ClosePane(Pane::Lobes));
+    order(&mut harness, Command::ClosePane(PaneId::Lobes));
     explorer(&mut harness).settings.parameters.k = 4.25;
     harness.run();
     harness
 }
 
 /// Moves everything that a lesson can move.
-fn go_through_a_lesson(harness: &mut Harness<'static, Option<Explorer>>) {
+fn go_through_a_lesson(harness: &mut Harness<'static, Option<App>>) {
     order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
     order(harness, Command::Mask { rows: vec![1], masked: true });
     explorer(harness).settings.starts = pbrdf::fit::Starts::One;
     order(harness, Command::StartFit);
-    order(harness, Command::ClosePane(Pane::Dolp));
+    order(harness, Command::ClosePane(PaneId::Dolp));
     // Into another lesson and back.
     order(harness, Command::ShowStep(0, 0));
     explorer(harness).settings.parameters.k = 1.5;
@@ -166,7 +166,7 @@ fn closing_a_lesson_brings_everything_back() {
 }
 
 /// What a step sets up: settings, data, mask, panes.
-fn set_up(explorer: &Explorer) -> (Settings, String, Vec<Row>, Mask, Option<Layout>) {
+fn set_up(explorer: &App) -> (Settings, String, Vec<Row>, Mask, Option<Layout>) {
     let Work { settings, rows, mask, layout, .. } = work(explorer);
     (settings, explorer.document.name.clone(), rows, mask, layout)
 }
@@ -185,7 +185,7 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
         let open = explorer(&mut harness);
         (open.settings.parameters.sigma, open.settings.shown.facets_equal_median, open.settings.tabulated.wavelength_nm) =
             (1.75, true, 333.0);
-        order(&mut harness, Command::ClosePane(Pane::Dolp));
+        order(&mut harness, Command::ClosePane(PaneId::Dolp));
         for (step, forward) in forward.iter().enumerate().rev() {
             order(&mut harness, Command::ShowStep(lesson, step));
             assert_eq!(&set_up(explorer(&mut harness)), forward, "lesson {lesson}, step {step}");
@@ -203,7 +203,7 @@ fn undo_leads_to_the_step_before_whichever_way_one_came() {
     // "Quite another metal, the same curve", reached from behind.
     order(&mut harness, Command::ShowStep(2, 3));
     order(&mut harness, Command::ShowStep(2, 1));
-    let k = |harness: &mut Harness<'static, Option<Explorer>>| explorer(harness).settings.parameters.k;
+    let k = |harness: &mut Harness<'static, Option<App>>| explorer(harness).settings.parameters.k;
     assert_eq!(k(&mut harness), 10.0054);
     order(&mut harness, Command::Undo);
     assert_eq!(k(&mut harness), 6.6);
@@ -285,7 +285,7 @@ fn saving_in_a_lesson_leaves_the_file_of_the_own_session_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
     order(&mut harness, Command::ShowStep(0, 0));
     // Asks where to; nobody answers.
     order(&mut harness, Command::SaveSession);
@@ -294,7 +294,7 @@ fn saving_in_a_lesson_leaves_the_file_of_the_own_session_alone() {
     assert_eq!(k(&path), 4.25);
     // Into a file of its own it saves what is shown.
     let other = folder.path().join("lesson.pbrdf.json");
-    order(&mut harness, Command::Export(Outgoing::Session, other.clone()));
+    order(&mut harness, Command::Export(ExportKind::Session, other.clone()));
     assert_eq!(k(&other), 0.0);
     order(&mut harness, Command::CloseLesson);
     explorer(&mut harness).settings.parameters.k = 4.5;
@@ -307,7 +307,7 @@ fn a_session_opened_in_a_lesson_ends_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
     let before = work(explorer(&mut harness)).settings;
     order(&mut harness, Command::ShowStep(0, 0));
     order(&mut harness, Command::OpenSession(path));
@@ -321,7 +321,7 @@ fn a_session_that_is_still_being_read_does_not_replace_what_a_closed_lesson_give
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(Outgoing::Session, path.clone()));
+    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
     explorer(&mut harness).settings.parameters.k = 4.5;
     order(&mut harness, Command::ShowStep(0, 0));
     explorer(&mut harness).commands.extend([Command::OpenSession(path), Command::CloseLesson]);
@@ -376,7 +376,7 @@ fn a_step_states_the_ends_of_a_slider() {
     let mut harness = harness();
     explorer(&mut harness).read_lessons(Some(folder.path()));
     let last = explorer(&mut harness).lessons.all.len() - 1;
-    let reach = |harness: &mut Harness<'static, Option<Explorer>>| {
+    let reach = |harness: &mut Harness<'static, Option<App>>| {
         let slider = harness.get_all_by_role_and_label(egui::accesskit::Role::Slider, "k").next().expect("a slider");
         (slider.accesskit_node().min_numeric_value(), slider.accesskit_node().max_numeric_value())
     };
@@ -425,7 +425,7 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     explorer(&mut harness).settings.parameters.k = 4.5;
     wait(&mut harness);
     // The lesson is asked for in the very frame in which the answer comes.
-    let question = crate::app::shell::file_dialogs::Question::Export(Outgoing::Session, String::new());
+    let question = crate::app::shell::file_dialogs::FileRequest::Export(ExportKind::Session, String::new());
     explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
     explorer(&mut harness).receive(crate::app::jobs::worker::Event::Answered(question, Ok(Some(path.clone()))));
     wait(&mut harness);
@@ -443,7 +443,7 @@ fn what_was_said_before_a_session_is_opened_is_still_there_after() {
     std::fs::write(&path, bytes).expect("a writable folder");
     let state = explorer(&mut harness);
     state.say("The settings are damaged.".to_owned());
-    state.notices.say_of_reading("other.csv: no such file.".to_owned());
+    state.notices.load_error("other.csv: no such file.".to_owned());
     state.working_file = Some(path);
     state.resume();
     wait(&mut harness);

@@ -1,9 +1,9 @@
 //! Masks and the data table.
 
 use crate::app::plots::Range;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
 use egui::accesskit::Role;
@@ -14,7 +14,7 @@ use pbrdf::optics::Geometry;
 use std::ops::ControlFlow;
 
 /// The window with the table in the middle.
-fn table() -> Harness<'static, Option<Explorer>> {
+fn table() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     harness.get_by_label("Data table").click();
     // The rows that are seen are known after a frame, and what the model gives in them after another.
@@ -22,7 +22,7 @@ fn table() -> Harness<'static, Option<Explorer>> {
     harness
 }
 
-fn masked(harness: &mut Harness<'static, Option<Explorer>>) -> Vec<usize> {
+fn masked(harness: &mut Harness<'static, Option<App>>) -> Vec<usize> {
     explorer(harness).document.mask().to_vec()
 }
 
@@ -116,7 +116,7 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
     let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
     let mut harness = table();
     explorer(&mut harness).take("long".to_owned(), measurement);
-    assert!(explorer(&mut harness).panes.is_on_screen(Pane::Data));
+    assert!(explorer(&mut harness).panes.is_on_screen(PaneId::Data));
     harness.run();
     harness.get_by_label("Mask row 1");
     let middle = harness.get_by_label("Mask row 4").rect().center();
@@ -141,7 +141,7 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
 }
 
 /// Clicks there with those keys held.
-fn click_with(harness: &mut Harness<'static, Option<Explorer>>, at: egui::Pos2, modifiers: egui::Modifiers) {
+fn click_with(harness: &mut Harness<'static, Option<App>>, at: egui::Pos2, modifiers: egui::Modifiers) {
     harness.event(egui::Event::ModifiersChanged(modifiers));
     harness.hover_at(at);
     harness.step();
@@ -176,9 +176,9 @@ fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
 }
 
 /// Where that point of the lobes is on the screen.
-fn place_in_lobes(harness: &mut Harness<'static, Option<Explorer>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
+fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
     let rect = harness.get_by_label("Plot: BRDF against θr").rect();
-    let Explorer { derived, views, settings, .. } = explorer(harness);
+    let App { derived, views, settings, .. } = explorer(harness);
     let (x, y) = (derived.curves.key().expect("curves").x(), views.lobes.range().expect("curves"));
     let value = if settings.log_brdf { libm::log10(brdf) } else { brdf };
     let share = |range: Range, value: f64| (value - range.low) / (range.high - range.low);
@@ -191,12 +191,12 @@ fn place_in_lobes(harness: &mut Harness<'static, Option<Explorer>>, theta_r: f64
 fn points_of_a_hidden_series_cannot_be_clicked() {
     let mut harness = harness();
     // Its names are those of the lobes, too.
-    explorer(&mut harness).commands.extend([Command::OpenExample(2), Command::ClosePane(Pane::Dolp)]);
+    explorer(&mut harness).commands.extend([Command::OpenExample(2), Command::ClosePane(PaneId::Dolp)]);
     wait(&mut harness);
     let series = explorer(&mut harness).document.series[0].clone();
     let mark = &series.brdf[series.brdf.len() / 2];
     let at = place_in_lobes(&mut harness, mark.theta_r, mark.quantity.value);
-    let is_masked = |harness: &mut Harness<'static, Option<Explorer>>| {
+    let is_masked = |harness: &mut Harness<'static, Option<App>>| {
         let rows = masked(harness);
         explorer(harness).commands.push(Command::Mask { rows: rows.clone(), masked: false });
         harness.run();
@@ -213,7 +213,7 @@ fn points_of_a_hidden_series_cannot_be_clicked() {
 #[test]
 fn a_lobe_that_is_hidden_stays_so_in_another_language() {
     let mut harness = harness();
-    let is_shown = |harness: &Harness<'static, Option<Explorer>>, name: &str| {
+    let is_shown = |harness: &Harness<'static, Option<App>>, name: &str| {
         harness.get_by_role_and_label(Role::CheckBox, name).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
     };
     harness.get_by_role_and_label(Role::CheckBox, "total").click();

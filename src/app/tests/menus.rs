@@ -1,11 +1,11 @@
 //! Menus under the pointer.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
-fn click(harness: &mut Harness<'static, Option<Explorer>>, title: &str) {
+fn click(harness: &mut Harness<'static, Option<App>>, title: &str) {
     let at = harness.get_by_label(title).rect().center();
     harness.hover_at(at);
     harness.run();
@@ -18,7 +18,7 @@ fn click(harness: &mut Harness<'static, Option<Explorer>>, title: &str) {
 #[test]
 fn a_click_on_the_title_of_a_menu_that_opened_under_the_pointer_leaves_it_open() {
     let mut harness = harness();
-    let is_open = |harness: &Harness<'static, Option<Explorer>>| harness.query_by_label_contains("Undo").is_some();
+    let is_open = |harness: &Harness<'static, Option<App>>| harness.query_by_label_contains("Undo").is_some();
     click(&mut harness, "File");
     assert!(harness.query_by_label_contains("Open measurement").is_some());
     // Under the pointer alone, beside an open menu, and then clicked.

@@ -1,19 +1,19 @@
-//! Tabulated metals: sources side by side, sliders that take their n and k, and finishes.
+//! MetalSelection metals: sources side by side, sliders that take their n and k, and finishes.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::work::settings::Tabulated;
+use crate::app::work::settings::MetalSelection;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{FINISHES, Parameters};
 use pbrdf::optics;
 
-fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<Explorer>> {
+fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).settings.tabulated = Tabulated { metal: metal.to_owned(), wavelength_nm, ..Tabulated::default() };
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Metals));
+    explorer(&mut harness).settings.tabulated = MetalSelection { metal: metal.to_owned(), wavelength_nm, ..MetalSelection::default() };
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Metals));
     wait(&mut harness);
     harness
 }
@@ -46,7 +46,7 @@ fn a_source_sets_n_and_k_and_undo_brings_them_back() {
 fn n_and_k_follow_the_wavelength_of_the_source_that_was_set_unless_they_shall_not() {
     let mut harness = shown("Cu", 650.0);
     let label = "Wavelength";
-    let press = |harness: &mut Harness<'static, Option<Explorer>>, key| {
+    let press = |harness: &mut Harness<'static, Option<App>>, key| {
         harness.get_by_role_and_label(egui::accesskit::Role::Slider, label).focus();
         harness.run();
         harness.key_press(key);

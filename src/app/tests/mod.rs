@@ -34,24 +34,24 @@ mod snapshots;
 pub mod sources;
 mod typed;
 
-use crate::app::shell::app::Explorer;
-use crate::app::work::settings::{Settings, Stored, WindowSettings};
+use crate::app::shell::app::App;
+use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui_kittest::Harness;
 use std::time::{Duration, Instant};
 
 /// The window with the first example open, as it starts.
-fn harness() -> Harness<'static, Option<Explorer>> {
+fn harness() -> Harness<'static, Option<App>> {
     harness_with(Settings::default())
 }
 
-fn harness_with(settings: Settings) -> Harness<'static, Option<Explorer>> {
-    harness_of(Stored { settings, window: WindowSettings::default() })
+fn harness_with(settings: Settings) -> Harness<'static, Option<App>> {
+    harness_of(SettingsFile { settings, window: WindowSettings::default() })
 }
 
-fn harness_of(stored: Stored) -> Harness<'static, Option<Explorer>> {
-    let frame = move |ui: &mut egui::Ui, state: &mut Option<Explorer>| {
+fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
+    let frame = move |ui: &mut egui::Ui, state: &mut Option<App>| {
         let explorer = state.get_or_insert_with(|| {
-            let mut explorer = Explorer::new(ui.ctx(), stored.clone());
+            let mut explorer = App::new(ui.ctx(), stored.clone());
             explorer.begin(None);
             explorer
         });
@@ -63,7 +63,7 @@ fn harness_of(stored: Stored) -> Harness<'static, Option<Explorer>> {
     harness
 }
 
-fn explorer<'a>(harness: &'a mut Harness<'static, Option<Explorer>>) -> &'a mut Explorer {
+fn explorer<'a>(harness: &'a mut Harness<'static, Option<App>>) -> &'a mut App {
     harness.state_mut().as_mut().expect("the first frame makes the explorer")
 }
 
@@ -71,12 +71,12 @@ fn explorer<'a>(harness: &'a mut Harness<'static, Option<Explorer>>) -> &'a mut 
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Whether no job is on its way.
-fn is_at_rest(explorer: &Explorer) -> bool {
+fn is_at_rest(explorer: &App) -> bool {
     !explorer.worker.is_busy() && !explorer.background.is_busy() && explorer.commands.is_empty() && explorer.reports.running.is_none()
 }
 
 /// Draws frames until no job is on its way and nothing moves: a frame of those may begin a job.
-fn wait(harness: &mut Harness<'static, Option<Explorer>>) {
+fn wait(harness: &mut Harness<'static, Option<App>>) {
     let begun = Instant::now();
     loop {
         harness.step();

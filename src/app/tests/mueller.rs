@@ -1,8 +1,8 @@
 //! The Mueller matrix: the numbers at the chosen θr, and how it is chosen.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -10,15 +10,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Geometry, Mueller};
 
-fn shown() -> Harness<'static, Option<Explorer>> {
+fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Mueller));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Mueller));
     wait(&mut harness);
     harness
 }
 
 /// What is said of the table.
-fn spoken(harness: &Harness<'static, Option<Explorer>>) -> String {
+fn spoken(harness: &Harness<'static, Option<App>>) -> String {
     harness.get_by_label_contains("Mueller matrix over m00").accesskit_node().label().expect("found by it")
 }
 
@@ -28,13 +28,13 @@ fn numbers(spoken: &str) -> Vec<f64> {
     table.split([' ', ';']).filter(|text| !text.is_empty()).map(|text| text.parse().expect("a number")).collect()
 }
 
-fn expected(explorer: &Explorer, theta_r: f64, dphi: f64) -> Mueller {
+fn expected(explorer: &App, theta_r: f64, dphi: f64) -> Mueller {
     let settings = &explorer.settings;
     let surface = Pbrdf::new(settings.model, settings.parameters).expect("the defaults");
     surface.mueller(Geometry::new(settings.theta_i, theta_r, dphi).expect("angles"))
 }
 
-fn assert_shows(harness: &mut Harness<'static, Option<Explorer>>, theta_r: f64, dphi: f64) {
+fn assert_shows(harness: &mut Harness<'static, Option<App>>, theta_r: f64, dphi: f64) {
     let spoken = spoken(harness);
     assert!(spoken.contains(&format!("θr = {theta_r:.1}°")), "{spoken}");
     let matrix = expected(explorer(harness), theta_r, dphi);
@@ -60,7 +60,7 @@ fn it_follows_the_sliders_out_of_the_plane_of_incidence() {
     let mut harness = shown();
     harness.get_by_role_and_label(Role::SpinButton, "θr").set_value_accesskit(50.0);
     harness.run();
-    let m20 = |harness: &Harness<'static, Option<Explorer>>| numbers(&spoken(harness))[8];
+    let m20 = |harness: &Harness<'static, Option<App>>| numbers(&spoken(harness))[8];
     assert_eq!(m20(&harness), 0.0, "in the plane nothing is turned");
     explorer(&mut harness).settings.dphi = 120.0;
     explorer(&mut harness).settings.parameters.k = 6.0;

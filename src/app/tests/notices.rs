@@ -1,17 +1,17 @@
 //! Sentences to the user: they move nothing, go or stay as they should, and are read out.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::shell::file_dialogs::NoDialog;
-use crate::app::storage::export::Outgoing;
+use crate::app::shell::docking::PaneId;
+use crate::app::shell::file_dialogs::DialogUnavailable;
+use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::{Live, Role};
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-type Window = Harness<'static, Option<Explorer>>;
+type Window = Harness<'static, Option<App>>;
 
 fn plot(harness: &Window) -> Rect {
     harness.get_by_label("Plot: DoLP against θr").rect()
@@ -49,7 +49,7 @@ fn what_is_left_sinks_to_the_place_of_what_went() {
     harness.run();
     let place = |harness: &Window| harness.get_by_label("It failed.").rect();
     let alone = place(&harness);
-    explorer(&mut harness).notices.say_briefly("It is done.".to_owned());
+    explorer(&mut harness).notices.info("It is done.".to_owned());
     harness.run();
     while explorer(&mut harness).notices.iter().count() > 1 {
         harness.step();
@@ -75,7 +75,7 @@ fn a_missing_curve_does_not_move_the_plots_either() {
 #[test]
 fn a_success_goes_by_itself_and_a_failure_stays() {
     let mut harness = harness();
-    explorer(&mut harness).notices.say_briefly("It is done.".to_owned());
+    explorer(&mut harness).notices.info("It is done.".to_owned());
     explorer(&mut harness).say("It failed.".to_owned());
     harness.run();
     assert_eq!(explorer(&mut harness).notices.text().as_deref(), Some("It is done.\nIt failed."));
@@ -110,13 +110,13 @@ fn escape_dismisses_sentences_after_what_lies_above_them() {
 #[test]
 fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
     let mut harness = harness();
-    explorer(&mut harness).worker.ask = |_| Err(NoDialog);
+    explorer(&mut harness).worker.ask = |_| Err(DialogUnavailable);
     for (command, place) in [
         (Command::ChooseMeasurement, "under “Type a path to open”"),
         (Command::ChooseSession, "under “Type a path to open”"),
         (Command::ChooseSave, "under “Save to a path”"),
         (Command::SaveSession, "under “Save to a path”"),
-        (Command::ChooseExport(Outgoing::Plot(Pane::Dolp)), "File › Export"),
+        (Command::ChooseExport(ExportKind::Plot(PaneId::Dolp)), "File › Export"),
     ] {
         explorer(&mut harness).commands.push(command);
         wait(&mut harness);

@@ -1,22 +1,22 @@
 //! Bounds, choices and the history of fits.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::work::settings::{Settings, Stored};
+use crate::app::work::settings::{Settings, SettingsFile};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use pbrdf::fit::{Eq17, Loss, Starts, Weights};
+use pbrdf::fit::{DolpFormula, Loss, Starts, Weights};
 use pbrdf::model::{Parameter, Parameters};
 
-fn fit(harness: &mut Harness<'static, Option<Explorer>>) {
+fn fit(harness: &mut Harness<'static, Option<App>>) {
     explorer(harness).commands.push(Command::StartFit);
     wait(harness);
 }
 
 /// Chooses an entry of a list by its name.
-fn choose(harness: &mut Harness<'static, Option<Explorer>>, list: &str, entry: &str) {
+fn choose(harness: &mut Harness<'static, Option<App>>, list: &str, entry: &str) {
     harness.get_by_role_and_label(Role::ComboBox, list).click();
     harness.run();
     harness.get_by_label(entry).click();
@@ -110,7 +110,7 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
     harness.run();
     choose(&mut harness, "Eq. (17)", "as printed");
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.settings.choices.eq17, Eq17::Printed);
+    assert_eq!(explorer.settings.choices.eq17, DolpFormula::AsPrinted);
     assert!(explorer.free().contains(Parameter::Ks));
     assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[0][40].y, consistent / 0.5);
     harness.get_by_label("Default options").click();
@@ -157,11 +157,11 @@ fn settings_with_bounds_and_choices_survive_a_restart_and_nonsense_does_not() {
     settings.choices.loss = Loss::SoftL1;
     settings.choices.loss_scale = Some(0.02);
     settings.set_bounds(Parameter::C, -2.0, 0.5).expect("sound bounds");
-    let settings = Stored { settings, ..Stored::default() };
+    let settings = SettingsFile { settings, ..SettingsFile::default() };
     crate::app::storage::settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(crate::app::storage::settings_file::load_from(&path), (settings, None));
     std::fs::write(&path, "{\"settings\": {\"bounds\": [[\"N\", 3.0, 1.0]]}}").expect("a writable folder");
-    let (Stored { settings, .. }, notice) = crate::app::storage::settings_file::load_from(&path);
+    let (SettingsFile { settings, .. }, notice) = crate::app::storage::settings_file::load_from(&path);
     assert_eq!((settings.bounds, settings.parameters), (Vec::new(), Parameters::default()));
     assert!(notice.expect("a notice").contains("damaged"));
 }

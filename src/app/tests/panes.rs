@@ -1,11 +1,11 @@
-//! Panes: each opens, what is not on screen is not computed, and the layout survives a restart.
+//! Dock: each opens, what is not on screen is not computed, and the layout survives a restart.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::shell::theme;
 use crate::app::tests::{explorer, harness, harness_of, wait};
-use crate::app::work::settings::{Settings, Stored, WindowSettings};
+use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -59,7 +59,7 @@ fn what_is_not_on_screen_is_not_computed() {
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Lobes));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Lobes));
     harness.run();
     assert_ne!(explorer(&mut harness).derived.curves.key().cloned(), before);
 }
@@ -67,16 +67,16 @@ fn what_is_not_on_screen_is_not_computed() {
 #[test]
 fn a_closed_pane_stays_closed_after_a_restart() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::ClosePane(Pane::Lobes));
+    explorer(&mut harness).commands.push(Command::ClosePane(PaneId::Lobes));
     harness.run();
     let window: WindowSettings = explorer(&mut harness).window.clone();
-    let text = serde_json::to_string(&Stored { settings: Settings::default(), window }).expect("settings are JSON");
+    let text = serde_json::to_string(&SettingsFile { settings: Settings::default(), window }).expect("settings are JSON");
     let mut again = harness_of(serde_json::from_str(&text).expect("what was written is read"));
-    assert!(!explorer(&mut again).panes.is_on_screen(Pane::Lobes));
-    assert!(explorer(&mut again).panes.is_on_screen(Pane::Dolp));
+    assert!(!explorer(&mut again).panes.is_on_screen(PaneId::Lobes));
+    assert!(explorer(&mut again).panes.is_on_screen(PaneId::Dolp));
 }
 
-fn shown(pane: Pane) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>> {
+fn shown(pane: PaneId) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::App>> {
     let mut harness = harness();
     if !explorer(&mut harness).panes.is_on_screen(pane) {
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
@@ -88,11 +88,11 @@ fn shown(pane: Pane) -> egui_kittest::Harness<'static, Option<crate::app::shell:
 #[test]
 fn every_option_of_every_pane_can_be_switched() {
     for (pane, options) in [
-        (Pane::Dolp, &["Specular share", "with equal σ", "with equal median slope", "Fresnel limit", "Backscatter side"][..]),
-        (Pane::Lobes, &["Logarithmic BRDF", "Filled lobes", "Times cos θr"]),
-        (Pane::PolarLobes, &["Logarithmic radius", "Filled lobes"]),
-        (Pane::Facets, &["Logarithmic densities", "Equal median slope"]),
-        (Pane::Convergence, &["Against time", "Against evaluations"]),
+        (PaneId::Dolp, &["Specular share", "with equal σ", "with equal median slope", "Fresnel limit", "Backscatter side"][..]),
+        (PaneId::Lobes, &["Logarithmic BRDF", "Filled lobes", "Times cos θr"]),
+        (PaneId::PolarLobes, &["Logarithmic radius", "Filled lobes"]),
+        (PaneId::Facets, &["Logarithmic densities", "Equal median slope"]),
+        (PaneId::Convergence, &["Against time", "Against evaluations"]),
     ] {
         let mut harness = shown(pane);
         for option in options {
@@ -148,7 +148,7 @@ fn views_draw_whatever_the_sliders_hold() {
 
 #[test]
 fn the_way_of_a_fit_is_drawn_after_it() {
-    let mut harness = shown(Pane::Convergence);
+    let mut harness = shown(PaneId::Convergence);
     harness.get_by_label("There is no fit yet: press Fit, and its way down is drawn here.");
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
@@ -157,17 +157,17 @@ fn the_way_of_a_fit_is_drawn_after_it() {
 
 #[test]
 fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
-    let mut harness = shown(Pane::Landscape);
+    let mut harness = shown(PaneId::Landscape);
     let before = explorer(&mut harness).views.landscape.seen().expect("axes");
-    explorer(&mut harness).commands.push(Command::ClosePane(Pane::Landscape));
+    explorer(&mut harness).commands.push(Command::ClosePane(PaneId::Landscape));
     wait(&mut harness);
-    explorer(&mut harness).commands.push(Command::TogglePane(Pane::Landscape));
+    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.landscape.seen(), Some(before));
 }
 
 /// Whether a curve of that colour is drawn, longer than its sample beside the name.
-fn is_drawn(harness: &Harness<'static, Option<Explorer>>, color: fn(bool) -> egui::Color32) -> bool {
+fn is_drawn(harness: &Harness<'static, Option<App>>, color: fn(bool) -> egui::Color32) -> bool {
     let color = egui::epaint::ColorMode::Solid(color(harness.ctx.global_style().visuals.dark_mode));
     let line = |shape: &egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.color == color && path.points.len() > 100);
     harness.output().shapes.iter().any(|clipped| line(&clipped.shape))

@@ -1,28 +1,28 @@
 //! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::{Made, Subject};
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
-use crate::app::storage::export::Outgoing;
+use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::{Session, SessionError};
 use crate::app::tests::sources::{literal, literals_after, sources};
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, phrase};
 use crate::app::work::document::Document;
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
 use crate::export::{picture_kind, report_kind};
 use crate::figure::PngError;
 use crate::open_file::open_file;
-use pbrdf::fit::{BoundsError, Contest, FitReport, PlanError, ProblemError, StopReason};
+use pbrdf::fit::{BoundsError, DesignError, DistributionComparison, FitResult, ProblemError, StopReason};
 use pbrdf::measurement::{
     Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
     WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
 };
 use pbrdf::model::{AssignmentError, Domain, FINISHES, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
 use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
-use pbrdf::selftest::Surroundings;
+use pbrdf::selftest::Host;
 use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -334,8 +334,8 @@ fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
         ProblemError::StartOutsideBounds { parameter: n, value: 3.0, low, high },
     ];
     texts.extend(says(problems.iter()));
-    texts.push(PlanError::Parameters(ParameterError::NoIndex).to_string());
-    texts.push(PlanError::Problem(ProblemError::NothingToPredict).to_string());
+    texts.push(DesignError::Parameters(ParameterError::NoIndex).to_string());
+    texts.push(DesignError::Problem(ProblemError::NothingToPredict).to_string());
     texts.extend(says([RefractiveIndexError::N(-1.0), RefractiveIndexError::K(-1.0), RefractiveIndexError::Zero]));
     texts.extend(says([
         GeometryError::ThetaI(95.0),
@@ -439,13 +439,13 @@ fn the_verdict_of_gauss_against_cauchy_is_said_in_chinese() {
     for aicc_gain in [None, Some(-20.0), Some(-5.0), Some(-3.0), Some(-1.0), Some(1.0), Some(3.0), Some(5.0), Some(20.0)] {
         for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0), (0.0, 1.0)] {
             for is_delta_e in [true, false] {
-                texts.push(Contest { gauss, cauchy, aicc_gain, is_delta_e }.text());
+                texts.push(DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e }.text());
             }
         }
     }
     let left = untranslated(texts);
     assert!(left.is_empty(), "{}", left.join("\n"));
-    let contest = Contest { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
+    let contest = DistributionComparison { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
     assert_eq!(phrase(&contest.text()), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
 }
 
@@ -502,15 +502,15 @@ fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
 fn notes_under_the_reports_are_said_in_chinese() {
     let looks = AtomicU32::new(0);
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
-    for subject in Subject::ALL {
+    for subject in BenchmarkId::ALL {
         // Evaluations alone, which have spreads, since fits take long.
         let asked = AtomicU32::new(0);
         let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 5;
-        let made = subject.make(Surroundings { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
+        let made = subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
         let notes = match made {
-            Made::ErrorVsTime(report) => report.notes,
-            Made::Stability(report) => report.notes,
-            Made::Cost(report) => report.notes,
+            BenchmarkResult::ErrorVsTime(report) => report.notes,
+            BenchmarkResult::Stability(report) => report.notes,
+            BenchmarkResult::Cost(report) => report.notes,
         };
         assert!(notes.len() > 1, "{subject:?}");
         let left = untranslated(notes);
@@ -541,7 +541,7 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
         let mut left = Vec::new();
         // The second time it does not know how it came about, like one out of an old session.
         for _ in 0..2 {
-            Outgoing::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
+            ExportKind::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
             left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).document));
             without_account(explorer(&mut harness));
         }
@@ -550,12 +550,12 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
 }
 
 /// The fit that is shown without an account of how it came about.
-fn without_account(explorer: &mut Explorer) {
+fn without_account(explorer: &mut App) {
     let fit = explorer.last_fit.as_ref().expect("a fit");
-    let report = FitReport { minima: Vec::new(), ..fit.report.clone() };
-    let PastFit { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
+    let report = FitResult { minima: Vec::new(), ..fit.report.clone() };
+    let FitEntry { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
-    explorer.last_fit = Some(Rc::new(PastFit { id, report, problem, before, document, number, generation, mask }));
+    explorer.last_fit = Some(Rc::new(FitEntry { id, report, problem, before, document, number, generation, mask }));
 }
 
 /// What is English in the report of a fit.

@@ -1,24 +1,24 @@
 //! Where things stand in the window: nothing that is wanted lies outside, and nothing jumps.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, Pane};
+use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
 
 /// Where a plot lies.
-fn plot(harness: &Harness<'static, Option<Explorer>>, name: &str) -> egui::Rect {
+fn plot(harness: &Harness<'static, Option<App>>, name: &str) -> egui::Rect {
     harness.get_by_label(name).rect()
 }
 
 /// Beside the panels at either side, the arrows and the menu in that line there is room for tabs.
-fn bar(harness: &Harness<'static, Option<Explorer>>, tab: egui::Rect) -> egui::Rangef {
+fn bar(harness: &Harness<'static, Option<App>>, tab: egui::Rect) -> egui::Rangef {
     let beside = |label: &str| {
         let rects = harness.query_all_by_label_contains(label).map(|node| node.rect());
         rects.filter(|rect| rect.y_range().contains(tab.center().y)).collect::<Vec<_>>()
@@ -65,6 +65,6 @@ fn a_measurement_without_dolp_has_no_strip_under_it() {
     pbrdf::measurement::write(&measurement, &mut bytes).expect("a table");
     std::fs::write(&path, bytes).expect("a writable folder");
     order(&mut harness, Command::OpenMeasurement(path));
-    assert!(explorer(&mut harness).panes.is_on_screen(Pane::Dolp));
+    assert!(explorer(&mut harness).panes.is_on_screen(PaneId::Dolp));
     assert!(harness.query_by_label("Plot: residuals of DoLP against θr").is_none());
 }

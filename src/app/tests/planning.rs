@@ -1,6 +1,6 @@
 //! The angle planner, and models beside each other.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable as _;
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Parameter, Preset};
 
-fn planner() -> Harness<'static, Option<Explorer>> {
+fn planner() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     harness.get_by_label("Angle planner").click();
     harness.run();
@@ -16,7 +16,7 @@ fn planner() -> Harness<'static, Option<Explorer>> {
 }
 
 /// Predicted errors of n with the measured and with the planned angles.
-fn errors_of_n(harness: &mut Harness<'static, Option<Explorer>>) -> [Option<f64>; 2] {
+fn errors_of_n(harness: &mut Harness<'static, Option<App>>) -> [Option<f64>; 2] {
     let predictions = explorer(harness).views.planner.predictions.get().expect("the planner is on screen");
     [0, 1].map(|i| predictions[i].as_ref().expect("a prediction").error_of(Parameter::N))
 }
@@ -63,7 +63,7 @@ fn the_measured_angles_taken_over_predict_what_is_now() {
 #[test]
 fn a_planned_brdf_lets_ks_be_free() {
     let mut harness = planner();
-    let free = |harness: &mut Harness<'static, Option<Explorer>>| {
+    let free = |harness: &mut Harness<'static, Option<App>>| {
         let predictions = explorer(harness).views.planner.predictions.get().expect("the planner is on screen");
         let planned = predictions[1].as_ref().expect("a prediction");
         planned.errors.iter().any(|(parameter, _)| *parameter == Parameter::Ks)

@@ -1,31 +1,31 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
 use crate::app::jobs::worker::Event;
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::{Made, Subject};
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::storage::export::{Outgoing, figure};
+use crate::app::shell::docking::PaneId;
+use crate::app::storage::export::{ExportKind, figure};
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use pbrdf::selftest::{Setting, Surroundings};
+use pbrdf::selftest::{Host, Setting};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// A report stopped after so many looks at whether to stop, which is early enough for a test.
-fn part(subject: Subject, looks: usize) -> Made {
+fn part(subject: BenchmarkId, looks: usize) -> BenchmarkResult {
     let seen = AtomicUsize::new(0);
     let time = AtomicUsize::new(0);
     // A clock that is always a long repetition later.
     #[expect(clippy::cast_precision_loss, reason = "a handful of looks at the clock")]
     let clock = || 10.0 * time.fetch_add(1, Ordering::Relaxed) as f64;
     let cancelled = || seen.fetch_add(1, Ordering::Relaxed) >= looks;
-    subject.make(Surroundings { clock: &clock, cancelled: &cancelled, progress: &|_| {} })
+    subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} })
 }
 
 /// The window with that pane in front and a part of its report in it.
-fn with_report(subject: Subject, looks: usize) -> Harness<'static, Option<Explorer>> {
+fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).panes.show(subject.pane());
     let made = Box::new(part(subject, looks));
@@ -36,7 +36,7 @@ fn with_report(subject: Subject, looks: usize) -> Harness<'static, Option<Explor
 
 #[test]
 fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
-    let mut harness = with_report(Subject::Stability, 0);
+    let mut harness = with_report(BenchmarkId::Stability, 0);
     let before = explorer(&mut harness).settings.clone();
     let row = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows[2].clone();
     let Setting::Evaluation { model, parameters, geometry } = row.setting else { panic!("evaluations come first") };
@@ -54,7 +54,7 @@ fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
 #[test]
 fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
     // Two fits are made.
-    let mut harness = with_report(Subject::Stability, 2);
+    let mut harness = with_report(BenchmarkId::Stability, 2);
     let rows = &explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows;
     let index = rows.iter().position(|row| row.brdf_error.is_none()).expect("a fit");
     let Setting::Fit { start, measurement, .. } = rows[index].setting.clone() else { panic!("a fit") };
@@ -68,7 +68,7 @@ fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
 
 #[test]
 fn every_case_of_the_gallery_can_be_drawn() {
-    let mut harness = with_report(Subject::Stability, 0);
+    let mut harness = with_report(BenchmarkId::Stability, 0);
     let count = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows.len();
     for index in 0..count {
         explorer(&mut harness).commands.push(Command::UseCase(index));
@@ -81,7 +81,7 @@ fn every_case_of_the_gallery_can_be_drawn() {
 #[test]
 fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(Subject::Cost.pane());
+    explorer(&mut harness).panes.show(BenchmarkId::Cost.pane());
     harness.run();
     harness.get_by_label("Nothing is measured yet.");
     harness.get_by_label("Measure costs").click();
@@ -99,9 +99,9 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
 #[test]
 fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     let mut harness = harness();
-    let made = |harness: &mut Harness<'static, Option<Explorer>>| explorer(harness).reports.progress().map(|(subject, _)| subject);
-    explorer(&mut harness).commands.push(Command::MakeReport(Subject::Cost));
-    explorer(&mut harness).panes.show(Pane::Stability);
+    let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).reports.progress().map(|(subject, _)| subject);
+    explorer(&mut harness).commands.push(Command::MakeReport(BenchmarkId::Cost));
+    explorer(&mut harness).panes.show(PaneId::Stability);
     harness.step();
     harness.step();
     harness.get_by_label("Run all cases").click();
@@ -109,17 +109,17 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
         harness.step();
     }
     // Side by side they would disturb each other.
-    assert_eq!(made(&mut harness), Some(Subject::Cost));
+    assert_eq!(made(&mut harness), Some(BenchmarkId::Cost));
     harness.get_by_label_contains("Comes after the report that is being made");
     explorer(&mut harness).commands.push(Command::CancelReport);
     let begun = Instant::now();
-    while made(&mut harness) != Some(Subject::Stability) {
+    while made(&mut harness) != Some(BenchmarkId::Stability) {
         assert!(begun.elapsed() < PATIENCE, "the second report does not begin");
         harness.step();
     }
     // Another one behind it is called off.
-    explorer(&mut harness).panes.show(Pane::ErrorVsTime);
-    explorer(&mut harness).commands.push(Command::MakeReport(Subject::ErrorVsTime));
+    explorer(&mut harness).panes.show(PaneId::ErrorVsTime);
+    explorer(&mut harness).commands.push(Command::MakeReport(BenchmarkId::ErrorVsTime));
     for _ in 0..3 {
         harness.step();
     }
@@ -135,7 +135,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
 
 #[test]
 fn costs_are_a_table_with_bars() {
-    let mut harness = with_report(Subject::Cost, 3);
+    let mut harness = with_report(BenchmarkId::Cost, 3);
     let rows = explorer(&mut harness).reports.cost.as_ref().expect("a report").report.rows.clone();
     assert_eq!(rows.len(), 3);
     for row in &rows {
@@ -146,7 +146,7 @@ fn costs_are_a_table_with_bars() {
 
 #[test]
 fn errors_against_time_are_a_table_and_diagrams() {
-    let mut harness = with_report(Subject::ErrorVsTime, 5);
+    let mut harness = with_report(BenchmarkId::ErrorVsTime, 5);
     harness.get_by_label("batch kernel, prepared scene");
     for page in ["Evaluation", "Along one fit", "Performance profile", "Ladder", "Along the ladder"] {
         harness.get_by_label(page).click();
@@ -161,16 +161,15 @@ fn errors_against_time_are_a_table_and_diagrams() {
 #[test]
 fn the_figure_in_front_is_the_one_that_is_exported() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut harness = with_report(Subject::ErrorVsTime, 5);
-    let title = |harness: &mut Harness<'static, Option<Explorer>>| {
-        figure(explorer(harness), Subject::ErrorVsTime.pane()).map(|figure| figure.title)
-    };
+    let mut harness = with_report(BenchmarkId::ErrorVsTime, 5);
+    let title =
+        |harness: &mut Harness<'static, Option<App>>| figure(explorer(harness), BenchmarkId::ErrorVsTime.pane()).map(|figure| figure.title);
     let first = title(&mut harness).expect("a figure");
     harness.get_by_label("Performance profile").click();
     harness.run();
     assert_ne!(title(&mut harness), Some(first));
     let path = folder.path().join("profile.svg");
-    explorer(&mut harness).commands.push(Command::Export(Outgoing::Plot(Subject::ErrorVsTime.pane()), path.clone()));
+    explorer(&mut harness).commands.push(Command::Export(ExportKind::Plot(BenchmarkId::ErrorVsTime.pane()), path.clone()));
     wait(&mut harness);
     assert!(path.exists());
 }

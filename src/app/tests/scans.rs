@@ -1,6 +1,6 @@
 //! Profile and bootstrap of a finished fit.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Parameter;
 
 /// A fit with k_d alone free: determined, and quick to scan.
-fn fitted() -> Harness<'static, Option<Explorer>> {
+fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     let locked = explorer(&mut harness).settings.model.parameters().without(Parameter::Kd).without(Parameter::K);
     explorer(&mut harness).settings.locked = locked;

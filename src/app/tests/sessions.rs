@@ -1,11 +1,11 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
 use crate::app::jobs::worker::save_session;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::storage::export;
-use crate::app::storage::export::Outgoing;
+use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
@@ -16,27 +16,27 @@ use std::path::{Path, PathBuf};
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
 
 /// A window that somebody worked in.
-fn worked_in() -> Harness<'static, Option<Explorer>> {
+fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::Mask { rows: vec![3, 5], masked: true });
     explorer(&mut harness).settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
     order(&mut harness, Command::StartFit);
-    order(&mut harness, Command::ClosePane(Pane::Lobes));
+    order(&mut harness, Command::ClosePane(PaneId::Lobes));
     explorer(&mut harness).settings.theta_i = 35.5;
     explorer(&mut harness).settings.parameters.k = 4.25;
     harness.run();
     harness
 }
 
-fn saved(harness: &mut Harness<'static, Option<Explorer>>, folder: &Path) -> PathBuf {
+fn saved(harness: &mut Harness<'static, Option<App>>, folder: &Path) -> PathBuf {
     let path = folder.join("work.pbrdf.json");
-    order(harness, Command::Export(Outgoing::Session, path.clone()));
+    order(harness, Command::Export(ExportKind::Session, path.clone()));
     path
 }
 
@@ -54,7 +54,7 @@ fn a_session_opens_with_everything_that_was_in_it() {
     assert_eq!(after.document.measurement.metadata, before.document.measurement.metadata);
     assert_eq!(after.document.mask(), before.document.mask());
     assert_eq!(after.document.name, before.document.name);
-    assert!(!after.panes.is_on_screen(Pane::Lobes));
+    assert!(!after.panes.is_on_screen(PaneId::Lobes));
     let (old, new) = (before.last_fit.as_ref().expect("a fit"), after.last_fit.as_ref().expect("the fit again"));
     assert_eq!((old.before, old.problem.start()), (new.before, new.problem.start()));
     assert_eq!(old.problem.free(), new.problem.free());
@@ -76,12 +76,12 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let mut after = harness();
     order(&mut after, Command::OpenSession(path));
     for harness in [&mut before, &mut after] {
-        for pane in [Pane::Landscape, Pane::Convergence] {
+        for pane in [PaneId::Landscape, PaneId::Convergence] {
             explorer(harness).panes.show(pane);
         }
         wait(harness);
     }
-    let said = |harness: &mut Harness<'static, Option<Explorer>>| {
+    let said = |harness: &mut Harness<'static, Option<App>>| {
         let texts = ["evaluations", "minima from", "Winning start of", "The mask has changed"];
         texts.map(|text| {
             harness
@@ -94,13 +94,13 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     assert!(after.query_by_label_contains("The mask has changed").is_some());
     assert!(after.query_by_label_contains("made no step").is_none());
     let (before, after) = (explorer(&mut before), explorer(&mut after));
-    for (old, new) in before.past_fits.iter().zip(after.past_fits.iter()) {
+    for (old, new) in before.fit_history.iter().zip(after.fit_history.iter()) {
         assert_eq!(old.report, new.report);
         assert!(old.report.trace.len() > 1 && old.report.evaluations > 1 && old.report.elapsed_ms > 0.0);
     }
-    let shown = |explorer: &Explorer| explorer.last_fit.as_ref().map(|fit| fit.id);
+    let shown = |explorer: &App| explorer.last_fit.as_ref().map(|fit| fit.id);
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));
-    let marks = |explorer: &Explorer| {
+    let marks = |explorer: &App| {
         let marks = explorer.views.landscape.marks().expect("what lies on the map");
         (marks.minima.len(), marks.ways.iter().map(|way| way.points.len()).collect::<Vec<_>>())
     };
@@ -144,7 +144,7 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     for wrong in ["evaluations", "minima from"] {
         assert!(other.query_by_label_contains(wrong).is_none(), "{wrong}");
     }
-    explorer(&mut other).panes.show(Pane::Convergence);
+    explorer(&mut other).panes.show(PaneId::Convergence);
     other.run();
     assert!(other.query_by_label_contains("How this fit came about is not known").is_some());
 }
@@ -272,8 +272,8 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         assert!(notice.contains("bad.pbrdf.json is opened without") && notice.contains(expected), "{place} {value}: {notice}");
         assert_eq!(other.settings, explorer(&mut source).settings);
         assert_eq!(other.document.mask(), explorer(&mut source).document.mask());
-        let (fits, shown) = (other.past_fits.len(), other.last_fit.as_ref().map(|fit| fit.problem.choices().loss));
-        assert_eq!((fits, shown), (1, Some(Loss::Linear)), "{place}");
+        let (fits, shown) = (other.fit_history.len(), other.last_fit.as_ref().map(|fit| fit.problem.choices().loss));
+        assert_eq!((fits, shown), (1, Some(Loss::Squared)), "{place}");
     }
 }
 
@@ -309,7 +309,7 @@ fn a_full_disk_leaves_the_old_session() {
     if Path::new("/dev/full").exists() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }
-    order(&mut harness, Command::Export(Outgoing::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
+    order(&mut harness, Command::Export(ExportKind::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("cannot be written"));
 }
 

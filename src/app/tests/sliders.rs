@@ -1,6 +1,6 @@
 //! Sliders and switches.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -85,7 +85,7 @@ fn what_is_derived_is_not_made_anew_without_need() {
 }
 
 /// Clicks twice at the middle of a node.
-fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::Explorer>>, at: egui::Pos2) {
+fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>, at: egui::Pos2) {
     for _ in 0..2 {
         for pressed in [true, false] {
             let button = egui::PointerButton::Primary;
@@ -137,7 +137,7 @@ fn tooltips_of_sliders_cover_no_row_of_the_panel() {
         let slider = harness.get_all_by_role_and_label(Role::Slider, name).next().expect("a slider").rect();
         let panel = harness.get_by_role_and_label(Role::Button, "Reset n").rect().right();
         harness.hover_at(slider.center());
-        let tooltips = |harness: &Harness<'static, Option<Explorer>>| {
+        let tooltips = |harness: &Harness<'static, Option<App>>| {
             let tooltip = |layer: &egui::LayerId| layer.order == egui::Order::Tooltip;
             let layers: Vec<egui::LayerId> = harness.ctx.memory(|memory| memory.areas().visible_layer_ids().into_iter().collect());
             let layers = layers.into_iter().filter(tooltip);

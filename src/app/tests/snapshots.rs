@@ -4,10 +4,10 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
 use crate::app::jobs::worker::Event;
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 use crate::app::storage::export::{PLOTS, figure};
 use crate::app::tests::phrases::english;
 use crate::app::tests::{explorer, harness, wait};
@@ -16,7 +16,7 @@ use crate::figure::{Figure, Image};
 use egui_kittest::Harness;
 use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::metals;
-use pbrdf::selftest::Surroundings;
+use pbrdf::selftest::Host;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -97,13 +97,13 @@ fn compare(folder: &Path, name: &str, figure: &Figure, update: bool) -> Option<S
     (!update).then(|| format!("{name}: {was}; the new one is {}, UPDATE_SNAPSHOTS=1 puts it in the place of the old", path.display()))
 }
 
-fn order(harness: &mut Harness<'static, Option<Explorer>>, command: Command) {
+fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
     wait(harness);
 }
 
 /// The example with noise after a fit that its points determine.
-fn fitted() -> Harness<'static, Option<Explorer>> {
+fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     let free = [Parameter::N, Parameter::K, Parameter::Kd];
@@ -114,21 +114,21 @@ fn fitted() -> Harness<'static, Option<Explorer>> {
 
 /// The reports by a clock that goes on by a long repetition whenever it is looked at; of the first the evaluations alone, since the
 /// others take long.
-fn report(subject: Subject) -> Event {
+fn report(subject: BenchmarkId) -> Event {
     let (looks, asked) = (AtomicU32::new(0), AtomicU32::new(0));
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
     let methods = 5;
-    let cancelled = || subject == Subject::ErrorVsTime && asked.fetch_add(1, Ordering::Relaxed) >= methods;
-    let made = subject.make(Surroundings { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
+    let cancelled = || subject == BenchmarkId::ErrorVsTime && asked.fetch_add(1, Ordering::Relaxed) >= methods;
+    let made = subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
     Event::Reported { made: Box::new(made), is_part: false }
 }
 
 /// The figures of all plots.
-fn figures(harness: &mut Harness<'static, Option<Explorer>>) -> Vec<(Pane, Figure)> {
-    for subject in Subject::ALL {
+fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)> {
+    for subject in BenchmarkId::ALL {
         explorer(harness).receive(report(subject));
     }
-    let mut shown = |pane: Pane| {
+    let mut shown = |pane: PaneId| {
         if !explorer(harness).panes.is_on_screen(pane) {
             order(harness, Command::TogglePane(pane));
         }
@@ -168,7 +168,7 @@ fn every_exported_plot_is_in_chinese_where_the_window_is() {
 fn another_picture_is_noticed_and_laid_beside_the_old_one() {
     let harness = &mut harness();
     let there = tempfile::tempdir().expect("a folder");
-    let mut plot = figure(explorer(harness), Pane::Dolp).expect("a plot");
+    let mut plot = figure(explorer(harness), PaneId::Dolp).expect("a plot");
     assert!(compare(there.path(), "dolp", &plot, false).expect("a sentence").contains("no picture"));
     assert_eq!(compare(there.path(), "dolp", &plot, true), None);
     assert_eq!(compare(there.path(), "dolp", &plot, false), None, "the picture that was just written");

@@ -1,9 +1,9 @@
 //! Paths typed in the menu File, and the question before a file is replaced.
 
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::Pane;
-use crate::app::storage::export::Outgoing;
+use crate::app::shell::docking::PaneId;
+use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
 use egui::Key;
 use egui::accesskit::Role;
@@ -11,7 +11,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use std::path::Path;
 
-type Window = Harness<'static, Option<Explorer>>;
+type Window = Harness<'static, Option<App>>;
 
 const OPEN: &str = "Type a path to open and press Enter:";
 const SAVE: &str = "Save to a path (.csv the measurement, .json the session), Enter:";
@@ -96,7 +96,7 @@ fn a_new_file_and_one_that_the_desktop_asked_about_are_written_without_a_questio
     assert!(text(&chosen).contains("theta_i"));
     // A session goes on in its own file.
     let session = folder.path().join("s.pbrdf.json");
-    for command in [Command::Export(Outgoing::Session, session.clone()), Command::SaveSession] {
+    for command in [Command::Export(ExportKind::Session, session.clone()), Command::SaveSession] {
         std::fs::write(&session, "old").expect("a writable folder");
         explorer(&mut harness).commands.push(command);
         wait(&mut harness);
@@ -127,7 +127,7 @@ fn a_typed_export_asks_too_and_keeps_its_path_until_it_has_served() {
     assert_eq!(explorer(&mut harness).typed.export, "");
     // Keys ask the desktop, whatever stands in the box.
     explorer(&mut harness).typed.export = "/somewhere/else.html".to_owned();
-    explorer(&mut harness).commands.push(Command::ChooseExport(Outgoing::Curves));
+    explorer(&mut harness).commands.push(Command::ChooseExport(ExportKind::Curves));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).notices.take().expect("a sentence").lines().count(), 1);
     assert_eq!(explorer(&mut harness).typed.export, "/somewhere/else.html");
@@ -157,11 +157,11 @@ fn a_path_that_ends_like_another_kind_of_file_is_refused_before_anything_is_aske
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
     let all = [
-        (Outgoing::Curves, "plot.svg", ".csv"),
-        (Outgoing::Fitted, "report.html", ".csv"),
-        (Outgoing::Session, "mine.csv", ".json"),
-        (Outgoing::Report, "mine.csv", ".html or .md"),
-        (Outgoing::Plot(Pane::Dolp), "mine.csv", ".svg or .png"),
+        (ExportKind::Curves, "plot.svg", ".csv"),
+        (ExportKind::Fitted, "report.html", ".csv"),
+        (ExportKind::Session, "mine.csv", ".json"),
+        (ExportKind::Report, "mine.csv", ".html or .md"),
+        (ExportKind::Plot(PaneId::Dolp), "mine.csv", ".svg or .png"),
     ];
     for (what, name, ending) in all {
         for is_there in [true, false] {

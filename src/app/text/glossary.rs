@@ -1,12 +1,12 @@
 //! What more than one panel says: errors of parameters, and what words mean.
 
-use pbrdf::fit::{Standing, size_of};
+use pbrdf::fit::{EstimateStatus, relative_error_base};
 use pbrdf::model::Parameter;
 use tr::tr;
 
 /// An error in percent of the size of what it belongs to.
 pub fn percent(parameter: Parameter, value: f64, error: f64) -> String {
-    let percent = 100.0 * error / size_of(parameter, value);
+    let percent = 100.0 * error / relative_error_base(parameter, value);
     if percent.is_finite() && percent < 1e4 { format!("{percent:.*} %", usize::from(percent < 10.0)) } else { "—".to_owned() }
 }
 
@@ -17,17 +17,17 @@ pub fn delta_e_help() -> String {
 }
 
 /// What the standing of an estimate means.
-pub fn standing_help(standing: Standing) -> String {
+pub fn standing_help(standing: EstimateStatus) -> String {
     match standing {
-        Standing::Fixed => tr!("The fit left it as it was."),
-        Standing::AtBound(_) => {
+        EstimateStatus::Fixed => tr!("The fit left it as it was."),
+        EstimateStatus::AtBound(_) => {
             tr!("It rests on the end of its range: a better value may lie outside. There it has no standard error.")
         }
-        Standing::Determined(_) => tr!("One standard error, linearised at the solution"),
-        Standing::NoFreedom => {
+        EstimateStatus::Determined(_) => tr!("One standard error, linearised at the solution"),
+        EstimateStatus::NoDegreesOfFreedom => {
             tr!("As many values as free parameters (no degree of freedom): nothing is left over to tell an error from.")
         }
-        Standing::Open => open_help(),
+        EstimateStatus::Open => open_help(),
     }
 }
 
@@ -83,14 +83,14 @@ pub fn short(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::{percent, short};
-    use pbrdf::fit::is_loose;
+    use pbrdf::fit::is_poorly_determined;
     use pbrdf::model::Parameter;
 
     #[test]
     fn errors_are_judged_by_the_size_of_what_they_belong_to() {
-        assert!(is_loose(Parameter::N, 2.0, 1.5) && !is_loose(Parameter::N, 2.0, 0.5));
+        assert!(is_poorly_determined(Parameter::N, 2.0, 1.5) && !is_poorly_determined(Parameter::N, 2.0, 0.5));
         // q counts from 1.
-        assert!(is_loose(Parameter::Q, 1.2, 0.15));
+        assert!(is_poorly_determined(Parameter::Q, 1.2, 0.15));
         assert_eq!(percent(Parameter::N, 2.0, 0.05), "2.5 %");
         assert_eq!(percent(Parameter::Kd, 0.0, 0.05), "—");
     }

@@ -295,7 +295,7 @@ mod tests {
         "CollapsingHeader::new(\"",
         ".collapsing(\"",
         ".say(\"",
-        ".say_briefly(\"",
+        ".info(\"",
     ];
 
     /// The sources of the window, without this file.

@@ -4,16 +4,16 @@ mod figure;
 
 pub use figure::audit_figure;
 
-use crate::app::jobs::async_memo::LatestJob;
+use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::translated;
-use crate::app::views::curves::{Pieces, pieces};
+use crate::app::views::curves::{Polyline, pieces};
 use egui::{Label, ScrollArea, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};
@@ -23,7 +23,7 @@ use tr::tr;
 /// What the pane keeps.
 #[derive(Default)]
 pub struct AuditView {
-    job: LatestJob<Key, Audit>,
+    job: AsyncMemo<Key, Audit>,
     curves: Memo<Key, Curves>,
     axes: Axes,
     range: Following,
@@ -33,12 +33,12 @@ type Key = (Parameters, Model);
 
 /// Reflectance against θi.
 struct Curves {
-    total: Pieces,
+    total: Polyline,
     /// The part of it above 1.
-    above: Pieces,
-    specular: Pieces,
-    diffuse: Pieces,
-    volume: Pieces,
+    above: Polyline,
+    specular: Polyline,
+    diffuse: Polyline,
+    volume: Polyline,
     /// The largest finite value.
     top: f64,
     /// The smallest θi at which more light leaves than falls on the surface.
@@ -49,7 +49,7 @@ impl Curves {
     fn new(audit: &Audit, model: Model) -> Self {
         let along = |value: fn(&Reflectance) -> f64, is_there: bool| {
             let points = audit.reflectance.iter().map(|at| (at.theta_i, Some(value(at))));
-            if is_there { pieces(points) } else { Pieces::new() }
+            if is_there { pieces(points) } else { Polyline::new() }
         };
         let totals: Vec<(f64, f64)> = audit.reflectance.iter().map(|at| (at.theta_i, at.total())).collect();
         let finite = audit.reflectance.iter().map(Reflectance::total).filter(|total| total.is_finite());
@@ -66,7 +66,7 @@ impl Curves {
 }
 
 /// The parts of a curve above 1, from where it crosses that height.
-fn above_one(points: &[(f64, f64)]) -> Pieces {
+fn above_one(points: &[(f64, f64)]) -> Polyline {
     let mut above = Vec::new();
     for (i, &(x, y)) in points.iter().enumerate() {
         if let Some(&(before, lower)) = i.checked_sub(1).and_then(|i| points.get(i))
@@ -88,13 +88,13 @@ impl AuditView {
     }
 }
 
-pub fn audit_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, views, background, dragging, .. } = explorer;
+pub fn audit_refresh(explorer: &mut App) {
+    let App { settings, views, background, dragging, .. } = explorer;
     let view = &mut views.audit;
     let key = (settings.parameters, settings.model);
     let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else {
         // Values that are not numbers differ from themselves: a job would follow a job for ever.
-        view.job = LatestJob::default();
+        view.job = AsyncMemo::default();
         view.curves.clear();
         return;
     };
@@ -117,7 +117,7 @@ const NARROWEST: f32 = 500.0;
 /// Least height of the plot, in points.
 const PLOT_HEIGHT: f32 = 190.0;
 
-pub fn audit_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn audit_ui(explorer: &mut App, ui: &mut Ui) {
     let view = &mut explorer.views.audit;
     let Some(audit) = view.job.get() else {
         ui.label("…");

@@ -1,8 +1,8 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
-use crate::app::jobs::worker::{Job, Rung};
+use crate::app::jobs::worker::{Job, ModelFit};
 use crate::app::panels::significant;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::glossary;
@@ -10,15 +10,15 @@ use crate::app::text::i18n::{phrase, translated};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
-use pbrdf::fit::{Contest, Estimate, FitReport, Standing};
+use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
 
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
 const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
 
-pub fn comparison_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { comparison, worker, commands, settings, document, .. } = explorer;
+pub fn comparison_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { comparison, worker, commands, settings, document, .. } = explorer;
     let running = worker.comparison.as_ref().map(Job::progress);
     ui.horizontal(|ui| {
         let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
@@ -70,7 +70,7 @@ fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
     .inner
 }
 
-fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
@@ -112,7 +112,7 @@ fn models_ui(comparison: &[Rung], current: pbrdf::model::Model, document: &Docum
     parameters_ui(comparison, ui);
 }
 
-fn quality_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
+fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
@@ -127,7 +127,7 @@ fn quality_ui(report: &FitReport, best_aicc: f64, ui: &mut Ui) {
 }
 
 /// The parameters of each model, with what is known of each under its value: side by side they would be wider than most screens.
-fn parameters_ui(comparison: &[Rung], ui: &mut Ui) {
+fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
     Grid::new("parameters of models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(translated("model"));
         for parameter in Parameter::ALL {
@@ -153,11 +153,11 @@ const LETTERS: f32 = 11.0;
 
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     let standing = match estimate.standing() {
-        Standing::Fixed => tr!("fixed"),
-        Standing::AtBound(_) => tr!("at bound"),
-        Standing::Determined(error) => format!("± {}", glossary::short(error)),
-        Standing::NoFreedom => tr!("no d.o.f."),
-        Standing::Open => tr!("open"),
+        EstimateStatus::Fixed => tr!("fixed"),
+        EstimateStatus::AtBound(_) => tr!("at bound"),
+        EstimateStatus::Determined(error) => format!("± {}", glossary::short(error)),
+        EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
+        EstimateStatus::Open => tr!("open"),
     };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -166,7 +166,7 @@ fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     });
 }
 
-fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
+fn starts_ui(comparison: &[ModelFit], ui: &mut Ui) {
     Grid::new("starts").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
         ui.strong(tr!("model"));
         glossary::minima_headings_ui(ui);
@@ -188,10 +188,10 @@ fn starts_ui(comparison: &[Rung], ui: &mut Ui) {
 const MOST_MINIMA: usize = 6;
 
 /// Gauss against Cauchy, in words.
-fn verdicts(comparison: &[Rung]) -> Vec<String> {
+fn verdicts(comparison: &[ModelFit]) -> Vec<String> {
     let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
-        let contest = Contest::new(report(gauss)?, report(cauchy)?)?;
+        let contest = DistributionComparison::new(report(gauss)?, report(cauchy)?)?;
         Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), phrase(&contest.text())))
     };
     PAIRS.iter().filter_map(verdict).collect()

@@ -3,9 +3,9 @@
 use crate::app::plots::Ribbon;
 use crate::app::views::curves::{BrdfScale, DECADES, directions, drawn};
 use crate::app::work::document::{Document, Series};
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::dolp_gain;
-use pbrdf::fit::{Eq17, FitReport};
+use pbrdf::fit::{DolpFormula, FitResult};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 
@@ -17,17 +17,17 @@ pub type BandKey = Option<(usize, u64, bool, BrdfScale)>;
 pub type Ribbons = Vec<Ribbon>;
 
 /// The key of the fit's band, if it is of the open measurement and to be shown.
-pub fn band_key(fit: Option<&PastFit>, document: &Document, backscatter: bool, scale: BrdfScale, shown: bool) -> BandKey {
+pub fn band_key(fit: Option<&FitEntry>, document: &Document, backscatter: bool, scale: BrdfScale, shown: bool) -> BandKey {
     let fit = fit.filter(|fit| shown && fit.number == document.number)?;
     Some((fit.id, document.generation, backscatter, scale))
 }
 
 /// Around the fitted DoLP along each series.
-pub fn dolp_bands(report: &FitReport, document: &Document, backscatter: bool) -> Vec<Ribbons> {
+pub fn dolp_bands(report: &FitResult, document: &Document, backscatter: bool) -> Vec<Ribbons> {
     let eq17 = report.band.eq17();
     let gain = dolp_gain(eq17, &report.parameters);
     // By either reading no DoLP is below 0; as printed it may exceed 1.
-    let most = if eq17 == Eq17::Consistent { 1.0 } else { f64::MAX };
+    let most = if eq17 == DolpFormula::Consistent { 1.0 } else { f64::MAX };
     along_series(report, document, backscatter, |surface, facets, _| {
         let errors = report.band.dolp(facets);
         let ends = |(facet, error): (&Facet, Option<f64>)| {
@@ -39,7 +39,7 @@ pub fn dolp_bands(report: &FitReport, document: &Document, backscatter: bool) ->
 }
 
 /// Around the fitted BRDF along each series.
-pub fn brdf_bands(report: &FitReport, document: &Document, backscatter: bool, scale: BrdfScale) -> Vec<Ribbons> {
+pub fn brdf_bands(report: &FitResult, document: &Document, backscatter: bool, scale: BrdfScale) -> Vec<Ribbons> {
     along_series(report, document, backscatter, |surface, facets, angles| {
         let errors = report.band.brdf(facets);
         let ends = |((facet, angle), error): ((&Facet, &f64), Option<f64>)| {
@@ -57,7 +57,7 @@ pub fn brdf_bands(report: &FitReport, document: &Document, backscatter: bool, sc
 type Ends = Vec<Option<(f64, f64)>>;
 
 fn along_series(
-    report: &FitReport,
+    report: &FitResult,
     document: &Document,
     backscatter: bool,
     ends: impl Fn(&Pbrdf, &[Facet], &[f64]) -> Ends,

@@ -8,11 +8,11 @@ use crate::app::jobs::memo::Memo;
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
-use crate::app::views::curves::{Pieces, pieces};
-use crate::app::work::fit_history::PastFit;
+use crate::app::views::curves::{Polyline, pieces};
+use crate::app::work::fit_history::FitEntry;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
 use pbrdf::fit::TracePoint;
@@ -28,7 +28,7 @@ pub struct ConvergenceView {
 
 /// The fit that is drawn, by identity, and whether it is drawn against time.
 #[derive(Default)]
-struct Key(Option<Rc<PastFit>>, bool);
+struct Key(Option<Rc<FitEntry>>, bool);
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
@@ -43,8 +43,8 @@ impl PartialEq for Key {
 /// ΔE along the way, as its decimal logarithm.
 #[derive(Default)]
 struct Way {
-    steps: Pieces,
-    points: Pieces,
+    steps: Polyline,
+    points: Polyline,
     x: Option<Range>,
     y: Option<Range>,
 }
@@ -79,23 +79,23 @@ impl Way {
     }
 }
 
-pub fn convergence_refresh(explorer: &mut Explorer) {
-    let Explorer { last_fit, settings, views, .. } = explorer;
+pub fn convergence_refresh(explorer: &mut App) {
+    let App { last_fit, settings, views, .. } = explorer;
     views.convergence.way.refresh(Key(last_fit.clone(), settings.shown.convergence_by_time), |Key(fit, by_time)| {
         fit.as_ref().map_or_else(Way::default, |fit| Way::new(&fit.report.trace, *by_time))
     });
 }
 
 /// What is drawn in the pane.
-pub fn convergence_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn convergence_options_ui(explorer: &mut App, ui: &mut Ui) {
     let by_time = &mut explorer.settings.shown.convergence_by_time;
     ui.radio_value(by_time, false, tr!("Against evaluations"))
         .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
     ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
 }
 
-pub fn convergence_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { last_fit, settings, views, .. } = explorer;
+pub fn convergence_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { last_fit, settings, views, .. } = explorer;
     let view = &mut views.convergence;
     let (Some(fit), Some(way)) = (last_fit, view.way.get()) else {
         ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));

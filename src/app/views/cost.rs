@@ -1,7 +1,7 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::theme;
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
@@ -24,9 +24,9 @@ const HEADINGS: [Heading; 9] = [
 /// Columns of the report that stand as they are, by place here.
 const PLAIN: [(usize, usize); 6] = [(2, 7), (4, 8), (5, 9), (6, 10), (7, 3), (8, 6)];
 
-pub fn cost_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn cost_ui(explorer: &mut App, ui: &mut Ui) {
     let about = tr!("Times scenes from the least to everything: some seconds");
-    run_ui(explorer, Subject::Cost, (&tr!("Measure costs"), &about), None, ui);
+    run_ui(explorer, BenchmarkId::Cost, (&tr!("Measure costs"), &about), None, ui);
     let Some(shown) = &mut explorer.reports.cost else {
         ui.label(tr!("Nothing is measured yet."));
         return;

@@ -1,11 +1,11 @@
 //! What is drawn against θr: the model along every measured θi and at the sliders' own, and the measured points.
 
 use crate::app::plots::Range;
-use crate::app::work::document::{Document, Mark, Series};
+use crate::app::work::document::{DataPoint, Document, Series};
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Settings;
 use egui_plot::PlotPoint;
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::{Degrees, Facet};
 use tr::tr;
@@ -23,11 +23,11 @@ pub const DECADES: f64 = 8.0;
 pub const SETS_AXES: f64 = 80.0;
 
 /// A curve in pieces: a value that is not finite ends one.
-pub type Pieces = Vec<Vec<PlotPoint>>;
+pub type Polyline = Vec<Vec<PlotPoint>>;
 
 /// A measured value with the ends of its error bar, in plot coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bar {
+pub struct ErrorBar {
     pub x: f64,
     pub low: f64,
     pub high: f64,
@@ -38,7 +38,7 @@ pub struct Bar {
 pub struct Marks {
     pub used: Vec<PlotPoint>,
     pub masked: Vec<PlotPoint>,
-    pub bars: Vec<Bar>,
+    pub bars: Vec<ErrorBar>,
 }
 
 impl Marks {
@@ -59,14 +59,14 @@ pub struct SeriesMarks {
 /// The model along one series.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curves {
-    pub dolp: Pieces,
-    pub limit: Pieces,
-    pub total: Pieces,
-    pub specular: Pieces,
-    pub diffuse: Pieces,
-    pub volume: Pieces,
+    pub dolp: Polyline,
+    pub limit: Polyline,
+    pub total: Polyline,
+    pub specular: Polyline,
+    pub diffuse: Polyline,
+    pub volume: Polyline,
     /// The specular share of the radiance, 0 to 1.
-    pub share: Pieces,
+    pub share: Polyline,
 }
 
 /// How a BRDF is drawn.
@@ -98,7 +98,7 @@ pub struct CurveKey {
     pub theta_i: f64,
     pub dphi: f64,
     pub brdf: BrdfScale,
-    pub eq17: Eq17,
+    pub eq17: DolpFormula,
     /// Whether the backscatter side is drawn.
     pub backscatter: bool,
     pub generation: u64,
@@ -162,19 +162,19 @@ pub struct MarkSet {
     /// Of each series.
     pub series: Vec<SeriesMarks>,
     /// Series and points that are not drawn.
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<Decimation>,
 }
 
 /// What is not drawn of too much.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LeftOut {
+pub enum Decimation {
     /// Of so many points one in `step` is drawn.
     Points { step: usize, of: usize },
     /// Of so many series the first are drawn.
     Series { of: usize },
 }
 
-impl LeftOut {
+impl Decimation {
     pub fn text(self) -> String {
         match self {
             Self::Points { step, of } => tr!("every {0}th of {1} points is drawn", step, of),
@@ -195,15 +195,15 @@ impl MarkSet {
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         let left_out = match (hidden, step) {
             (0, 1) => None,
-            (0, _) => Some(LeftOut::Points { step, of: total }),
-            _ => Some(LeftOut::Series { of: document.series.len() }),
+            (0, _) => Some(Decimation::Points { step, of: total }),
+            _ => Some(Decimation::Series { of: document.series.len() }),
         };
         Self { series: series.collect(), left_out }
     }
 }
 
 /// Values of a curve that take part in choosing an axis.
-pub fn axis_values(pieces: &Pieces) -> impl Iterator<Item = f64> {
+pub fn axis_values(pieces: &Polyline) -> impl Iterator<Item = f64> {
     pieces.iter().flatten().filter(|point| point.x.abs() <= SETS_AXES).map(|point| point.y)
 }
 
@@ -212,7 +212,7 @@ pub fn drawn(document: &Document) -> impl Iterator<Item = &Series> {
     document.series.iter().take(MOST_SERIES)
 }
 
-fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64, f64) -> Option<f64>) -> Marks {
+fn marks(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> Option<f64>) -> Marks {
     let mut marks = Marks::default();
     for mark in measured.iter().step_by(step) {
         let Some(y) = coordinate(mark.theta_r, mark.quantity.value) else { continue };
@@ -222,14 +222,14 @@ fn marks(measured: &[Mark], step: usize, coordinate: impl Fn(f64, f64) -> Option
             let high = coordinate(mark.theta_r, mark.quantity.value + sigma).unwrap_or(y);
             // A bar that reaches 0 or below ends beneath any logarithmic axis.
             let low = coordinate(mark.theta_r, mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);
-            marks.bars.push(Bar { x: mark.theta_r, low, high });
+            marks.bars.push(ErrorBar { x: mark.theta_r, low, high });
         }
     }
     marks
 }
 
 impl Curves {
-    pub fn new(surface: &Pbrdf, eq17: Eq17, series: &Series, backscatter: bool, scale: BrdfScale) -> Self {
+    pub fn new(surface: &Pbrdf, eq17: DolpFormula, series: &Series, backscatter: bool, scale: BrdfScale) -> Self {
         let gain = dolp_gain(eq17, surface.parameters());
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles
@@ -244,21 +244,21 @@ impl Curves {
         let model = surface.model();
         Self {
             dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(gain * reflection.dolp)))),
-            limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Pieces::new() },
+            limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Polyline::new() },
             total: brdf(|reflection| reflection.brdf),
-            specular: if model.specular { brdf(|reflection| reflection.specular) } else { Pieces::new() },
-            diffuse: if model.diffuse == Diffuse::Absent { Pieces::new() } else { brdf(|reflection| reflection.diffuse) },
+            specular: if model.specular { brdf(|reflection| reflection.specular) } else { Polyline::new() },
+            diffuse: if model.diffuse == Diffuse::Absent { Polyline::new() } else { brdf(|reflection| reflection.diffuse) },
             share: if model.specular {
                 pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.specular / reflection.brdf))))
             } else {
-                Pieces::new()
+                Polyline::new()
             },
-            volume: if model.volume { brdf(|reflection| reflection.volume) } else { Pieces::new() },
+            volume: if model.volume { brdf(|reflection| reflection.volume) } else { Polyline::new() },
         }
     }
 }
 
-pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>) -> Pieces {
+pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>) -> Polyline {
     let mut pieces = vec![Vec::new()];
     for (x, y) in points {
         match (y.filter(|y| y.is_finite()), pieces.last_mut()) {

@@ -5,7 +5,7 @@ use crate::app::views::curves::{BrdfScale, CurveKey, CurveSet, MarkSet};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::{Choices, Eq17, Loss, OpenDirection, Problem, Uncertainty, Weights};
+use pbrdf::fit::{DolpFormula, FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
@@ -15,12 +15,12 @@ pub struct Derived {
     pub marks: Memo<(u64, BrdfScale), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
-    problem: Memo<(u64, Model, Eq17), Option<Problem>>,
-    delta_e: Memo<(Parameters, u64, Model, Eq17), Option<f64>>,
+    problem: Memo<(u64, Model, DolpFormula), Option<Problem>>,
+    delta_e: Memo<(Parameters, u64, Model, DolpFormula), Option<f64>>,
     /// Whether every value that counts comes with its standard deviation, by generation of the document.
     states_sigmas: Memo<u64, bool>,
     fault: Memo<(Parameters, Model), Option<String>>,
-    outlook: Memo<(Settings, ParameterSet, u64), Option<Outlook>>,
+    outlook: Memo<(Settings, ParameterSet, u64), Option<Identifiability>>,
 }
 
 impl Derived {
@@ -38,7 +38,7 @@ impl Derived {
         // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
         let eq17 = settings.choices.eq17;
         self.problem.refresh((document.generation, model, eq17), |_| {
-            problem(settings, &document.measurement, model, ParameterSet::EMPTY, Choices { eq17, ..Choices::default() }).ok()
+            problem(settings, &document.measurement, model, ParameterSet::EMPTY, FitOptions { eq17, ..FitOptions::default() }).ok()
         });
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
         let problem = self.problem.get().and_then(Option::as_ref);
@@ -48,7 +48,7 @@ impl Derived {
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
     pub fn refresh_outlook(&mut self, settings: &Settings, document: &Document, free: ParameterSet, is_shown: bool) {
         if is_shown {
-            self.outlook.refresh((settings.clone(), free, document.generation), |_| Outlook::new(settings, document, free));
+            self.outlook.refresh((settings.clone(), free, document.generation), |_| Identifiability::new(settings, document, free));
         } else {
             self.outlook.clear();
         }
@@ -75,25 +75,25 @@ impl Derived {
     }
 
     /// What the open data determine at the sliders, while that is on screen.
-    pub fn outlook(&self) -> Option<&Outlook> {
+    pub fn outlook(&self) -> Option<&Identifiability> {
         self.outlook.get()?.as_ref()
     }
 }
 
 /// What data would determine, seen from the sliders before any fit.
-pub struct Outlook {
+pub struct Identifiability {
     /// Standard error of each free parameter; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
-    pub open: Vec<OpenDirection>,
+    pub open: Vec<UndeterminedDirection>,
     /// Whether the errors come from stated standard deviations rather than from the present misfit.
     pub from_stated: bool,
 }
 
-impl Outlook {
+impl Identifiability {
     fn new(settings: &Settings, document: &Document, free: ParameterSet) -> Option<Self> {
         let parameters = settings.parameters;
         let with = |weights| {
-            let choices = Choices { weights, loss: Loss::Linear, ..settings.choices };
+            let choices = FitOptions { weights, loss: Loss::Squared, ..settings.choices };
             problem(settings, &document.measurement, settings.model, free, choices).ok()
         };
         let stated = with(Weights::Sigma);

@@ -7,11 +7,11 @@ use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{
     Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
 };
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, dolp_bands};
-use crate::app::views::curves::{BrdfScale, CurveSet, Curves, MarkSet, Pieces, axis_values, drawn};
+use crate::app::views::curves::{BrdfScale, CurveSet, Curves, MarkSet, Polyline, axis_values, drawn};
 use crate::app::views::facets::{another, sigma_of_equal_median};
 use crate::app::views::residuals;
 use crate::app::views::residuals::Residuals;
@@ -19,7 +19,7 @@ use crate::app::work::document::Document;
 use crate::app::work::settings::{Overlay, Settings};
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
 use std::collections::BTreeSet;
@@ -31,9 +31,9 @@ pub struct DolpView {
     axes: Axes,
     range: Following,
     /// DoLP of the last fit along each series, where the sliders have left it.
-    ghost: Memo<Option<SurfaceKey>, Vec<Pieces>>,
+    ghost: Memo<Option<SurfaceKey>, Vec<Polyline>>,
     /// DoLP with the other distribution.
-    overlay: Memo<Option<SurfaceKey>, Vec<Pieces>>,
+    overlay: Memo<Option<SurfaceKey>, Vec<Polyline>>,
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Ribbons>>,
     pub residuals: Residuals,
@@ -41,7 +41,7 @@ pub struct DolpView {
 }
 
 /// Another surface than the sliders', the reading of Eq. (17), the generation of the document, whether the backscatter side is drawn.
-type SurfaceKey = (Parameters, Model, Eq17, u64, bool);
+type SurfaceKey = (Parameters, Model, DolpFormula, u64, bool);
 impl DolpView {
     /// Ends of the axis of DoLP.
     pub fn range(&self) -> Option<Range> {
@@ -60,8 +60,8 @@ impl DolpView {
     }
 }
 
-pub fn dolp_refresh(explorer: &mut Explorer) {
-    let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
+pub fn dolp_refresh(explorer: &mut App) {
+    let App { derived, settings, document, views, last_fit, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
@@ -93,7 +93,7 @@ pub fn dolp_refresh(explorer: &mut Explorer) {
 }
 
 /// DoLP of a surface along each series.
-fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Pieces> {
+fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Polyline> {
     let Some(&(parameters, model, eq17, _, backscatter)) = key else { return Vec::new() };
     let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
     drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, BrdfScale::default()).dolp).collect()
@@ -115,7 +115,7 @@ fn other_distribution(settings: &Settings) -> Option<(Parameters, Model)> {
 /// Share of the height that the residuals have.
 const STRIP: f32 = 0.25;
 
-pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn dolp_ui(explorer: &mut App, ui: &mut Ui) {
     let room = ui.available_height();
     if explorer.views.dolp.residuals.range().is_some() && room > 220.0 {
         let strip = (STRIP * room).max(80.0);
@@ -127,7 +127,7 @@ pub fn dolp_ui(explorer: &mut Explorer, ui: &mut Ui) {
 }
 
 /// What is drawn in the pane.
-pub fn dolp_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn dolp_options_ui(explorer: &mut App, ui: &mut Ui) {
     let shown = &mut explorer.settings.shown;
     ui.checkbox(&mut shown.share, tr!("Specular share"))
         .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
@@ -168,7 +168,7 @@ enum Line {
 struct Drawn<'a> {
     /// What it shows, and of which surface and angle: it is hidden with either.
     lines: [Line; 2],
-    pieces: &'a Pieces,
+    pieces: &'a Polyline,
     name: String,
     color: Color32,
     style: LineStyle,
@@ -217,7 +217,7 @@ fn other_look() -> Look {
 /// All curves from the back to the front; the last fit and the other distribution along each series.
 fn in_layers<'a>(
     curves: &'a CurveSet,
-    [ghost, overlay]: [&'a [Pieces]; 2],
+    [ghost, overlay]: [&'a [Polyline]; 2],
     marks: &MarkSet,
     settings: &Settings,
     dark: bool,
@@ -271,8 +271,8 @@ fn key_entries(view: &DolpView, marks: &MarkSet, settings: &Settings, is_fitted:
 /// Width of the sample of a band, in points.
 const BAND: f32 = 8.0;
 
-fn curves_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { derived, settings, document, views, commands, last_fit, .. } = explorer;
+fn curves_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
+    let App { derived, settings, document, views, commands, last_fit, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;

@@ -1,7 +1,7 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
@@ -22,9 +22,9 @@ const HEADINGS: [Heading; 7] = [
     Heading { text: "success", help: "Share of fits that reached the best objective known", width: 48.0, is_number: true },
 ];
 
-pub fn error_vs_time_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn error_vs_time_ui(explorer: &mut App, ui: &mut Ui) {
     let about = tr!("Times evaluations and fits on this machine, each several times: up to a minute");
-    run_ui(explorer, Subject::ErrorVsTime, (&tr!("Measure error against run time"), &about), None, ui);
+    run_ui(explorer, BenchmarkId::ErrorVsTime, (&tr!("Measure error against run time"), &about), None, ui);
     let Some(shown) = &mut explorer.reports.error_vs_time else {
         ui.label(tr!("Nothing is measured yet."));
         return;

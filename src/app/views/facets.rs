@@ -8,9 +8,9 @@ use crate::app::jobs::memo::Memo;
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal, power_of_ten};
 use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, plot, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
-use crate::app::views::curves::{Pieces, directions, pieces};
+use crate::app::views::curves::{Polyline, directions, pieces};
 use crate::app::work::document::Series;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle, VLine};
@@ -21,7 +21,7 @@ use tr::tr;
 #[derive(Default)]
 pub struct FacetsView {
     densities: Memo<DensityKey, [Density; 2]>,
-    masking: Memo<(f64, f64), Pieces>,
+    masking: Memo<(f64, f64), Polyline>,
     density_axes: Axes,
     masking_axes: Axes,
     tilts: Following,
@@ -35,9 +35,9 @@ type DensityKey = (f64, f64, bool, SlopeDistribution, bool);
 #[derive(Debug)]
 pub struct Density {
     /// P(α), in sr⁻¹.
-    p: Pieces,
+    p: Polyline,
     /// D(α) = P/cos α, in sr⁻¹.
-    d: Pieces,
+    d: Polyline,
     /// α in degrees at which P has fallen to half of P(0), if it does.
     half_width: Option<f64>,
     /// α in degrees that half of the projected facets stay below.
@@ -110,8 +110,8 @@ fn crossing(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 /// Decades that a logarithmic axis of densities shows.
 const DECADES: f64 = 6.0;
 
-pub fn facets_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, views, dragging, .. } = explorer;
+pub fn facets_refresh(explorer: &mut App) {
+    let App { settings, views, dragging, .. } = explorer;
     let view = &mut views.facets;
     let (parameters, model, shown) = (settings.parameters, settings.model, settings.shown);
     let key = (parameters.sigma, parameters.q, shown.facets_log, model.distribution, shown.facets_equal_median);
@@ -137,7 +137,7 @@ pub fn facets_refresh(explorer: &mut Explorer) {
 }
 
 /// G against signed θr.
-fn masking(theta_i: f64, dphi: f64) -> Pieces {
+fn masking(theta_i: f64, dphi: f64) -> Polyline {
     let series = Series { theta_i, plane: dphi.rem_euclid(360.0), dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
     pieces(directions(theta_i, true).into_iter().map(|theta_r| {
         let facet = series.geometry(theta_r).map(Facet::new);
@@ -146,7 +146,7 @@ fn masking(theta_i: f64, dphi: f64) -> Pieces {
 }
 
 /// What is drawn in the pane.
-pub fn facets_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn facets_options_ui(explorer: &mut App, ui: &mut Ui) {
     let shown = &mut explorer.settings.shown;
     ui.checkbox(&mut shown.facets_log, tr!("Logarithmic densities")).on_hover_text(tr!("Shows the tails, which q sets"));
     ui.checkbox(&mut shown.facets_equal_median, tr!("Equal median slope")).on_hover_text(tr!(
@@ -190,7 +190,7 @@ fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
 /// Share of the height that the densities have.
 const DENSITIES: f32 = 0.62;
 
-pub fn facets_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn facets_ui(explorer: &mut App, ui: &mut Ui) {
     let room = ui.available_height();
     let height = if room > 240.0 { DENSITIES * room } else { room };
     densities_ui(explorer, ui, height);
@@ -199,8 +199,8 @@ pub fn facets_ui(explorer: &mut Explorer, ui: &mut Ui) {
     }
 }
 
-fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { settings, views, .. } = explorer;
+fn densities_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.facets;
     let Some(densities) = view.densities.get() else { return };
     let dark = ui.visuals().dark_mode;
@@ -236,8 +236,8 @@ fn densities_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
     view.density_axes.listen(&response, &tr!("Plot: densities of facet tilts"), ui);
 }
 
-fn masking_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { settings, views, .. } = explorer;
+fn masking_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.facets;
     let Some(masking) = view.masking.get() else { return };
     let dark = ui.visuals().dark_mode;

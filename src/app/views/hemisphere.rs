@@ -6,17 +6,17 @@ mod figure;
 
 pub use figure::hemisphere_figure;
 
-use crate::app::jobs::async_memo::{LatestJob, Stopped};
+use crate::app::jobs::async_memo::{AsyncMemo, Stopped};
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Following, Range, color_bar, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::curves::{DECADES, MOST_POINTS, SETS_AXES};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Quantity;
 use crate::figure::ColorMap;
 use egui::{Align2, Color32, ColorImage, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, vec2};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
 use pbrdf::optics::{Degrees, Geometry};
 use std::sync::Arc;
@@ -28,7 +28,7 @@ pub const SIZE: usize = 256;
 /// What the pane keeps.
 #[derive(Default)]
 pub struct HemisphereView {
-    job: LatestJob<MapKey, Option<Made>>,
+    job: AsyncMemo<MapKey, Option<Made>>,
     ranges: [Following; Quantity::ALL.len()],
     colored: Memo<(MapKey, Quantity, ColorScale), ()>,
     /// An image that the texture does not show yet.
@@ -39,7 +39,7 @@ pub struct HemisphereView {
 }
 
 /// Parameters, model, θi, the reading of Eq. (17).
-type MapKey = (Parameters, Model, f64, Eq17);
+type MapKey = (Parameters, Model, f64, DolpFormula);
 
 /// What the job makes.
 pub struct Made {
@@ -52,7 +52,7 @@ pub struct Made {
 }
 
 impl Made {
-    fn new(surface: &Pbrdf, theta_i: f64, eq17: Eq17, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
+    fn new(surface: &Pbrdf, theta_i: f64, eq17: DolpFormula, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
         let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, stopped).ok()??));
         let hemisphere = before.or_else(prepared)?;
         let mut map = hemisphere.map(surface, stopped)?;
@@ -213,13 +213,13 @@ fn measured(document: &Document, theta_i: f64) -> Vec<Vec2> {
     at.map(|geometry: Geometry| place(geometry.theta_r().0, geometry.dphi().0)).take(MOST_POINTS).collect()
 }
 
-pub fn hemisphere_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, document, views, background, dragging, .. } = explorer;
+pub fn hemisphere_refresh(explorer: &mut App) {
+    let App { settings, document, views, background, dragging, .. } = explorer;
     let view = &mut views.hemisphere;
     let (parameters, model, theta_i, eq17) = (settings.parameters, settings.model, settings.theta_i, settings.choices.eq17);
     let Ok(surface) = Pbrdf::new(model, parameters) else {
         // Values that are not numbers differ from themselves: a job would follow a job for ever.
-        view.job = LatestJob::default();
+        view.job = AsyncMemo::default();
         return;
     };
     let before = view.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
@@ -238,8 +238,8 @@ pub fn hemisphere_refresh(explorer: &mut Explorer) {
 const MARGIN: Vec2 = vec2(34.0, 20.0);
 const LETTERS: f32 = 12.0;
 
-pub fn hemisphere_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, views, .. } = explorer;
+pub fn hemisphere_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.hemisphere;
     ui.horizontal_wrapped(|ui| {
         for quantity in Quantity::ALL {
@@ -401,14 +401,14 @@ impl Disc {
 #[cfg(test)]
 mod tests {
     use super::{ColorScale, Made, Quantity, Range, SIZE, extremes, index, place, values, wanted};
-    use pbrdf::fit::Eq17;
+    use pbrdf::fit::DolpFormula;
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
 
     #[test]
     fn the_image_has_the_values_of_the_map_with_y_upwards() {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
-        let made = Made::new(&surface, 50.0, Eq17::Consistent, None, &|| false).expect("a map");
+        let made = Made::new(&surface, 50.0, DolpFormula::Consistent, None, &|| false).expect("a map");
         // On either side of the plane of incidence the angle of polarisation has the other sign.
         let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
         let image = made.image(Quantity::Angle, scale);

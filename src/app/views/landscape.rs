@@ -10,26 +10,26 @@ mod marks;
 
 pub use figure::landscape_figure;
 
-use crate::app::jobs::async_memo::LatestJob;
+use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::work::settings::{OverTwo, Settings};
+use crate::app::work::settings::{LandscapeAxes, Settings};
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::Drawn;
 use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
 use egui_plot::PlotPoint;
 use map::map_ui;
 use marks::{Marks, MarksKey};
-use pbrdf::fit::{Axis, Choices, Loss};
+use pbrdf::fit::{Axis, FitOptions, Loss};
 use pbrdf::model::{Model, Parameter, Parameters};
 use tr::tr;
 
 /// What the pane keeps.
 #[derive(Default)]
 pub struct LandscapeView {
-    job: LatestJob<Key, Option<Drawn>>,
+    job: AsyncMemo<Key, Option<Drawn>>,
     textured: Memo<Key, ()>,
     texture: Option<TextureHandle>,
     marks: Memo<MarksKey, Marks>,
@@ -45,7 +45,7 @@ pub struct Key {
     generation: u64,
     others: Parameters,
     model: Model,
-    choices: Choices,
+    choices: FitOptions,
     /// Where the residuals are looked at that set the scale of a robust loss.
     scale_at: Option<Parameters>,
     pub across: Axis,
@@ -73,28 +73,28 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
     (evaluations / rows.max(1)).isqrt().clamp(LEAST, most)
 }
 
-pub fn landscape_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, document, views, background, dragging, last_fit, past_fits, .. } = explorer;
+pub fn landscape_refresh(explorer: &mut App) {
+    let App { settings, document, views, background, dragging, last_fit, fit_history, .. } = explorer;
     let view = &mut views.landscape;
-    let OverTwo { across, up, .. } = settings.landscape;
+    let LandscapeAxes { across, up, .. } = settings.landscape;
     let seen = view.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
     if seen.is_none() {
         view.wanted = Some([first(across), first(up)]);
     }
     let Some([x, y]) = view.wanted.or(seen) else { return };
-    view.marks.refresh(MarksKey::new(settings, document, past_fits, last_fit.as_deref()), |key| {
-        Marks::new(key, past_fits, last_fit.as_deref(), document)
+    view.marks.refresh(MarksKey::new(settings, document, fit_history, last_fit.as_deref()), |key| {
+        Marks::new(key, fit_history, last_fit.as_deref(), document)
     });
     let mut others = settings.parameters;
     (others[across], others[up]) = (0.0, 0.0);
     // A value that is not a number would differ from itself, and a job follow a job for ever.
     if across == up || others.to_array().iter().any(|value| !value.is_finite()) {
-        view.job = LatestJob::default();
+        view.job = AsyncMemo::default();
         return;
     }
     let Settings { model, choices, .. } = *settings;
     let fitted = last_fit.as_ref().filter(|fit| fit.report.model == model && *fit.problem.choices() == choices);
-    let is_scaled = choices.loss != Loss::Linear && choices.loss_scale.is_none();
+    let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
     let scale_at = is_scaled.then(|| fitted.map_or(settings.parameters, |fit| fit.report.parameters));
     let rows = document.measurement.rows.len() - document.mask().len();
     let key = |fine: bool| {
@@ -110,25 +110,25 @@ pub fn landscape_refresh(explorer: &mut Explorer) {
 }
 
 /// What is drawn in the pane.
-pub fn landscape_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn landscape_options_ui(explorer: &mut App, ui: &mut Ui) {
     let shown = &mut explorer.settings.landscape;
     ui.checkbox(&mut shown.contours, tr!("Contours"));
     ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
         .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
     ui.checkbox(&mut shown.minima, tr!("Minima of the last fit")).on_hover_text(tr!("Where its starts ended, each place once"));
-    ui.checkbox(&mut shown.metals, tr!("Tabulated metals"))
+    ui.checkbox(&mut shown.metals, tr!("MetalSelection metals"))
         .on_hover_text(tr!("All sources at the wavelength of the metals pane, where the axes are n and k"));
 }
 
-pub fn landscape_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn landscape_ui(explorer: &mut App, ui: &mut Ui) {
     axes_ui(explorer, ui);
-    let OverTwo { across, up, .. } = explorer.settings.landscape;
+    let LandscapeAxes { across, up, .. } = explorer.settings.landscape;
     let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
     let height = (ui.available_height() - line).max(80.0);
     let response = map_ui(explorer, height, ui);
     let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
     response.response.widget_info(name);
-    let Explorer { commands, views, .. } = explorer;
+    let App { commands, views, .. } = explorer;
     let view = &mut views.landscape;
     let bounds = response.transform.bounds();
     let [x, y] = [0, 1].map(|side| Range { low: bounds.min()[side], high: bounds.max()[side] });
@@ -171,10 +171,10 @@ fn status(is_there: bool, is_one: bool) -> String {
     }
 }
 
-fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, views, .. } = explorer;
+fn axes_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, views, .. } = explorer;
     let used = settings.model.parameters();
-    let OverTwo { across, up, .. } = &mut settings.landscape;
+    let LandscapeAxes { across, up, .. } = &mut settings.landscape;
     let mut is_reset = false;
     ui.horizontal(|ui| {
         for (id, name, parameter) in [("across", tr!("Across"), across), ("up", tr!("Up"), up)] {
@@ -191,7 +191,7 @@ fn axes_ui(explorer: &mut Explorer, ui: &mut Ui) {
         is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
     });
     if is_reset {
-        let OverTwo { across, up, .. } = settings.landscape;
+        let LandscapeAxes { across, up, .. } = settings.landscape;
         views.landscape.wanted = Some([across, up].map(whole));
         // The landscape over them is made before the next frame.
         ui.ctx().request_repaint();
@@ -240,7 +240,7 @@ impl LandscapeView {
 #[cfg(test)]
 mod tests {
     use super::{Key, nodes};
-    use pbrdf::fit::{Axis, Choices};
+    use pbrdf::fit::{Axis, FitOptions};
     use pbrdf::model::{Model, Parameter, Parameters};
     use pbrdf::optics::SlopeDistribution;
 
@@ -251,7 +251,7 @@ mod tests {
             let others = Parameters { sigma, ..Parameters::default() };
             let model = Model::full(SlopeDistribution::Cauchy);
             let (across, up) = (axis(Parameter::N), axis(Parameter::K));
-            Key { generation, others, model, choices: Choices::default(), scale_at: None, across, up }
+            Key { generation, others, model, choices: FitOptions::default(), scale_at: None, across, up }
         };
         let (fine, coarse) = (key(1, 0.3, 256), key(1, 0.3, 128));
         assert!(fine.is_of_use(&fine, &coarse) && key(1, 0.2, 128).is_of_use(&coarse, &coarse));

@@ -6,11 +6,11 @@ use crate::app::plots::axis::{axis, decimal, power_of_ten};
 use crate::app::plots::{
     Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, filled, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
 };
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, brdf_bands};
-use crate::app::views::curves::{BrdfScale, Curves, DECADES, MarkSet, Pieces, axis_values};
+use crate::app::views::curves::{BrdfScale, Curves, DECADES, MarkSet, Polyline, axis_values};
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use std::collections::BTreeSet;
@@ -45,8 +45,8 @@ impl LobesView {
     }
 }
 
-pub fn lobes_refresh(explorer: &mut Explorer) {
-    let Explorer { derived, settings, document, views, last_fit, dragging, .. } = explorer;
+pub fn lobes_refresh(explorer: &mut App) {
+    let App { derived, settings, document, views, last_fit, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
@@ -74,7 +74,7 @@ pub fn lobes_refresh(explorer: &mut Explorer) {
 }
 
 /// What is drawn in the pane.
-pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn lobes_options_ui(explorer: &mut App, ui: &mut Ui) {
     ui.checkbox(&mut explorer.settings.log_brdf, tr!("Logarithmic BRDF"));
     ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
     ui.checkbox(&mut explorer.settings.shown.times_cosine, tr!("Times cos θr"))
@@ -88,7 +88,7 @@ pub fn lobes_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
 /// A curve at the sliders' own θi.
 struct Term<'a> {
     line: Line,
-    pieces: &'a Pieces,
+    pieces: &'a Polyline,
     name: String,
     color: Color32,
     width: f32,
@@ -117,8 +117,8 @@ fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<(Line, Ke
     measured.chain(terms.iter().map(|term| entry(term.line, &term.name, term.color, term.width))).collect()
 }
 
-pub fn lobes_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { derived, settings, document, views, commands, .. } = explorer;
+pub fn lobes_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { derived, settings, document, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.lobes;
     let dark = ui.visuals().dark_mode;

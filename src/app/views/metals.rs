@@ -1,4 +1,4 @@
-//! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
+//! MetalSelection metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
 
 mod figure;
 
@@ -9,12 +9,12 @@ use crate::app::panels::{Step, step_with_arrows};
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, curve, plot, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
-use crate::app::views::curves::{Pieces, pieces};
-use crate::app::work::settings::{Settings, Tabulated};
+use crate::app::views::curves::{Polyline, pieces};
+use crate::app::work::settings::{MetalSelection, Settings};
 use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, Points, VLine};
@@ -29,7 +29,7 @@ pub struct MetalsView {
     /// The index of every source of the metal, by metal and wavelength.
     found: Memo<(String, f64), Vec<Option<RefractiveIndex>>>,
     /// n and k of every source against the wavelength.
-    lines: Memo<String, Vec<[Pieces; 2]>>,
+    lines: Memo<String, Vec<[Polyline; 2]>>,
     axes: [Axes; 2],
     wavelengths: Following,
     ranges: [Following; 2],
@@ -44,13 +44,13 @@ const PARTS: [(Parameter, Part); 2] = [(Parameter::N, RefractiveIndex::n), (Para
 const SHORT: f64 = 1000.0;
 
 /// The metal that is looked at; none where the bundled table is damaged, which a test of the core rules out.
-fn chosen(tabulated: &Tabulated) -> Option<&'static Metal> {
+fn chosen(tabulated: &MetalSelection) -> Option<&'static Metal> {
     let metals = optics::metals().ok()?;
     metals.iter().find(|metal| metal.key == tabulated.metal).or(metals.first())
 }
 
-pub fn metals_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, views, dragging, .. } = explorer;
+pub fn metals_refresh(explorer: &mut App) {
+    let App { settings, views, dragging, .. } = explorer;
     let view = &mut views.metals;
     let Some(metal) = chosen(&settings.tabulated) else { return };
     let wavelength_nm = settings.tabulated.wavelength_nm;
@@ -63,7 +63,7 @@ pub fn metals_refresh(explorer: &mut Explorer) {
     });
     let (low, high) = metal.range_nm();
     let high = if wavelength_nm > SHORT { high.max(wavelength_nm) } else { SHORT };
-    let low = low.min(Tabulated::SHORTEST_NM);
+    let low = low.min(MetalSelection::SHORTEST_NM);
     // Marks at the ends have room for their numbers.
     let air = 0.04 * (high - low);
     view.wavelengths.follow(Range { low: low - air, high: high + air }, *dragging);
@@ -76,7 +76,7 @@ pub fn metals_refresh(explorer: &mut Explorer) {
     }
 }
 
-pub fn metals_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn metals_ui(explorer: &mut App, ui: &mut Ui) {
     let Some(metal) = chosen(&explorer.settings.tabulated) else { return };
     ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
         let before = explorer.settings.tabulated.clone();
@@ -108,7 +108,7 @@ fn name_and_symbol(metal: &Metal) -> String {
     if has_symbol { format!("{name} ({})", metal.key) } else { name }
 }
 
-fn choice_ui(tabulated: &mut Tabulated, metal: &Metal, ui: &mut Ui) {
+fn choice_ui(tabulated: &mut MetalSelection, metal: &Metal, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Metal"));
         let text = name_and_symbol;
@@ -125,14 +125,14 @@ fn choice_ui(tabulated: &mut Tabulated, metal: &Metal, ui: &mut Ui) {
     });
 }
 
-fn wavelength_ui(explorer: &mut Explorer, ui: &mut Ui) {
+fn wavelength_ui(explorer: &mut App, ui: &mut Ui) {
     let measured = explorer.document.wavelength_nm();
     let wavelength_nm = &mut explorer.settings.tabulated.wavelength_nm;
     ui.horizontal(|ui| {
         let help = tr!("Vacuum wavelength in nm");
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
         ui.spacing_mut().slider_width = 260.0;
-        let range = Tabulated::SHORTEST_NM..=Tabulated::LONGEST_NM;
+        let range = MetalSelection::SHORTEST_NM..=MetalSelection::LONGEST_NM;
         let before = *wavelength_nm;
         let slider = Slider::new(wavelength_nm, range.clone()).show_value(false).step_by(1.0).clamping(SliderClamping::Never);
         let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help.as_str());
@@ -151,8 +151,8 @@ fn wavelength_ui(explorer: &mut Explorer, ui: &mut Ui) {
 const ROW: f32 = 21.0;
 
 /// Every source with n, k and where it was published.
-fn sources_ui(explorer: &mut Explorer, metal: &Metal, ui: &mut Ui) {
-    let Explorer { settings, views, commands, .. } = explorer;
+fn sources_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
+    let App { settings, views, commands, .. } = explorer;
     let Some(found) = views.metals.found.get() else { return };
     if found.iter().all(Option::is_none) {
         let (low, high) = metal.range_nm();
@@ -185,7 +185,7 @@ fn sources_ui(explorer: &mut Explorer, metal: &Metal, ui: &mut Ui) {
 }
 
 /// One source; whether its button was pressed.
-fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Option<RefractiveIndex>, tabulated: &Tabulated) -> bool {
+fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Option<RefractiveIndex>, tabulated: &MetalSelection) -> bool {
     let (low, high) = source.range_nm();
     let about = if source.comment.is_empty() { source.citation.clone() } else { format!("{}\n{}", source.citation, source.comment) };
     row.col(|ui| {
@@ -235,8 +235,8 @@ fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Optio
 const HEIGHT: f32 = 130.0;
 
 /// n and k against the wavelength, side by side.
-fn lines_ui(explorer: &mut Explorer, metal: &Metal, ui: &mut Ui) {
-    let Explorer { settings, views, .. } = explorer;
+fn lines_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.metals;
     let Some(lines) = view.lines.get() else { return };
     let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);
@@ -253,7 +253,7 @@ fn part_ui(
     part: usize,
     settings: &Settings,
     metal: &Metal,
-    lines: &[[Pieces; 2]],
+    lines: &[[Polyline; 2]],
     found: &[Option<RefractiveIndex>],
     axes: &mut Axes,
     ranges: (Option<Range>, Option<Range>),
@@ -298,7 +298,7 @@ fn part_ui(
 }
 
 /// Surface finishes, which are not measured.
-fn finishes_ui(explorer: &mut Explorer, ui: &mut Ui) {
+fn finishes_ui(explorer: &mut App, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.label(tr!("Surface finish")).on_hover_text(tr!("Sizes that go together, for a lesson or a first guess; nobody measured them"));
         for (i, finish) in FINISHES.iter().enumerate() {

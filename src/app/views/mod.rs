@@ -39,7 +39,7 @@ pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
 pub use stability::stability_ui;
 pub use table::{table_refresh, table_text, table_ui};
 
-use crate::app::shell::docking::Pane;
+use crate::app::shell::docking::PaneId;
 
 /// What the panes keep from frame to frame.
 #[derive(Default)]
@@ -60,20 +60,20 @@ pub struct Views {
 
 impl Views {
     /// Stops what is being made for panes that nobody looks at.
-    pub fn rest(&mut self, on_screen: &[Pane]) {
-        if !on_screen.contains(&Pane::Hemisphere) {
+    pub fn rest(&mut self, on_screen: &[PaneId]) {
+        if !on_screen.contains(&PaneId::Hemisphere) {
             self.hemisphere.rest();
         }
-        if !on_screen.contains(&Pane::Landscape) {
+        if !on_screen.contains(&PaneId::Landscape) {
             self.landscape.rest();
         }
     }
 
     /// How many frames the older of the maps on screen is behind the sliders.
-    pub fn frames_behind(&self, on_screen: &[Pane]) -> u64 {
-        let map = |pane: &Pane| match pane {
-            Pane::Hemisphere => self.hemisphere.frames_behind(),
-            Pane::Landscape => self.landscape.frames_behind(),
+    pub fn frames_behind(&self, on_screen: &[PaneId]) -> u64 {
+        let map = |pane: &PaneId| match pane {
+            PaneId::Hemisphere => self.hemisphere.frames_behind(),
+            PaneId::Landscape => self.landscape.frames_behind(),
             _ => 0,
         };
         on_screen.iter().map(map).max().unwrap_or(0)

@@ -9,7 +9,7 @@ pub use figure::mueller_figure;
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::directions;
 use crate::app::work::document::Series;
@@ -67,8 +67,8 @@ fn normalised(matrix: &Mueller, element: usize) -> f64 {
     matrix.element(element / 4, element % 4) / matrix.element(0, 0)
 }
 
-pub fn mueller_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, document, views, .. } = explorer;
+pub fn mueller_refresh(explorer: &mut App) {
+    let App { settings, document, views, .. } = explorer;
     let view = &mut views.mueller;
     let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
     let backscatter = settings.show_backscatter || document.has_backscatter();
@@ -96,8 +96,8 @@ const LETTERS: f32 = 12.0;
 /// Between the two parts.
 const GAP: f32 = 14.0;
 
-pub fn mueller_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, document, views, .. } = explorer;
+pub fn mueller_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, document, views, .. } = explorer;
     let view = &mut views.mueller;
     let low: f64 = if settings.show_backscatter || document.has_backscatter() { -90.0 } else { 0.0 };
     let mut theta_r = view.theta_r(settings.theta_i, low < 0.0);

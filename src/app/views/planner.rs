@@ -2,7 +2,7 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::glossary::{open_help, percent, short};
 use crate::app::text::i18n;
@@ -11,13 +11,13 @@ use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
 use crate::app::work::document::Document;
 use crate::app::work::settings::Settings;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::{Eq17, is_loose, loose_in_words};
+use pbrdf::fit::{DolpFormula, describe_poorly_determined, is_poorly_determined};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
 
 /// What predictions depend on, the language of their words included.
-type Key = (Parameters, Model, Eq17, ParameterSet, Plan, u64, Language);
+type Key = (Parameters, Model, DolpFormula, ParameterSet, Plan, u64, Language);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -26,9 +26,9 @@ pub struct PlannerView {
     pub predictions: Memo<Key, [Result<Prediction, String>; 2]>,
 }
 
-pub fn planner_refresh(explorer: &mut Explorer) {
+pub fn planner_refresh(explorer: &mut App) {
     let free = explorer.free_in_plan();
-    let Explorer { settings, document, views, .. } = explorer;
+    let App { settings, document, views, .. } = explorer;
     let Settings { parameters, model, choices, ref plan, .. } = *settings;
     let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, i18n::current());
     views
@@ -42,8 +42,8 @@ const WITH_PERCENT: f32 = 400.0;
 /// Width that angles and errors need side by side.
 const SIDE_BY_SIDE: f32 = 540.0;
 
-pub fn planner_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, document, views, .. } = explorer;
+pub fn planner_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, document, views, .. } = explorer;
     ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
         if ui.available_width() > SIDE_BY_SIDE {
             ui.horizontal_top(|ui| {
@@ -251,8 +251,9 @@ fn error_row_ui(
 /// What stays open, in words.
 fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &mut Ui) {
     let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
-    let loose = loose.filter(|(parameter, error)| is_loose(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);
-    let open: Vec<String> = prediction.open.iter().cloned().chain(loose_in_words(loose)).collect();
+    let loose =
+        loose.filter(|(parameter, error)| is_poorly_determined(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);
+    let open: Vec<String> = prediction.open.iter().cloned().chain(describe_poorly_determined(loose)).collect();
     if open.is_empty() {
         ui.add(egui::Label::new(tr!("{} nothing stays open.", translated(angles))).wrap());
         return;

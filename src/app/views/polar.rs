@@ -9,13 +9,13 @@ pub use figure::polar_figure;
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
 use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
-use crate::app::views::curves::{BrdfScale, Curves, DECADES, Pieces, axis_values};
+use crate::app::views::curves::{BrdfScale, Curves, DECADES, Polyline, axis_values};
 use crate::app::work::document::Series;
 use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Degrees;
 use tr::tr;
@@ -35,23 +35,23 @@ type CurveKey = (Parameters, Model, f64, f64, bool);
 /// Curves in the plane of the drawing, where the outermost ring has radius 1.
 #[derive(Default)]
 struct Lobes {
-    total: Pieces,
-    specular: Pieces,
-    diffuse: Pieces,
-    volume: Pieces,
+    total: Polyline,
+    specular: Polyline,
+    diffuse: Polyline,
+    volume: Polyline,
     /// Radius and BRDF of each ring.
     rings: Vec<(f64, String)>,
 }
 
-pub fn polar_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, views, dragging, .. } = explorer;
+pub fn polar_refresh(explorer: &mut App) {
+    let App { settings, views, dragging, .. } = explorer;
     let view = &mut views.polar;
     let log = settings.shown.polar_log;
     let key = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0), log);
     view.curves.refresh(key, |&(parameters, model, theta_i, plane, log)| {
         let Ok(surface) = Pbrdf::new(model, parameters) else { return Curves::default() };
         let series = Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        Curves::new(&surface, Eq17::Consistent, &series, true, BrdfScale { log, times_cosine: false })
+        Curves::new(&surface, DolpFormula::Consistent, &series, true, BrdfScale { log, times_cosine: false })
     });
     let Some(curves) = view.curves.get() else { return };
     let values = || axis_values(&curves.total);
@@ -69,7 +69,7 @@ pub fn polar_refresh(explorer: &mut Explorer) {
 
 impl Lobes {
     fn new(curves: &Curves, range: Range, log: bool) -> Self {
-        let bent = |pieces: &Pieces| pieces.iter().flat_map(|piece| bend(piece, range)).collect();
+        let bent = |pieces: &Polyline| pieces.iter().flat_map(|piece| bend(piece, range)).collect();
         Self {
             total: bent(&curves.total),
             specular: bent(&curves.specular),
@@ -84,7 +84,7 @@ impl Lobes {
 const RIM: f64 = 1.15;
 
 /// A curve against θr, bent around the origin; broken where it leaves the drawing.
-fn bend(piece: &[PlotPoint], range: Range) -> Pieces {
+fn bend(piece: &[PlotPoint], range: Range) -> Polyline {
     let mut bent = vec![Vec::new()];
     for point in piece {
         let radius = ((point.y - range.low) / (range.high - range.low)).max(0.0);
@@ -126,14 +126,14 @@ fn short(value: f64) -> String {
 }
 
 /// What is drawn in the pane.
-pub fn polar_options_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn polar_options_ui(explorer: &mut App, ui: &mut Ui) {
     ui.checkbox(&mut explorer.settings.shown.polar_log, tr!("Logarithmic radius"))
         .on_hover_text(tr!("Shows weak lobes beside strong ones"));
     ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
 }
 
-pub fn polar_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { settings, views, .. } = explorer;
+pub fn polar_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.polar;
     let (Some(lobes), Some(range)) = (view.lobes.get(), view.range.get()) else { return };
     let dark = ui.visuals().dark_mode;

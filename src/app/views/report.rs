@@ -1,7 +1,7 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::{Shown, Subject};
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkView};
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n::{phrase, translated};
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
@@ -10,7 +10,7 @@ use pbrdf::selftest::Row;
 use tr::tr;
 
 /// The line with the button and what it does, and what has come out.
-pub fn run_ui(explorer: &mut Explorer, subject: Subject, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
+pub fn run_ui(explorer: &mut App, subject: BenchmarkId, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
     let running = explorer.reports.progress();
     ui.horizontal(|ui| {
         match running {
@@ -40,7 +40,7 @@ pub fn run_ui(explorer: &mut Explorer, subject: Subject, (button, about): (&str,
 }
 
 /// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
-pub fn pages_ui<R: Row>(shown: &mut Shown<R>, names: &[&str], ui: &mut Ui) -> bool {
+pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
     let text = RichText::new(format!("{part}{}, {}", phrase(&report.machine), report.date)).weak().small();

@@ -4,15 +4,15 @@ use crate::app::jobs::memo::Memo;
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{Axes, Following, Range, plot, round_up};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
-use crate::app::work::document::{Document, Mark};
+use crate::app::work::document::{DataPoint, Document};
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Settings;
 use egui::Ui;
 use egui_plot::{AxisHints, HLine, HoverPosition, PlotPoint, PlotPoints, Points};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use tr::tr;
@@ -22,7 +22,7 @@ use tr::tr;
 pub struct Residuals {
     axes: Axes,
     /// DoLP of the model less the measured one, of each series; masked points left out.
-    pub of_series: Memo<(Parameters, Model, Eq17, u64), Vec<Vec<PlotPoint>>>,
+    pub of_series: Memo<(Parameters, Model, DolpFormula, u64), Vec<Vec<PlotPoint>>>,
     range: Following,
     is_there: bool,
 }
@@ -57,7 +57,7 @@ fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
     let of_one = |series: &crate::app::work::document::Series| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
-        let residual = |mark: &Mark| {
+        let residual = |mark: &DataPoint| {
             let facet = Facet::new(series.geometry(mark.theta_r)?);
             Some(PlotPoint::new(mark.theta_r, gain * surface.dolp(&facet) - mark.quantity.value))
         };
@@ -69,8 +69,8 @@ fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
 /// Below this height marks stand closer, so that there is more than that at 0.
 const LOW: f32 = 100.0;
 
-pub fn residuals_ui(explorer: &mut Explorer, ui: &mut Ui, height: f32) {
-    let Explorer { derived, views, .. } = explorer;
+pub fn residuals_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
+    let App { derived, views, .. } = explorer;
     let shown: Vec<bool> = (0..MOST_SERIES).map(|series| views.dolp.shows(series)).collect();
     let view = &mut views.dolp.residuals;
     let (Some(key), Some(marks), Some(residuals)) = (derived.curves.key(), derived.marks.get(), view.of_series.get()) else { return };

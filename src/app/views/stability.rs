@@ -1,8 +1,8 @@
 //! The stability gallery: stiff and extreme cases with the digits that are held, beside those of the textbook form. A click on a case, in the
 //! table or in the figure, loads it.
 
-use crate::app::shell::app::Explorer;
-use crate::app::shell::benchmarks::Subject;
+use crate::app::shell::app::App;
+use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::i18n::phrase;
@@ -32,14 +32,14 @@ const HEADINGS: [Heading; 7] = [
     Heading { text: "outcome", help: "How a fit ended", width: 360.0, is_number: false },
 ];
 
-pub fn stability_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn stability_ui(explorer: &mut App, ui: &mut Ui) {
     let about = tr!("Evaluates and fits all stiff and extreme cases: some seconds");
     let outcome = explorer.reports.stability.as_ref().map(|shown| {
         let passed = shown.report.rows.iter().filter(|row| row.pass).count();
         tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, shown.report.rows.len())
     });
-    run_ui(explorer, Subject::Stability, (&tr!("Run all cases"), &about), outcome.as_deref(), ui);
-    let Explorer { reports, commands, .. } = explorer;
+    run_ui(explorer, BenchmarkId::Stability, (&tr!("Run all cases"), &about), outcome.as_deref(), ui);
+    let App { reports, commands, .. } = explorer;
     let Some(shown) = &mut reports.stability else {
         ui.label(tr!("The cases were not run yet."));
         return;

@@ -2,7 +2,7 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary::{mask_help, short};
 use crate::app::text::i18n::translated;
@@ -10,7 +10,7 @@ use crate::app::work::document::{Document, Series};
 use crate::app::work::fit_setup::dolp_gain;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
-use pbrdf::fit::Eq17;
+use pbrdf::fit::DolpFormula;
 use pbrdf::measurement::{Quantity, Row, exact};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -25,7 +25,7 @@ pub struct Predicted {
 }
 
 /// What the model in the seen rows depends on: the sliders, the reading of Eq. (17), the document's generation, the rows.
-type PredictedKey = (Parameters, Model, Eq17, u64, Range<usize>);
+type PredictedKey = (Parameters, Model, DolpFormula, u64, Range<usize>);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -37,8 +37,8 @@ pub struct TableView {
 }
 
 /// Evaluates the rows that are seen, and no others: there may be a million.
-pub fn table_refresh(explorer: &mut Explorer) {
-    let Explorer { settings, document, views, .. } = explorer;
+pub fn table_refresh(explorer: &mut App) {
+    let App { settings, document, views, .. } = explorer;
     let view = &mut views.table;
     let rows = &document.measurement.rows;
     let visible = view.visible.start.min(rows.len())..view.visible.end.min(rows.len());
@@ -55,8 +55,8 @@ pub fn table_refresh(explorer: &mut Explorer) {
 }
 
 /// All rows as the pane shows them, with all digits, and with tabs between cells.
-pub fn table_text(explorer: &Explorer) -> String {
-    let Explorer { settings, document, .. } = explorer;
+pub fn table_text(explorer: &App) -> String {
+    let App { settings, document, .. } = explorer;
     let measurement = &document.measurement;
     let surface = Pbrdf::new(settings.model, settings.parameters).ok();
     let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
@@ -86,8 +86,8 @@ pub fn table_text(explorer: &Explorer) -> String {
     lines.join("\n") + "\n"
 }
 
-pub fn table_ui(explorer: &mut Explorer, ui: &mut Ui) {
-    let Explorer { document, commands, views, .. } = explorer;
+pub fn table_ui(explorer: &mut App, ui: &mut Ui) {
+    let App { document, commands, views, .. } = explorer;
     metadata_ui(document, ui);
     series_ui(document, commands, ui);
     let visible = rows_ui(document, &views.table, commands, ui);

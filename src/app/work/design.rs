@@ -3,7 +3,7 @@
 use crate::app::text::i18n::phrase;
 use crate::app::work::settings::Settings;
 use pbrdf::fit;
-use pbrdf::fit::PlannedNoise;
+use pbrdf::fit::NoiseModel;
 use pbrdf::measurement::{Columns, Measurement};
 use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::Geometry;
@@ -99,9 +99,9 @@ impl Plan {
         self.columns != Columns::Dolp
     }
 
-    fn noise(&self) -> PlannedNoise {
+    fn noise(&self) -> NoiseModel {
         let if_measured = |noise, other| (self.columns != other).then_some(noise);
-        PlannedNoise { dolp: if_measured(self.noise, Columns::Brdf), brdf: if_measured(self.brdf_noise, Columns::Dolp) }
+        NoiseModel { dolp: if_measured(self.noise, Columns::Brdf), brdf: if_measured(self.brdf_noise, Columns::Dolp) }
     }
 
     fn geometries(&self) -> Vec<Geometry> {
@@ -145,7 +145,7 @@ impl Prediction {
         if geometries.is_empty() {
             return Err(tr!("There is no angle: add one of incidence and one of view."));
         }
-        let plan = fit::Plan {
+        let plan = fit::Design {
             model: settings.model,
             parameters: settings.parameters,
             geometries,
@@ -153,7 +153,7 @@ impl Prediction {
             free,
             eq17: settings.choices.eq17,
         };
-        let fit::Prediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", phrase(&error)))?;
+        let fit::DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", phrase(&error)))?;
         Ok(Self { errors, open: undetermined.into_iter().map(|open| open.text).collect() })
     }
 

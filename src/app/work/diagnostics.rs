@@ -1,11 +1,11 @@
 //! What is asked about a finished fit: the profile of a parameter, and a bootstrap.
 
 use egui_plot::PlotPoint;
-use pbrdf::fit::{FitReport, Problem, Profile, Scatter, Weights};
+use pbrdf::fit::{BootstrapEstimate, FitResult, Problem, Profile, Weights};
 use pbrdf::model::Parameter;
 
-/// Scans around the fit that is shown.
-pub struct Scans {
+/// Diagnostics around the fit that is shown.
+pub struct Diagnostics {
     /// The parameter to scan next.
     pub parameter: Option<Parameter>,
     pub profile: Option<ProfileCurve>,
@@ -17,16 +17,16 @@ pub struct Scans {
 /// How each parameter scattered.
 pub struct Bootstrap {
     pub replicates: usize,
-    pub scatter: Vec<Scatter>,
+    pub scatter: Vec<BootstrapEstimate>,
 }
 
-impl Default for Scans {
+impl Default for Diagnostics {
     fn default() -> Self {
         Self { parameter: None, profile: None, replicates: 200, scatter: None }
     }
 }
 
-impl Scans {
+impl Diagnostics {
     /// Lets go of what belongs to another fit.
     pub fn forget(&mut self) {
         self.profile = None;
@@ -50,7 +50,7 @@ pub struct ProfileCurve {
 }
 
 impl ProfileCurve {
-    pub fn new(profile: &Profile, problem: &Problem, report: &FitReport) -> Self {
+    pub fn new(profile: &Profile, problem: &Problem, report: &FitResult) -> Self {
         let smallest = report.sum_of_squares;
         let is_chi2 = problem.choices().weights == Weights::Sigma;
         #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tr::tr;
 
-pub use pbrdf::measurement::{Mark, Series};
+pub use pbrdf::measurement::{DataPoint, Series};
 
 /// A bundled example.
 pub struct Example {

@@ -1,17 +1,17 @@
 //! The fits of this session, to look back at and to return to.
 
 use crate::app::work::document::Mask;
-use pbrdf::fit::{FitReport, Problem};
+use pbrdf::fit::{FitResult, Problem};
 use pbrdf::model::Parameters;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 
 /// A fit as the window remembers it.
-pub struct PastFit {
+pub struct FitEntry {
     /// Its number in the session, from 1.
     pub id: usize,
-    pub report: FitReport,
+    pub report: FitResult,
     /// What was fitted, for scans around the solution.
     pub problem: Arc<Problem>,
     /// The sliders before it.
@@ -34,19 +34,19 @@ const MOST_RESIDUALS: usize = 500_000;
 
 /// The last fits, newest first.
 #[derive(Clone, Default)]
-pub struct PastFits {
-    fits: VecDeque<Rc<PastFit>>,
+pub struct FitHistory {
+    fits: VecDeque<Rc<FitEntry>>,
     made: usize,
 }
 
-impl PastFits {
+impl FitHistory {
     /// Takes a fit in, and gives it back to be shown.
-    pub fn push(&mut self, fit: PastFit) -> Rc<PastFit> {
+    pub fn push(&mut self, fit: FitEntry) -> Rc<FitEntry> {
         self.made += 1;
-        let fit = Rc::new(PastFit { id: self.made, ..fit });
+        let fit = Rc::new(FitEntry { id: self.made, ..fit });
         self.fits.push_front(fit.clone());
         self.fits.truncate(MOST_FITS);
-        let residuals = |fits: &VecDeque<Rc<PastFit>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
+        let residuals = |fits: &VecDeque<Rc<FitEntry>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
         while self.fits.len() > 1 && residuals(&self.fits) > MOST_RESIDUALS {
             self.fits.pop_back();
         }
@@ -54,7 +54,7 @@ impl PastFits {
     }
 
     /// The fit so many before the newest.
-    pub fn get(&self, index: usize) -> Option<Rc<PastFit>> {
+    pub fn get(&self, index: usize) -> Option<Rc<FitEntry>> {
         self.fits.get(index).cloned()
     }
 
@@ -63,7 +63,7 @@ impl PastFits {
         self.made
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Rc<PastFit>> {
+    pub fn iter(&self) -> impl Iterator<Item = &Rc<FitEntry>> {
         self.fits.iter()
     }
 

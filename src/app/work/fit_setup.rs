@@ -2,7 +2,7 @@
 
 use crate::app::text::i18n::phrase;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::{Bounds, Choices, Eq17, Problem, ProblemError};
+use pbrdf::fit::{Bounds, DolpFormula, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, ParameterSet, Parameters};
 use tr::tr;
@@ -15,7 +15,7 @@ pub fn problem(
     measurement: &Measurement,
     model: Model,
     free: ParameterSet,
-    choices: Choices,
+    choices: FitOptions,
 ) -> Result<Problem, ProblemError> {
     let (start, bounds) = start_in_bounds(settings, free);
     Problem::new(measurement, model, start, free, bounds, choices)
@@ -49,10 +49,10 @@ pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
 }
 
 /// What the model's DoLP is multiplied by to give the chosen reading of Eq. (17).
-pub fn dolp_gain(eq17: Eq17, parameters: &Parameters) -> f64 {
+pub fn dolp_gain(eq17: DolpFormula, parameters: &Parameters) -> f64 {
     match eq17 {
-        Eq17::Consistent => 1.0,
-        Eq17::Printed => 1.0 / parameters.ks,
+        DolpFormula::Consistent => 1.0,
+        DolpFormula::AsPrinted => 1.0 / parameters.ks,
     }
 }
 

@@ -1,6 +1,6 @@
 //! How the panes are arranged, as a value: kept in the settings, and turned into tiles and back.
 
-use crate::app::shell::docking::{PANES, Pane, Place};
+use crate::app::shell::docking::{PANES, PaneId, Place};
 use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
-    Pane(Pane),
+    PaneId(PaneId),
     /// One of several at a time, by its place in the list.
     Tabs {
         active: usize,
@@ -24,7 +24,7 @@ impl Default for Layout {
     /// Two groups of tabs, one above the other.
     fn default() -> Self {
         let tabs = |place| {
-            let parts = PANES.iter().filter(|entry| entry.place == place).map(|entry| Self::Pane(entry.pane));
+            let parts = PANES.iter().filter(|entry| entry.place == place).map(|entry| Self::PaneId(entry.pane));
             Self::Tabs { active: 0, parts: parts.collect() }
         };
         Self::Rows(vec![(1.2, tabs(Place::Upper)), (1.0, tabs(Place::Lower))])
@@ -45,9 +45,9 @@ impl Layout {
         self.collect(&mut panes) && !panes.is_empty()
     }
 
-    fn collect(&self, panes: &mut Vec<Pane>) -> bool {
+    fn collect(&self, panes: &mut Vec<PaneId>) -> bool {
         match self {
-            Self::Pane(pane) => {
+            Self::PaneId(pane) => {
                 let is_new = !panes.contains(pane);
                 panes.push(*pane);
                 is_new
@@ -60,15 +60,15 @@ impl Layout {
     }
 
     /// The tiles so arranged.
-    pub fn tree(&self) -> Tree<Pane> {
+    pub fn tree(&self) -> Tree<PaneId> {
         let mut tiles = Tiles::default();
         let root = self.insert(&mut tiles);
         Tree::new(egui::Id::unique("panes"), root, tiles)
     }
 
-    fn insert(&self, tiles: &mut Tiles<Pane>) -> TileId {
+    fn insert(&self, tiles: &mut Tiles<PaneId>) -> TileId {
         match self {
-            Self::Pane(pane) => tiles.insert_pane(*pane),
+            Self::PaneId(pane) => tiles.insert_pane(*pane),
             Self::Tabs { active, parts } => {
                 let children: Vec<TileId> = parts.iter().map(|part| part.insert(tiles)).collect();
                 let mut tabs = Tabs::new(children.clone());
@@ -81,16 +81,16 @@ impl Layout {
     }
 
     /// How the tiles are arranged; none where there is no pane.
-    pub fn of(tree: &Tree<Pane>) -> Option<Self> {
+    pub fn of(tree: &Tree<PaneId>) -> Option<Self> {
         Self::of_tile(&tree.tiles, tree.root()?).filter(Self::is_sound)
     }
 
-    fn of_tile(tiles: &Tiles<Pane>, id: TileId) -> Option<Self> {
+    fn of_tile(tiles: &Tiles<PaneId>, id: TileId) -> Option<Self> {
         let of_all = |children: &[TileId]| -> Vec<(TileId, Self)> {
             children.iter().filter_map(|child| Some((*child, Self::of_tile(tiles, *child)?))).collect()
         };
         match tiles.get(id)? {
-            Tile::Pane(pane) => Some(Self::Pane(*pane)),
+            Tile::Pane(pane) => Some(Self::PaneId(*pane)),
             Tile::Container(Container::Tabs(tabs)) => {
                 let parts = of_all(&tabs.children);
                 let active = parts.iter().position(|(child, _)| tabs.active == Some(*child)).unwrap_or(0);
@@ -109,7 +109,7 @@ impl Layout {
     }
 }
 
-fn insert_linear(dir: LinearDir, parts: &[(f32, Layout)], tiles: &mut Tiles<Pane>) -> TileId {
+fn insert_linear(dir: LinearDir, parts: &[(f32, Layout)], tiles: &mut Tiles<PaneId>) -> TileId {
     let children: Vec<TileId> = parts.iter().map(|(_, part)| part.insert(tiles)).collect();
     let mut linear = Linear::new(dir, children.clone());
     for (child, (share, _)) in children.into_iter().zip(parts) {
@@ -121,7 +121,7 @@ fn insert_linear(dir: LinearDir, parts: &[(f32, Layout)], tiles: &mut Tiles<Pane
 #[cfg(test)]
 mod tests {
     use super::Layout;
-    use crate::app::shell::docking::Pane;
+    use crate::app::shell::docking::PaneId;
 
     #[derive(serde::Deserialize)]
     struct Holder {
@@ -135,8 +135,8 @@ mod tests {
 
     #[test]
     fn a_layout_survives_tiles_and_files() {
-        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::Pane(Pane::Lobes)] };
-        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::Pane(Pane::Dolp))]);
+        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::PaneId(PaneId::Lobes)] };
+        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::PaneId(PaneId::Dolp))]);
         assert_eq!(Layout::of(&layout.tree()), Some(layout.clone()));
         assert_eq!(read(&serde_json::to_string(&layout).expect("a layout is JSON")), layout);
     }

@@ -4,7 +4,7 @@ use crate::app::text::i18n::Language;
 use crate::app::work::design::Plan;
 use crate::app::work::document::Document;
 use crate::app::work::layout::Layout;
-use pbrdf::fit::{Bounds, BoundsError, Choices, Starts};
+use pbrdf::fit::{Bounds, BoundsError, FitOptions, Starts};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use pbrdf::optics::{Geometry, Metal, SlopeDistribution};
@@ -65,7 +65,7 @@ impl Quantity {
 /// What panes show beyond what they always show.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Shown {
+pub struct ViewOptions {
     /// The specular share of the radiance beside DoLP.
     pub share: bool,
     pub overlay: Overlay,
@@ -87,7 +87,7 @@ pub struct Shown {
 /// Which two parameters the landscape is drawn over, and what lies on it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct OverTwo {
+pub struct LandscapeAxes {
     pub across: Parameter,
     pub up: Parameter,
     pub contours: bool,
@@ -95,11 +95,11 @@ pub struct OverTwo {
     pub paths: bool,
     /// Where the starts of the shown fit ended.
     pub minima: bool,
-    /// Tabulated metals, where the axes are n and k.
+    /// MetalSelection metals, where the axes are n and k.
     pub metals: bool,
 }
 
-impl Default for OverTwo {
+impl Default for LandscapeAxes {
     fn default() -> Self {
         Self { across: Parameter::N, up: Parameter::K, contours: true, paths: true, minima: true, metals: true }
     }
@@ -108,7 +108,7 @@ impl Default for OverTwo {
 /// Which tabulated metal is looked at, and at which wavelength.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Tabulated {
+pub struct MetalSelection {
     /// Key of the metal.
     pub metal: String,
     /// Vacuum wavelength in nm.
@@ -119,13 +119,13 @@ pub struct Tabulated {
     pub follow: bool,
 }
 
-impl Default for Tabulated {
+impl Default for MetalSelection {
     fn default() -> Self {
         Self { metal: "Fe".to_owned(), wavelength_nm: 650.0, source: None, follow: true }
     }
 }
 
-impl Tabulated {
+impl MetalSelection {
     /// Turns to a metal, if there is one.
     pub fn look_at(&mut self, metal: Option<&Metal>) {
         if let Some(metal) = metal.filter(|metal| metal.key != self.metal) {
@@ -152,7 +152,7 @@ pub struct Settings {
     /// Whether the bounds stand under the sliders.
     pub show_bounds: bool,
     /// What a fit minimises.
-    pub choices: Choices,
+    pub choices: FitOptions,
     /// Where a fit begins.
     pub starts: Starts,
     /// Seed of the starts and of the bootstrap.
@@ -173,9 +173,9 @@ pub struct Settings {
     pub show_backscatter: bool,
     /// Whether what is free is fitted again whenever a slider moves.
     pub refit_live: bool,
-    pub shown: Shown,
-    pub tabulated: Tabulated,
-    pub landscape: OverTwo,
+    pub shown: ViewOptions,
+    pub tabulated: MetalSelection,
+    pub landscape: LandscapeAxes,
 }
 
 impl Default for Settings {
@@ -186,7 +186,7 @@ impl Default for Settings {
             locked: ParameterSet::EMPTY.with(Parameter::Ks),
             bounds: Vec::new(),
             show_bounds: false,
-            choices: Choices::default(),
+            choices: FitOptions::default(),
             starts: Starts::Automatic,
             seed: 1,
             plan: Plan::default(),
@@ -197,9 +197,9 @@ impl Default for Settings {
             show_band: true,
             show_backscatter: false,
             refit_live: false,
-            shown: Shown::default(),
-            tabulated: Tabulated::default(),
-            landscape: OverTwo::default(),
+            shown: ViewOptions::default(),
+            tabulated: MetalSelection::default(),
+            landscape: LandscapeAxes::default(),
         }
     }
 }
@@ -352,12 +352,12 @@ impl WindowSettings {
 /// The settings file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Stored {
+pub struct SettingsFile {
     pub settings: Settings,
     pub window: WindowSettings,
 }
 
-impl Stored {
+impl SettingsFile {
     /// The key of a value that means nothing, and why.
     pub fn fault(&self) -> Option<String> {
         let size = || (!self.window.is_sound()).then(|| format!("window.size: {}", tr!("a value is outside its range")));

@@ -7,20 +7,20 @@
 
 use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::objective::Problem;
-use crate::fit::options::Eq17;
-use crate::model::{Gradient, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection, Wanted};
+use crate::fit::options::DolpFormula;
+use crate::model::{Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 use crate::optics::Facet;
 
 /// What is needed to say how far a fitted curve can be trusted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Band {
+pub struct PredictionBand {
     model: Model,
     parameters: Parameters,
-    eq17: Eq17,
+    eq17: DolpFormula,
     uncertainty: Uncertainty,
 }
 
-impl Band {
+impl PredictionBand {
     /// Around the curves of those parameters, given what the problem's data determine there.
     #[must_use]
     pub fn new(problem: &Problem, parameters: &Parameters, uncertainty: Uncertainty) -> Self {
@@ -35,7 +35,7 @@ impl Band {
 
     /// The reading of Eq. (17) that [`Self::dolp`] speaks of.
     #[must_use]
-    pub fn eq17(&self) -> Eq17 {
+    pub fn eq17(&self) -> DolpFormula {
         self.eq17
     }
 
@@ -43,20 +43,22 @@ impl Band {
     /// curve open or no degree of freedom is left.
     #[must_use]
     pub fn dolp(&self, facets: &[Facet]) -> Vec<Option<f64>> {
-        self.errors(facets, Wanted { by: self.by(), brdf: false, dolp: true }, |at| dolp_gradient(at, self.eq17, self.parameters.ks))
+        self.errors(facets, GradientRequest { by: self.by(), brdf: false, dolp: true }, |at| {
+            dolp_gradient(at, self.eq17, self.parameters.ks)
+        })
     }
 
     /// Standard errors of the predicted BRDF, in sr⁻¹, the same way.
     #[must_use]
     pub fn brdf(&self, facets: &[Facet]) -> Vec<Option<f64>> {
-        self.errors(facets, Wanted { by: self.by(), brdf: true, dolp: false }, |(_, gradient)| gradient.brdf)
+        self.errors(facets, GradientRequest { by: self.by(), brdf: true, dolp: false }, |(_, gradient)| gradient.brdf)
     }
 
     fn by(&self) -> ParameterSet {
         self.uncertainty.analysed.iter().copied().collect()
     }
 
-    fn errors(&self, facets: &[Facet], wanted: Wanted, pick: impl Fn(&(Reflection, Gradient)) -> [f64; 9]) -> Vec<Option<f64>> {
+    fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&(Reflection, Gradient)) -> [f64; 9]) -> Vec<Option<f64>> {
         let Ok(surface) = Pbrdf::new(self.model, self.parameters) else { return vec![None; facets.len()] };
         let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted)));
         facets.iter().map(error).collect()
@@ -64,10 +66,10 @@ impl Band {
 }
 
 /// ∂DoLP/∂p by either reading of Eq. (17): as printed it is the consistent value over k_s.
-fn dolp_gradient((reflection, gradient): &(Reflection, Gradient), eq17: Eq17, ks: f64) -> [f64; 9] {
+fn dolp_gradient((reflection, gradient): &(Reflection, Gradient), eq17: DolpFormula, ks: f64) -> [f64; 9] {
     match eq17 {
-        Eq17::Consistent => gradient.dolp,
-        Eq17::Printed => {
+        DolpFormula::Consistent => gradient.dolp,
+        DolpFormula::AsPrinted => {
             let mut printed = gradient.dolp.map(|derivative| derivative / ks);
             printed[Parameter::Ks as usize] -= reflection.dolp / (ks * ks);
             printed

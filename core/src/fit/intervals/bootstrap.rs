@@ -3,16 +3,16 @@
 //! Data of each replicate are the fitted values and residuals drawn with replacement, widened by `√(N/(N − rank))` for what the
 //! fit took out of them (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted from the solution.
 
-use crate::fit::local::solver::{Effort, Watch, descend};
+use crate::fit::local::solver::{Effort, Observer, fit_local};
 use crate::fit::objective::Problem;
-use crate::fit::result::FitReport;
+use crate::fit::result::FitResult;
 use crate::model::{Parameter, Parameters};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 /// How one parameter scatters over the replicates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scatter {
+pub struct BootstrapEstimate {
     /// Which parameter.
     pub parameter: Parameter,
     /// Standard deviation.
@@ -28,7 +28,7 @@ const AT_ONCE: usize = 64;
 
 /// Refits `replicates` data sets; those that were not reached before a cancel are left out.
 #[must_use]
-pub fn bootstrap(problem: &Problem, report: &FitReport, replicates: usize, seed: u64, watch: Watch<'_>) -> Vec<Scatter> {
+pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed: u64, watch: Observer<'_>) -> Vec<BootstrapEstimate> {
     if problem.is_empty() || problem.free().is_empty() {
         return Vec::new();
     }
@@ -38,7 +38,7 @@ pub fn bootstrap(problem: &Problem, report: &FitReport, replicates: usize, seed:
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
     let widen = (problem.len() as f64 / report.dof.max(1) as f64).sqrt();
     let solution = problem.with_start(report.parameters);
-    let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| descend(replicate, Effort::Full, watch).parameters);
+    let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| fit_local(replicate, Effort::Full, watch).parameters);
     let mut fits = Vec::new();
     let mut left = replicates;
     // Data sets are drawn in their order, and no more of them are held than are being fitted.
@@ -65,7 +65,7 @@ fn refit_all(drawn: &[Problem], refit: &(dyn Fn(&Problem) -> Option<Parameters> 
     drawn.iter().filter_map(refit).collect()
 }
 
-fn scatter(parameter: Parameter, mut values: Vec<f64>) -> Scatter {
+fn scatter(parameter: Parameter, mut values: Vec<f64>) -> BootstrapEstimate {
     values.sort_by(f64::total_cmp);
     #[expect(clippy::cast_precision_loss, reason = "a number of replicates")]
     let count = values.len() as f64;
@@ -73,5 +73,5 @@ fn scatter(parameter: Parameter, mut values: Vec<f64>) -> Scatter {
     let variance = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0).max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index into the values")]
     let at = |fraction: f64| values[((count - 1.0) * fraction).round() as usize];
-    Scatter { parameter, std_error: variance.sqrt(), low: at(0.16), high: at(0.84) }
+    BootstrapEstimate { parameter, std_error: variance.sqrt(), low: at(0.16), high: at(0.84) }
 }

@@ -19,7 +19,7 @@ const UNDETERMINED_SHARE: f64 = 1e-3;
 
 /// A direction in parameter space that the data leave open.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OpenDirection {
+pub struct UndeterminedDirection {
     /// In words.
     pub text: String,
     /// Relative change of each parameter along it, largest 1, small ones left out.
@@ -43,7 +43,7 @@ pub struct Uncertainty {
     /// Covariance of those.
     pub covariance: DMatrix<f64>,
     /// What is left open.
-    pub open: Vec<OpenDirection>,
+    pub open: Vec<UndeterminedDirection>,
     /// The parameters that took part: the free ones that do not rest on a bound.
     pub(crate) analysed: Vec<Parameter>,
     /// Pseudo-inverse covariance of all of those.
@@ -110,7 +110,7 @@ impl Uncertainty {
 
     /// Nothing is determined.
     fn nothing(free: &[Parameter]) -> Self {
-        let open = free.iter().map(|&parameter| OpenDirection { text: no_effect(parameter), direction: vec![(parameter, 1.0)] });
+        let open = free.iter().map(|&parameter| UndeterminedDirection { text: no_effect(parameter), direction: vec![(parameter, 1.0)] });
         let count = free.len();
         Self {
             rank: 0,
@@ -171,7 +171,7 @@ fn variance_of_unit_weight(problem: &Problem, sum_of_squares: f64, rank: usize) 
 }
 
 /// The null space in its sparsest form (reduced by rows with pivots), each direction in words.
-fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios: bool) -> Vec<OpenDirection> {
+fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios: bool) -> Vec<UndeterminedDirection> {
     let (rows, columns) = null_space.shape();
     for i in 0..rows {
         let pivot =
@@ -193,7 +193,7 @@ fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios:
     (0..rows)
         .map(|i| {
             let direction = direction(i);
-            OpenDirection { text: in_words(&direction, knows_only_ratios), direction }
+            UndeterminedDirection { text: in_words(&direction, knows_only_ratios), direction }
         })
         .collect()
 }

@@ -3,10 +3,10 @@
 //! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
 //! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
 
-use crate::fit::local::solver::{Effort, Watch, descend};
+use crate::fit::local::solver::{Effort, Observer, fit_local};
 use crate::fit::objective::Problem;
 use crate::fit::options::Weights;
-use crate::fit::result::FitReport;
+use crate::fit::result::FitResult;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use serde::Serialize;
 
@@ -41,7 +41,7 @@ const REACH: f64 = 3.0;
 
 /// Scans a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
 #[must_use]
-pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watch: Watch<'_>) -> Profile {
+pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watch: Observer<'_>) -> Profile {
     let best = report.parameters[parameter];
     let (low, high) = problem.bounds().of(parameter);
     let error = report.estimates.iter().find(|estimate| estimate.parameter == parameter).and_then(|estimate| estimate.std_error);
@@ -59,7 +59,7 @@ pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watc
                 break;
             }
             from[parameter] = best + (side - best) * f64::from(step) / f64::from(STEPS);
-            let descent = descend(&held.with_start(from), Effort::Full, watch);
+            let descent = fit_local(&held.with_start(from), Effort::Full, watch);
             from = descent.parameters;
             scan.push((from[parameter], descent.sum_of_squares, from));
         }
@@ -90,7 +90,7 @@ pub fn profile(problem: &Problem, report: &FitReport, parameter: Parameter, watc
     Profile { parameter, points, low, high }
 }
 
-fn limit(problem: &Problem, report: &FitReport, smallest: f64) -> f64 {
+fn limit(problem: &Problem, report: &FitResult, smallest: f64) -> f64 {
     match problem.choices().weights {
         Weights::Sigma => smallest + 1.0,
         #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]

@@ -3,18 +3,18 @@
 //! Each step minimises `‖J d + r‖² + λ ‖D d‖²` over the steps that stay in the box; unknowns that rest on an edge with the objective falling
 //! outwards do not move. D holds the norms of the columns of J. Where the straight step d meets the curvature of the residuals, half of
 //! their second derivative along d is fitted away too (Transtrum and Sethna, arXiv:1201.5885): in a curved valley such a step follows the
-//! bend, and goes several times as far.
+//! geodesic_acceleration, and goes several times as far.
 //!
 //! It ends where the undamped linear problem promises no further fall: `‖Qᵀ r‖² ≤ ε ‖r‖²`, the relative offset of Bates and Watts
 //! (Technometrics 23, 179 (1981)), which knows no unit.
 
 use crate::fit::least_squares::LeastSquares;
 use crate::fit::local::qr::{Damped, Qr, Workspace};
-use crate::fit::local::solver::{Log, StopReason};
+use crate::fit::local::solver::{Recorder, StopReason};
 use nalgebra::{DMatrix, DVector};
 
 /// Relative offset, squared, at which the minimum is reached for every purpose of the objective.
-const REACHED: f64 = 1e-12;
+const GRADIENT_TOLERANCE: f64 = 1e-12;
 /// Steps at the end that sharpen the unknowns, not the objective, which is down to rounding by then.
 const SHARPENING: usize = 40;
 /// Each must make the relative offset, squared, smaller by this factor.
@@ -29,10 +29,10 @@ const LEAST_DAMPING: f64 = 1e-18;
 /// Part of a step at which the curvature along it is measured.
 const PROBE: f64 = 0.1;
 /// The acceleration may be this fraction of the step; beyond, the step is too long for its curvature.
-const BENT: f64 = 0.75;
+const MAX_ACCELERATION_RATIO: f64 = 0.75;
 /// An unknown that could not change the residuals by more than this fraction of their size if it crossed its whole box is idle: what its
 /// column says is rounding.
-const IDLE: f64 = 1e-10;
+const INSENSITIVE: f64 = 1e-10;
 /// Promised relative falls below this are too small to measure a curvature by.
 const STRAIGHT: f64 = 1e-8;
 
@@ -55,7 +55,7 @@ struct Point {
 }
 
 /// A walk through a problem, with its buffers.
-pub(crate) struct Walk<'a, P: LeastSquares> {
+pub(crate) struct BoundedLm<'a, P: LeastSquares> {
     problem: &'a P,
     here: Point,
     there: Point,
@@ -76,11 +76,11 @@ pub(crate) struct Walk<'a, P: LeastSquares> {
 /// What came of trying to leave a point.
 enum Try {
     Better,
-    Nowhere,
+    Stalled,
     Stopped(StopReason),
 }
 
-impl<'a, P: LeastSquares> Walk<'a, P> {
+impl<'a, P: LeastSquares> BoundedLm<'a, P> {
     pub(crate) fn new(problem: &'a P, start: &DVector<f64>) -> Self {
         let (m, n) = (problem.residual_count(), start.len());
         let point = |x: DVector<f64>| Point { x, residuals: DVector::zeros(m), sum_of_squares: f64::INFINITY };
@@ -105,7 +105,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// Goes on until it is there, or cannot.
-    pub(crate) fn run(&mut self, limits: Limits, log: &mut Log<'_>) -> StopReason {
+    pub(crate) fn run(&mut self, limits: Limits, log: &mut Recorder<'_>) -> StopReason {
         self.here.sum_of_squares = log.evaluate(self.problem, &self.here.x, &mut self.here.residuals);
         if log.is_cancelled() {
             return StopReason::Cancelled;
@@ -122,15 +122,15 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
                 return StopReason::Numerical;
             }
             let offset = self.offset();
-            if offset <= REACHED * self.here.sum_of_squares {
+            if offset <= GRADIENT_TOLERANCE * self.here.sum_of_squares {
                 if limits.sharpen {
                     return self.sharpen(log);
                 }
                 return StopReason::Converged;
             }
-            match self.leave(last, log) {
+            match self.advance(last, log) {
                 Try::Better => {}
-                Try::Nowhere => return StopReason::NoImprovement,
+                Try::Stalled => return StopReason::NoImprovement,
                 Try::Stopped(reason) => return reason,
             }
         }
@@ -154,10 +154,10 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             let slope = jacobian.column(j).dot(&here.residuals);
             !((at_low && slope >= 0.0) || (at_high && slope <= 0.0))
         }));
-        problem.straighten(&here.x, moving, jacobian);
-        let idle = IDLE * here.residuals.norm();
+        problem.to_local(&here.x, moving, jacobian);
+        let idle = INSENSITIVE * here.residuals.norm();
         moving.retain(|&j| {
-            let (low, high) = problem.reach(&here.x, j);
+            let (low, high) = problem.local_bounds(&here.x, j);
             jacobian.column(j).norm() * (high - low) > idle
         });
         let m = jacobian.nrows();
@@ -170,7 +170,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         scale.clear();
         scale.extend(moving.iter().map(|&j| jacobian.column(j).norm().max(f64::MIN_POSITIVE)));
         ends.clear();
-        ends.extend(moving.iter().map(|&j| problem.reach(&here.x, j)));
+        ends.extend(moving.iter().map(|&j| problem.local_bounds(&here.x, j)));
         rotated.clear();
         rotated.extend_from_slice(here.residuals.as_slice());
         rotated.resize(qr.rows(), 0.0);
@@ -184,7 +184,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// Takes a step that makes the sum of squares smaller.
-    fn leave(&mut self, last: usize, log: &mut Log<'_>) -> Try {
+    fn advance(&mut self, last: usize, log: &mut Recorder<'_>) -> Try {
         let mut growth = 2.0;
         while self.damping < MOST_DAMPING {
             if log.is_cancelled() {
@@ -193,11 +193,11 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             if log.evaluations() >= last {
                 return Try::Stopped(StopReason::EvaluationLimit);
             }
-            let promised = self.plan();
+            let promised = self.damped_step();
             if promised.is_nan() || promised <= f64::EPSILON * self.here.sum_of_squares {
-                return Try::Nowhere;
+                return Try::Stalled;
             }
-            let bent = promised > STRAIGHT * self.here.sum_of_squares && self.bend(log);
+            let bent = promised > STRAIGHT * self.here.sum_of_squares && self.geodesic_acceleration(log);
             if !bent {
                 self.try_step(log);
                 let ratio = (self.here.sum_of_squares - self.there.sum_of_squares) / promised;
@@ -211,11 +211,11 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             self.damping *= growth;
             growth *= 2.0;
         }
-        Try::Nowhere
+        Try::Stalled
     }
 
     /// The damped step; what it promises.
-    fn plan(&mut self) -> f64 {
+    fn damped_step(&mut self) -> f64 {
         let Self { qr, scale, damping, rotated, ends, step, space, moving, .. } = self;
         step.clear();
         step.resize(moving.len(), 0.0);
@@ -225,11 +225,11 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// Adds the acceleration to the step; true if the step is too long for it.
-    fn bend(&mut self, log: &mut Log<'_>) -> bool {
+    fn geodesic_acceleration(&mut self, log: &mut Recorder<'_>) -> bool {
         let Self { problem, here, there, jacobian, moving, scale, qr, step, acceleration, space, damping, .. } = self;
         acceleration.clear();
         acceleration.extend(step.iter().map(|d| PROBE * d));
-        problem.advance(&here.x, moving, acceleration, &mut there.x);
+        problem.retract(&here.x, moving, acceleration, &mut there.x);
         confine(&self.bounds, &mut there.x);
         log.evaluate(*problem, &there.x, &mut there.residuals);
         let mut second: Vec<f64> = (0..here.residuals.len())
@@ -245,29 +245,29 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         second.resize(qr.rows(), 0.0);
         qr.transposed_times(&mut second);
         let damped = Damped { qr, scale, damping: *damping };
-        damped.solve_again(&second, acceleration, space);
+        damped.resolve_with_rhs(&second, acceleration, space);
         let size = |d: &[f64]| d.iter().zip(scale.iter()).map(|(d, s)| (d * s) * (d * s)).sum::<f64>().sqrt();
-        if 2.0 * size(acceleration) > BENT * size(step) {
+        if 2.0 * size(acceleration) > MAX_ACCELERATION_RATIO * size(step) {
             return true;
         }
         step.iter_mut().zip(acceleration.iter()).for_each(|(d, a)| *d += a);
         false
     }
 
-    fn try_step(&mut self, log: &mut Log<'_>) {
+    fn try_step(&mut self, log: &mut Recorder<'_>) {
         let Self { problem, here, there, moving, step, .. } = self;
-        problem.advance(&here.x, moving, step, &mut there.x);
+        problem.retract(&here.x, moving, step, &mut there.x);
         confine(&self.bounds, &mut there.x);
         there.sum_of_squares = log.evaluate(*problem, &there.x, &mut there.residuals);
     }
 
     /// Undamped steps as long as they bring the offset down: the sum of squares no longer tells.
-    fn sharpen(&mut self, log: &mut Log<'_>) -> StopReason {
+    fn sharpen(&mut self, log: &mut Recorder<'_>) -> StopReason {
         let smallest = self.here.sum_of_squares;
         for _ in 0..SHARPENING {
             let offset = self.offset();
             self.damping = 0.0;
-            if offset == 0.0 || !self.plan().is_finite() || log.is_cancelled() {
+            if offset == 0.0 || !self.damped_step().is_finite() || log.is_cancelled() {
                 break;
             }
             self.try_step(log);
@@ -294,7 +294,7 @@ fn confine(bounds: &[(f64, f64)], x: &mut DVector<f64>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::fit::{Effort, LeastSquares, StopReason, Watch, minimise};
+    use crate::fit::{Effort, LeastSquares, Observer, StopReason, minimise};
     use nalgebra::{DMatrix, DVector, dvector};
 
     /// Rosenbrock's valley, 10(y − x²) and 1 − x, in a box.
@@ -331,7 +331,7 @@ mod tests {
 
     #[test]
     fn it_follows_a_curved_valley_to_its_end() {
-        let found = minimise(&Valley { bounds: [ANYWHERE; 2] }, Effort::Finish, Watch::NOBODY);
+        let found = minimise(&Valley { bounds: [ANYWHERE; 2] }, Effort::Finish, Observer::NONE);
         assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-12, "{:?}", found.stop_reason);
         // A step takes two evaluations; without a way of following the bend it would be thousands.
         assert!(found.evaluations < 100, "{}", found.evaluations);
@@ -339,7 +339,7 @@ mod tests {
 
     #[test]
     fn it_ends_exactly_on_the_edge_that_stops_it() {
-        let found = minimise(&Valley { bounds: [(-2.0, 0.5), ANYWHERE] }, Effort::Finish, Watch::NOBODY);
+        let found = minimise(&Valley { bounds: [(-2.0, 0.5), ANYWHERE] }, Effort::Finish, Observer::NONE);
         // On x = ½ the valley floor is y = ¼, and 1 − x is left over.
         assert_eq!((found.x[0], found.stop_reason), (0.5, StopReason::Converged));
         assert!((found.x[1] - 0.25).abs() < 1e-9 && (found.sum_of_squares - 0.25).abs() < 1e-12);
@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn a_start_outside_the_box_is_put_inside() {
-        let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Finish, Watch::NOBODY);
+        let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Finish, Observer::NONE);
         assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-9);
     }
 }

@@ -4,7 +4,7 @@
 //! instead of running away. An unknown without bounds stays itself.
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::solver::{Log, StopReason};
+use crate::fit::local::solver::{Recorder, StopReason};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -15,15 +15,15 @@ use std::f64::consts::FRAC_PI_2;
 const START_MARGIN: f64 = 1e-3;
 /// First step bound: MINPACK's 100 overshoots from far starts.
 const STEP_BOUND: f64 = 1.0;
-/// Relative fall of the objective in a step below which the approach has done its part.
+/// Relative fall of the objective in a step below which the minpack_sin2 has done its part.
 const TOLERANCE: f64 = 1e-5;
 
 /// From anywhere until progress is slow, or for `patience` evaluations per unknown and one.
-pub(crate) fn approach<P: LeastSquares>(
+pub(crate) fn minpack_sin2<P: LeastSquares>(
     problem: &P,
     start: &DVector<f64>,
     patience: usize,
-    log: &mut Log<'_>,
+    log: &mut Recorder<'_>,
 ) -> (DVector<f64>, StopReason) {
     let boxes: Vec<(f64, f64)> = (0..start.len()).map(|j| problem.bounds_of(j)).collect();
     let angle = |j: usize| {
@@ -57,7 +57,7 @@ struct Adapter<'a, 'l, 'w, P: LeastSquares> {
     z: DVector<f64>,
     /// The best point: the crate returns rejected ones.
     best: RefCell<(f64, DVector<f64>)>,
-    log: RefCell<&'l mut Log<'w>>,
+    log: RefCell<&'l mut Recorder<'w>>,
 }
 
 impl<P: LeastSquares> Adapter<'_, '_, '_, P> {

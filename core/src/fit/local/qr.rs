@@ -137,7 +137,7 @@ impl Damped<'_> {
     }
 
     /// Solves it for another b with the unknowns that the last solution put at their ends at 0.
-    pub(crate) fn solve_again(&self, b: &[f64], step: &mut [f64], space: &mut Workspace) {
+    pub(crate) fn resolve_with_rhs(&self, b: &[f64], step: &mut [f64], space: &mut Workspace) {
         step.fill(0.0);
         self.solve_inside(b, step, space);
         for (&j, &value) in space.inside.iter().zip(&space.solution) {

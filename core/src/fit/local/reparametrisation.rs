@@ -37,12 +37,12 @@ impl Problem {
     }
 
     /// σ²/h.
-    fn flatness(&self, parameters: &Parameters) -> f64 {
+    fn inverse_peak_height(&self, parameters: &Parameters) -> f64 {
         parameters.sigma * parameters.sigma / self.model().distribution.height(parameters.q)
     }
 
     /// The power of σ²/h that a weight goes with: 0 for what goes its own way.
-    fn power(&self, parameter: Parameter) -> i32 {
+    fn weight_exponent(&self, parameter: Parameter) -> i32 {
         match parameter {
             _ if !self.model().specular => 0,
             Parameter::Kd | Parameter::Kv if self.knows_only_ratios() => 1,
@@ -81,7 +81,7 @@ impl LeastSquares for Problem {
         ROUNDING_OBJECTIVE
     }
 
-    fn straighten(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
+    fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
         for &i in moving {
             let parameter = self.free()[i];
             let Some(origin) = origin(parameter) else { continue };
@@ -93,9 +93,9 @@ impl LeastSquares for Problem {
                 _ => continue,
             };
             for &j in moving {
-                let power = self.power(self.free()[j]);
-                if power != 0 && x[j] != 0.0 {
-                    let along = -slope * f64::from(power) * x[j];
+                let weight_exponent = self.weight_exponent(self.free()[j]);
+                if weight_exponent != 0 && x[j] != 0.0 {
+                    let along = -slope * f64::from(weight_exponent) * x[j];
                     let weight = jacobian.column(j).clone_owned();
                     jacobian.column_mut(i).axpy(along, &weight, 1.0);
                 }
@@ -103,7 +103,7 @@ impl LeastSquares for Problem {
         }
     }
 
-    fn reach(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
+    fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
         let (low, high) = self.bounds_of(unknown);
         match origin(self.free()[unknown]) {
             Some(origin) => {
@@ -114,7 +114,7 @@ impl LeastSquares for Problem {
         }
     }
 
-    fn advance(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
+    fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);
         for (&j, step) in moving.iter().zip(step) {
             out[j] = match origin(self.free()[j]) {
@@ -122,11 +122,11 @@ impl LeastSquares for Problem {
                 None => x[j] + step,
             };
         }
-        let flatter = self.flatness(&self.parameters_at(out)) / self.flatness(&self.parameters_at(x));
+        let flatter = self.inverse_peak_height(&self.parameters_at(out)) / self.inverse_peak_height(&self.parameters_at(x));
         for &j in moving {
-            match self.power(self.free()[j]) {
+            match self.weight_exponent(self.free()[j]) {
                 0 => {}
-                power if power > 0 => out[j] /= flatter,
+                weight_exponent if weight_exponent > 0 => out[j] /= flatter,
                 _ => out[j] *= flatter,
             }
         }
@@ -136,7 +136,7 @@ impl LeastSquares for Problem {
 #[cfg(test)]
 mod tests {
     use super::LeastSquares;
-    use crate::fit::{Bounds, Choices, Problem};
+    use crate::fit::{Bounds, FitOptions, Problem};
     use crate::measurement::{Columns, Simulation};
     use crate::model::{Model, Parameters, Pbrdf};
     use crate::optics::SlopeDistribution;
@@ -160,7 +160,7 @@ mod tests {
         .run()
         .unwrap();
         let start = Parameters { n: 1.4, k: 2.2, sigma: 0.4, ks: 0.8, kd: 0.2, kv: 0.3, q: 2.6, c: -0.3, sigma_v: 0.7 };
-        Problem::new(&measurement, model, start, model.parameters(), Bounds::default(), Choices::default()).unwrap()
+        Problem::new(&measurement, model, start, model.parameters(), Bounds::default(), FitOptions::default()).unwrap()
     }
 
     #[test]
@@ -174,12 +174,12 @@ mod tests {
             let moving: Vec<usize> = (0..x.len()).collect();
             let mut jacobian = DMatrix::zeros(problem.residual_count(), x.len());
             assert!(problem.jacobian_at(&x, &mut jacobian));
-            problem.straighten(&x, &moving, &mut jacobian);
+            problem.to_local(&x, &moving, &mut jacobian);
             for j in 0..x.len() {
                 let residuals_after = |h: f64| {
                     let step: Vec<f64> = (0..x.len()).map(|i| if i == j { h } else { 0.0 }).collect();
                     let (mut there, mut residuals) = (x.clone(), DVector::zeros(problem.residual_count()));
-                    problem.advance(&x, &moving, &step, &mut there);
+                    problem.retract(&x, &moving, &step, &mut there);
                     assert!(problem.residuals_at(&there, &mut residuals));
                     residuals
                 };
@@ -195,10 +195,10 @@ mod tests {
         let problem = problem(Cauchy, Columns::Dolp);
         let x = LeastSquares::start(&problem);
         for j in 0..x.len() {
-            let (down, up) = problem.reach(&x, j);
+            let (down, up) = problem.local_bounds(&x, j);
             for (step, edge) in [(down, problem.bounds_of(j).0), (up, problem.bounds_of(j).1)] {
                 let mut there = x.clone();
-                problem.advance(&x, &[j], &[step], &mut there);
+                problem.retract(&x, &[j], &[step], &mut there);
                 assert!((there[j] - edge).abs() <= 1e-13 * (1.0 + edge.abs()), "{j}: {} instead of {edge}", there[j]);
             }
         }

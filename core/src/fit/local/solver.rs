@@ -1,12 +1,12 @@
 //! From one start to a minimum.
 //!
 //! Two ways lead there. [`crate::fit::local::bounded_lm`] is fast, bends with valleys and ends exactly on edges of the box, but may run into an edge before it
-//! sees the minimum behind. The crate `levenberg-marquardt` ([`crate::fit::local::minpack`]) never quite reaches an edge and comes by; it makes the approach
+//! sees the minimum behind. The crate `levenberg-marquardt` ([`crate::fit::local::minpack`]) never quite reaches an edge and comes by; it makes the minpack_sin2
 //! where a walk alone has failed, and where a start is one of many.
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::bounded_lm::{Limits, Walk};
-use crate::fit::local::minpack::approach;
+use crate::fit::local::bounded_lm::{BoundedLm, Limits};
+use crate::fit::local::minpack::minpack_sin2;
 use crate::fit::objective::Problem;
 use crate::model::Parameters;
 use nalgebra::DVector;
@@ -44,7 +44,7 @@ impl StopReason {
             Self::NoImprovement => "no further improvement is possible",
             Self::EvaluationLimit => "too many evaluations",
             Self::Cancelled => "cancelled; the best so far is shown",
-            Self::Underdetermined => "the data leave some parameters open",
+            Self::Underdetermined => "the data advance some parameters open",
             Self::NoData => "there are no data to fit",
             Self::Numerical => "a number beyond the range of f64 came up",
         }
@@ -64,7 +64,7 @@ pub struct TracePoint {
 
 /// What a fit is given from outside: a clock, a wish to stop, and somebody to tell.
 #[derive(Clone, Copy)]
-pub struct Watch<'a> {
+pub struct Observer<'a> {
     /// Milliseconds since the fit began.
     pub clock: &'a (dyn Fn() -> f64 + Sync),
     /// Whether to stop.
@@ -73,14 +73,14 @@ pub struct Watch<'a> {
     pub progress: &'a (dyn Fn(TracePoint) + Sync),
 }
 
-impl Watch<'static> {
+impl Observer<'static> {
     /// Nobody watches: no clock, no cancel.
-    pub const NOBODY: Self = Self { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
+    pub const NONE: Self = Self { clock: &|| 0.0, cancelled: &|| false, progress: &|_| {} };
 }
 
 /// Where one start led.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Descent {
+pub struct LocalFit {
     /// The best parameters seen.
     pub parameters: Parameters,
     /// Sum of the squared (scaled) residuals there; infinite if none was finite.
@@ -130,24 +130,24 @@ const STEPS: usize = 2000;
 /// Evaluations of it, per unknown and one; and of one among many.
 const PATIENCE: usize = 400;
 const SHORT_PATIENCE: usize = 50;
-/// Evaluations of the approach, per unknown and one.
+/// Evaluations of the minpack_sin2, per unknown and one.
 const APPROACH_PATIENCE: usize = 30;
-/// The same for a glance at where a start leads.
+/// The same for a probe at where a start leads.
 const GLANCE: usize = 1;
 
 /// Fits from the problem's start.
 #[must_use]
-pub fn descend(problem: &Problem, effort: Effort, watch: Watch<'_>) -> Descent {
+pub fn fit_local(problem: &Problem, effort: Effort, watch: Observer<'_>) -> LocalFit {
     let Solution { x, sum_of_squares, stop_reason, evaluations, trace, path } = minimise(problem, effort, watch);
     let path = path.iter().map(|x| problem.parameters_at(x)).collect();
-    Descent { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace, path }
+    LocalFit { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace, path }
 }
 
 /// Minimises a sum of squares from its start.
 #[must_use]
-pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, watch: Watch<'_>) -> Solution {
+pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, watch: Observer<'_>) -> Solution {
     let start = problem.start();
-    let mut log = Log::new(&start, watch);
+    let mut log = Recorder::new(&start, watch);
     if problem.residual_count() == 0 {
         return log.into_solution(StopReason::NoData);
     }
@@ -157,9 +157,9 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, watch: Watch<'_>) 
         return log.into_solution(StopReason::Converged);
     }
     let stop = match effort {
-        Effort::Few => approach(problem, &start, GLANCE, &mut log).1,
-        Effort::Reach => reach(problem, &start, SHORT_PATIENCE * (n + 1), &mut log),
-        Effort::Finish => Walk::new(problem, &start).run(limits(PATIENCE * (n + 1)), &mut log),
+        Effort::Few => minpack_sin2(problem, &start, GLANCE, &mut log).1,
+        Effort::Reach => local_bounds(problem, &start, SHORT_PATIENCE * (n + 1), &mut log),
+        Effort::Finish => BoundedLm::new(problem, &start).run(limits(PATIENCE * (n + 1)), &mut log),
         Effort::Full => go_all_the_way(problem, &start, limits(PATIENCE * (n + 1)), &mut log),
     };
     log.into_solution(stop)
@@ -170,28 +170,28 @@ const fn limits(evaluations: usize) -> Limits {
 }
 
 /// By the crate until it becomes slow, then on foot.
-fn reach<P: LeastSquares>(problem: &P, start: &DVector<f64>, evaluations: usize, log: &mut Log<'_>) -> StopReason {
-    let (from, stop) = approach(problem, start, APPROACH_PATIENCE, log);
+fn local_bounds<P: LeastSquares>(problem: &P, start: &DVector<f64>, evaluations: usize, log: &mut Recorder<'_>) -> StopReason {
+    let (from, stop) = minpack_sin2(problem, start, APPROACH_PATIENCE, log);
     if stop == StopReason::Cancelled {
         return stop;
     }
-    Walk::new(problem, &from).run(Limits { steps: STEPS, evaluations, sharpen: false }, log)
+    BoundedLm::new(problem, &from).run(Limits { steps: STEPS, evaluations, sharpen: false }, log)
 }
 
 /// On foot from the start, which is fastest. Where that ends nowhere or on an edge of the box, which a walk runs into before it sees the
 /// minimum behind, the crate shows another way.
-fn go_all_the_way<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, log: &mut Log<'_>) -> StopReason {
-    let stop = Walk::new(problem, start).run(limits, log);
+fn go_all_the_way<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, log: &mut Recorder<'_>) -> StopReason {
+    let stop = BoundedLm::new(problem, start).run(limits, log);
     if matches!(stop, StopReason::ResidualsZero | StopReason::Cancelled) || (stop == StopReason::Converged && is_inside(problem, &log.best))
     {
         return stop;
     }
-    let (from, other) = approach(problem, start, APPROACH_PATIENCE, log);
+    let (from, other) = minpack_sin2(problem, start, APPROACH_PATIENCE, log);
     if other == StopReason::Cancelled {
         return other;
     }
     let before = log.sum_of_squares;
-    let other = Walk::new(problem, &from).run(limits, log);
+    let other = BoundedLm::new(problem, &from).run(limits, log);
     if log.sum_of_squares < before || other == StopReason::Cancelled { other } else { stop }
 }
 
@@ -203,8 +203,8 @@ fn is_inside<P: LeastSquares>(problem: &P, x: &DVector<f64>) -> bool {
 }
 
 /// What is kept while solvers come and go: the solver crate itself returns rejected points.
-pub(crate) struct Log<'a> {
-    watch: Watch<'a>,
+pub(crate) struct Recorder<'a> {
+    watch: Observer<'a>,
     best: DVector<f64>,
     sum_of_squares: f64,
     evaluations: usize,
@@ -212,9 +212,9 @@ pub(crate) struct Log<'a> {
     path: Vec<DVector<f64>>,
 }
 
-impl Descent {
+impl LocalFit {
     /// Appends a further descent that began at this one's end.
-    pub(crate) fn go_on(&mut self, further: Self) {
+    pub(crate) fn append(&mut self, further: Self) {
         let so_far = self.evaluations;
         let shifted = further.trace.into_iter().map(|point| TracePoint { evaluations: so_far + point.evaluations, ..point });
         let last = self.trace.last().map_or(f64::INFINITY, |point| point.objective);
@@ -231,8 +231,8 @@ impl Descent {
     }
 }
 
-impl<'a> Log<'a> {
-    fn new(start: &DVector<f64>, watch: Watch<'a>) -> Self {
+impl<'a> Recorder<'a> {
+    fn new(start: &DVector<f64>, watch: Observer<'a>) -> Self {
         Self { watch, best: start.clone(), sum_of_squares: f64::INFINITY, evaluations: 0, trace: Vec::new(), path: Vec::new() }
     }
 
@@ -283,13 +283,13 @@ impl<'a> Log<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Descent, StopReason, TracePoint};
+    use super::{LocalFit, StopReason, TracePoint};
     use crate::model::Parameters;
 
-    fn descent(objectives: [f64; 2]) -> Descent {
+    fn descent(objectives: [f64; 2]) -> LocalFit {
         let at = |n: f64| Parameters { n, ..Parameters::default() };
         let point = |(evaluations, objective)| TracePoint { elapsed_ms: 0.0, evaluations, objective };
-        Descent {
+        LocalFit {
             parameters: at(objectives[1]),
             sum_of_squares: objectives[1],
             stop_reason: StopReason::Converged,
@@ -303,7 +303,7 @@ mod tests {
     fn a_descent_that_goes_on_adds_its_improvements_with_their_places() {
         let mut whole = descent([4.0, 2.0]);
         // The first point of what follows is where the one before ended, or worse.
-        whole.go_on(descent([3.0, 1.0]));
+        whole.append(descent([3.0, 1.0]));
         let objectives: Vec<f64> = whole.trace.iter().map(|point| point.objective).collect();
         let places: Vec<f64> = whole.path.iter().map(|parameters| parameters.n).collect();
         assert_eq!((objectives, places), (vec![4.0, 2.0, 1.0], vec![4.0, 2.0, 1.0]));

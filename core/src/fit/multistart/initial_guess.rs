@@ -1,4 +1,4 @@
-//! First guesses: the floors of the objective over a grid of shapes, with k_d and k_v from linear algebra.
+//! First guesses: the lowest points of the objective over a grid of shapes, with k_d and k_v from linear algebra.
 //!
 //! For fixed shapes (n, k, σ, q, c, σ_v), `1/X = (1 + g)/L` with the Fresnel limit L and `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d
 //! and k_v. Linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`: a least squares problem in the box of k_d and k_v, solved once
@@ -35,17 +35,17 @@ pub(crate) struct Guess {
     pub parameters: Parameters,
 }
 
-/// The floors of the whole grid, the lowest first; none where the data have a BRDF or no DoLP but 0, the model has no specular lobe, or k_d
+/// The lowest points of the whole grid, the lowest first; none where the data have a BRDF or no DoLP but 0, the model has no specular lobe, or k_d
 /// and k_v are both fixed.
-pub(crate) fn floors(problem: &Problem) -> Vec<Guess> {
+pub(crate) fn grid_minima(problem: &Problem) -> Vec<Guess> {
     let Some(grid) = Grid::new(problem, problem.start(), &AXES) else { return Vec::new() };
-    grid.floors()
+    grid.grid_minima()
 }
 
-/// The floors over σ, q, c and σ_v with n and k as they are there, the lowest first.
-pub(crate) fn lobes_anew(problem: &Problem, at: &Parameters) -> Vec<Guess> {
+/// The lowest points over σ, q, c and σ_v with n and k as they are there, the lowest first.
+pub(crate) fn lobe_grid_minima(problem: &Problem, at: &Parameters) -> Vec<Guess> {
     let Some(grid) = Grid::new(problem, at, &LOBES) else { return Vec::new() };
-    grid.floors()
+    grid.grid_minima()
 }
 
 /// A grid of shapes and the rows that it is judged by.
@@ -73,7 +73,7 @@ impl<'a> Grid<'a> {
             return None;
         }
         let rows = problem.dolp_rows(ROWS);
-        // Where all is dark, so are the floors.
+        // Where all is dark, so are the lowest points.
         if rows.iter().all(|(_, measured)| *measured <= 0.0) {
             return None;
         }
@@ -143,7 +143,7 @@ impl<'a> Grid<'a> {
             for (&sigma_v, volume) in self.axes[5].iter().zip(volume) {
                 let mut guess = Guess { misfit: f64::INFINITY, parameters: Parameters { c, sigma_v, ..*optics } };
                 if let Some(rows) = &specular {
-                    self.weigh(rows, diffuse, volume, &mut guess);
+                    self.solve_weights(rows, diffuse, volume, &mut guess);
                 }
                 guesses.push(guess);
             }
@@ -152,7 +152,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Fits k_d and k_v.
-    fn weigh(&self, rows: &[Row], diffuse: &[f64], volume: &[f64], guess: &mut Guess) {
+    fn solve_weights(&self, rows: &[Row], diffuse: &[f64], volume: &[f64], guess: &mut Guess) {
         // What is not fitted counts once, with the weight that it has.
         let range = |parameter, fitted| if fitted { self.problem.bounds().of(parameter) } else { (1.0, 1.0) };
         let (d_range, v_range) = (range(Parameter::Kd, self.fit_d), range(Parameter::Kv, self.fit_v));
@@ -175,11 +175,11 @@ impl<'a> Grid<'a> {
     }
 
     /// The points that are lower than their neighbours along each axis; of equal neighbours the first counts as lower.
-    fn floors(&self) -> Vec<Guess> {
+    fn grid_minima(&self) -> Vec<Guess> {
         let guesses = self.guesses();
-        let mut floors: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_floor(&guesses, i)).map(|i| guesses[i]).collect();
-        floors.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-        floors
+        let mut grid_minima: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_floor(&guesses, i)).map(|i| guesses[i]).collect();
+        grid_minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        grid_minima
     }
 
     fn is_floor(&self, guesses: &[Guess], i: usize) -> bool {
@@ -284,8 +284,8 @@ impl Normal {
 
 #[cfg(test)]
 mod tests {
-    use super::{AXES, Grid, Normal, floors, lobes_anew};
-    use crate::fit::{Bounds, Choices, Problem, free_by_default};
+    use super::{AXES, Grid, Normal, grid_minima, lobe_grid_minima};
+    use crate::fit::{Bounds, FitOptions, Problem, free_by_default};
     use crate::measurement::{Columns, Measurement, Simulation};
     use crate::model::{Model, Parameter, Parameters, Pbrdf};
     use crate::optics::SlopeDistribution;
@@ -309,8 +309,8 @@ mod tests {
         }
         .run()
         .unwrap();
-        let free = free_by_default(model, &measurement, &Choices::default());
-        Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), Choices::default()).unwrap()
+        let free = free_by_default(model, &measurement, &FitOptions::default());
+        Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), FitOptions::default()).unwrap()
     }
 
     #[test]
@@ -327,7 +327,7 @@ mod tests {
 
     #[test]
     fn a_truth_on_the_grid_is_its_lowest_floor() {
-        let lowest = floors(&problem())[0];
+        let lowest = grid_minima(&problem())[0];
         // Rounding of k_d and k_v, which the least squares give to about 1e-12, and of DoLP.
         assert!(lowest.misfit < 1e-20, "{lowest:?}");
         for parameter in [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Q, Parameter::C, Parameter::SigmaV] {
@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn a_volume_lobe_is_found_again_from_where_there_is_none() {
-        let lowest = lobes_anew(&problem(), &DEFAULT)[0];
+        let lowest = lobe_grid_minima(&problem(), &DEFAULT)[0];
         assert!((lowest.parameters.sigma_v - TRUTH.sigma_v).abs() < 0.05, "{lowest:?}");
         assert!(lowest.parameters.kv > 0.1, "{lowest:?}");
     }
@@ -348,13 +348,13 @@ mod tests {
         let problem = problem();
         let grid = Grid::new(&problem, problem.start(), &AXES).unwrap();
         let guesses = grid.guesses();
-        let floors = grid.floors();
-        assert!(floors.windows(2).all(|pair| pair[0].misfit <= pair[1].misfit));
+        let grid_minima = grid.grid_minima();
+        assert!(grid_minima.windows(2).all(|pair| pair[0].misfit <= pair[1].misfit));
         let lowest = guesses.iter().map(|guess| guess.misfit).fold(f64::INFINITY, f64::min);
-        assert_eq!(floors[0].misfit, lowest);
+        assert_eq!(grid_minima[0].misfit, lowest);
         let lengths: usize = grid.axes.iter().map(Vec::len).product();
         assert_eq!(guesses.len(), lengths);
-        for floor in &floors {
+        for floor in &grid_minima {
             let at = guesses.iter().position(|guess| guess == floor).unwrap();
             // σ_v runs fastest, n slowest.
             for (axis, stride) in [(5, 1), (0, lengths / grid.axes[0].len())] {
@@ -368,6 +368,6 @@ mod tests {
     #[test]
     fn without_weights_to_fit_there_are_no_guesses() {
         let problem = problem();
-        assert!(floors(&problem.with_free([Parameter::N, Parameter::K].into_iter().collect())).is_empty());
+        assert!(grid_minima(&problem.with_free([Parameter::N, Parameter::K].into_iter().collect())).is_empty());
     }
 }

@@ -4,8 +4,8 @@
 //! Patterson, SIAM J. Numer. Anal. 13, 904 (1976)); in turns they are spread by factors and by steps. Starts run in rounds of a fixed
 //! size, in parallel where there are threads, and are judged in their order: the result does not depend on the number of threads.
 
-use crate::fit::local::solver::{Descent, Effort, StopReason, Watch, descend};
-use crate::fit::multistart::initial_guess::{floors, lobes_anew};
+use crate::fit::local::solver::{Effort, LocalFit, Observer, StopReason, fit_local};
+use crate::fit::multistart::initial_guess::{grid_minima, lobe_grid_minima};
 use crate::fit::objective::Problem;
 use crate::model::Parameters;
 use rand_pcg::Pcg64;
@@ -27,18 +27,18 @@ pub enum Starts {
 
 /// One minimum and how often it was reached.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct Basin {
     /// The best descent that ended there.
-    pub descent: Descent,
+    pub descent: LocalFit,
     /// How many ended there.
     pub reached: usize,
 }
 
 /// What all starts together found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Search {
+pub struct MultistartResult {
     /// The distinct minima, best first.
-    pub found: Vec<Found>,
+    pub found: Vec<Basin>,
     /// Residual evaluations of all starts.
     pub evaluations: usize,
 }
@@ -67,7 +67,7 @@ const GUESSES: usize = 64;
 const FINISHED: usize = 4;
 const FINISHES: usize = 12;
 const FINISH_TOLERANCE: f64 = 1e-8;
-/// Minima whose lobes are looked at again, how many floors of each are followed, and how often that is done at most.
+/// Minima whose lobes are looked at again, how many low points of each are followed, and how often that is done at most.
 const LOOKED_AT: usize = 14;
 const FLOORS: usize = 14;
 const LOOKS: usize = 4;
@@ -78,8 +78,8 @@ const SAME_ABSOLUTE: f64 = 1e-20;
 
 /// Fits from many starts.
 #[must_use]
-pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) -> Search {
-    let mut search = Search { found: Vec::new(), evaluations: 0 };
+pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Observer<'_>) -> MultistartResult {
+    let mut search = MultistartResult { found: Vec::new(), evaluations: 0 };
     let most = match starts {
         _ if problem.is_empty() || problem.free().is_empty() => 1,
         Starts::One | Starts::Exactly(0) => 1,
@@ -87,12 +87,12 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         Starts::Exactly(count) => count,
     };
     if most == 1 {
-        search.add(descend(problem, Effort::Full, watch));
+        search.add(fit_local(problem, Effort::Full, watch));
         return search;
     }
     let mut candidates = Candidates::new(problem, seed);
     if most > ALL_THE_WAY {
-        search.follow_the_best(problem, &mut candidates, most, watch);
+        search.keep_best(problem, &mut candidates, most, watch);
         search.finish(problem, FINISHES, watch);
         return search;
     }
@@ -105,7 +105,7 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         let round = match starts {
             Starts::Automatic if done > 0 => {
                 if queue.is_empty() {
-                    let seen = distinct(search.glance(problem, &candidates.take(GLANCES), watch));
+                    let seen = distinct(search.probe(problem, &candidates.take(GLANCES), watch));
                     queue = seen.into_iter().map(|descent| descent.parameters).collect();
                 }
                 // In equal parts the promising and the fresh: a few steps do not tell everything.
@@ -128,13 +128,13 @@ pub fn search(problem: &Problem, starts: Starts, seed: u64, watch: Watch<'_>) ->
         }
     }
     if starts == Starts::Automatic {
-        search.look_at_lobes_again(problem, watch);
+        search.restart_lobes(problem, watch);
     }
     search.finish(problem, FINISHES, watch);
     search
 }
 
-impl Search {
+impl MultistartResult {
     fn best(&self) -> f64 {
         self.found.first().map_or(f64::INFINITY, |found| found.descent.sum_of_squares)
     }
@@ -145,13 +145,13 @@ impl Search {
     }
 
     /// Takes in a descent.
-    fn add(&mut self, descent: Descent) {
+    fn add(&mut self, descent: LocalFit) {
         self.evaluations += descent.evaluations;
-        self.place(Found { descent, reached: 1 });
+        self.place(Basin { descent, reached: 1 });
     }
 
     /// To a minimum already found, or as a new one, in the order of objectives.
-    fn place(&mut self, new: Found) {
+    fn place(&mut self, new: Basin) {
         let value = new.descent.sum_of_squares;
         let same = |other: f64| (value - other).abs() <= (SAME * other.abs()).max(SAME_ABSOLUTE);
         if let Some(i) = self.found.iter().position(|found| same(found.descent.sum_of_squares)) {
@@ -166,7 +166,7 @@ impl Search {
     }
 
     /// Goes on from the best minima as long as that brings anything: the solver's memory of a long valley can be worse than none.
-    fn finish(&mut self, problem: &Problem, times: usize, watch: Watch<'_>) {
+    fn finish(&mut self, problem: &Problem, times: usize, watch: Observer<'_>) {
         for _ in 0..times {
             if self.is_exact() || (watch.cancelled)() {
                 return;
@@ -175,7 +175,7 @@ impl Search {
             let ends: Vec<Parameters> = self.found.iter().take(FINISHED).map(|found| found.descent.parameters).collect();
             for (i, again) in run_all(problem, &ends, Effort::Finish, watch).into_iter().enumerate() {
                 self.evaluations += again.evaluations;
-                self.found[i].descent.go_on(again);
+                self.found[i].descent.append(again);
             }
             std::mem::take(&mut self.found).into_iter().for_each(|found| self.place(found));
             if self.best() > before * (1.0 - FINISH_TOLERANCE) {
@@ -185,7 +185,7 @@ impl Search {
     }
 
     /// From the best minima with other lobes: where k_v or k_d is small, the slope along σ_v or c is, and no descent gets away from there.
-    fn look_at_lobes_again(&mut self, problem: &Problem, watch: Watch<'_>) {
+    fn restart_lobes(&mut self, problem: &Problem, watch: Observer<'_>) {
         let mut seen: Vec<f64> = Vec::new();
         for _ in 0..LOOKS {
             if self.is_exact() || (watch.cancelled)() {
@@ -203,7 +203,7 @@ impl Search {
             }
             seen.extend(self.found.iter().take(LOOKED_AT).map(|found| found.descent.sum_of_squares));
             let starts: Vec<Parameters> =
-                fresh.iter().flat_map(|at| lobes_anew(problem, at).into_iter().take(FLOORS).map(|guess| guess.parameters)).collect();
+                fresh.iter().flat_map(|at| lobe_grid_minima(problem, at).into_iter().take(FLOORS).map(|guess| guess.parameters)).collect();
             for descent in run_all(problem, &starts, Effort::Reach, watch) {
                 self.add(descent);
             }
@@ -212,20 +212,20 @@ impl Search {
     }
 
     /// A few steps from every start.
-    fn glance(&mut self, problem: &Problem, starts: &[Parameters], watch: Watch<'_>) -> Vec<Descent> {
+    fn probe(&mut self, problem: &Problem, starts: &[Parameters], watch: Observer<'_>) -> Vec<LocalFit> {
         let short = run_all(problem, starts, Effort::Few, watch);
         self.evaluations += short.iter().map(|descent| descent.evaluations).sum::<usize>();
         short
     }
 
     /// A few steps from so many starts, then the best distinct ones to the end.
-    fn follow_the_best(&mut self, problem: &Problem, candidates: &mut Candidates<'_>, most: usize, watch: Watch<'_>) {
+    fn keep_best(&mut self, problem: &Problem, candidates: &mut Candidates<'_>, most: usize, watch: Observer<'_>) {
         let mut best = Vec::new();
         let mut left = most;
         while left > 0 && (best.is_empty() || !(watch.cancelled)()) {
             let count = left.min(BLOCK);
             left -= count;
-            best.extend(self.glance(problem, &candidates.take(count), watch));
+            best.extend(self.probe(problem, &candidates.take(count), watch));
             best = distinct(best);
             best.truncate(POLISHED);
         }
@@ -238,15 +238,15 @@ impl Search {
 }
 
 /// The best first, each place once.
-fn distinct(mut descents: Vec<Descent>) -> Vec<Descent> {
+fn distinct(mut descents: Vec<LocalFit>) -> Vec<LocalFit> {
     descents.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
     descents.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);
     descents
 }
 
 /// Descents from all those starts, in their order.
-fn run_all(problem: &Problem, starts: &[Parameters], effort: Effort, watch: Watch<'_>) -> Vec<Descent> {
-    let run = |start: &Parameters| descend(&problem.with_start(*start), effort, watch);
+fn run_all(problem: &Problem, starts: &[Parameters], effort: Effort, watch: Observer<'_>) -> Vec<LocalFit> {
+    let run = |start: &Parameters| fit_local(&problem.with_start(*start), effort, watch);
     #[cfg(feature = "threads")]
     {
         use rayon::prelude::*;
@@ -270,7 +270,7 @@ impl<'a> Candidates<'a> {
         let mut shift = [0.0; 9];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
-        let guesses = floors(problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
+        let guesses = grid_minima(problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
         let guesses: Vec<Parameters> = std::iter::once(*problem.start()).chain(guesses).collect();
         Self { problem, guesses: guesses.into_iter(), shift, next: 0 }
     }

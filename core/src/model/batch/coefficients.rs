@@ -87,7 +87,7 @@ impl Coefficients {
     }
 
     /// Without the terms whose weight is 0, and with c = 0 as Lambert's term: for values, not for derivatives.
-    pub(crate) fn lit(mut self) -> Self {
+    pub(crate) fn without_zero_terms(mut self) -> Self {
         let p = &self.parameters;
         self.model.volume &= p.kv > 0.0;
         self.model.diffuse = match self.model.diffuse {

@@ -4,7 +4,7 @@
 //! the points were shared among threads. With fused multiply–add (AVX2, AVX-512, NEON) it is the same to the bit; without (SSE2, WebAssembly)
 //! the same formulas round once more here and there.
 
-use crate::model::batch::prepared::{Eight, LANES};
+use crate::model::batch::prepared::{Block, LANES};
 use fearless_simd::{Level, prelude::*};
 use std::ops::Range;
 
@@ -81,21 +81,21 @@ pub(crate) trait Kernel<const OUT: usize>: Sync {
 /// As many prepared points as a vector has lanes.
 pub(crate) struct Points<'a, S: Simd> {
     simd: S,
-    eight: &'a Eight,
+    eight: &'a Block,
     first: usize,
 }
 
 impl<S: Simd> Points<'_, S> {
-    /// A column of [`Eight`].
+    /// A column of [`Block`].
     #[inline(always)]
-    pub(crate) fn load(&self, column: impl Fn(&Eight) -> &[f64; LANES]) -> V<S> {
+    pub(crate) fn load(&self, column: impl Fn(&Block) -> &[f64; LANES]) -> V<S> {
         V::<S>::from_slice(self.simd, &column(self.eight)[self.first..self.first + V::<S>::LEN])
     }
 }
 
-/// Points to be evaluated: whole and broken eights, where the results go, and the scalar form.
-pub(crate) struct Job<'a, const OUT: usize> {
-    pub eights: &'a [Eight],
+/// Points to be evaluated: whole and broken blocks, where the results go, and the scalar form.
+pub(crate) struct Run<'a, const OUT: usize> {
+    pub blocks: &'a [Block],
     pub columns: [&'a mut [f64]; OUT],
     /// Number of the first point.
     pub first: usize,
@@ -103,7 +103,7 @@ pub(crate) struct Job<'a, const OUT: usize> {
     pub scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
 }
 
-impl<const OUT: usize> Job<'_, OUT> {
+impl<const OUT: usize> Run<'_, OUT> {
     /// How many points.
     fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.len())
@@ -111,25 +111,25 @@ impl<const OUT: usize> Job<'_, OUT> {
 
     /// Evaluates all points with those instructions, on several threads where that pays.
     #[cfg(feature = "threads")]
-    pub(crate) fn spread<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
+    pub(crate) fn run_parallel<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
         if self.len() <= GRAIN {
             return self.run(kernel, instructions);
         }
         let middle = (self.len() / 2).next_multiple_of(LANES);
         let (left, right) = self.split(middle);
-        rayon::join(|| left.spread(kernel, instructions), || right.spread(kernel, instructions));
+        rayon::join(|| left.run_parallel(kernel, instructions), || right.run_parallel(kernel, instructions));
     }
 
     /// Evaluates all points with those instructions.
     #[cfg(not(feature = "threads"))]
-    pub(crate) fn spread<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
+    pub(crate) fn run_parallel<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
         self.run(kernel, instructions);
     }
 
     /// Two jobs: the points before `middle`, a multiple of [`LANES`], and the others.
     #[cfg(feature = "threads")]
     fn split(self, middle: usize) -> (Self, Self) {
-        let (left_eights, right_eights) = self.eights.split_at(middle / LANES);
+        let (left_eights, right_eights) = self.blocks.split_at(middle / LANES);
         let mut right_columns = Vec::with_capacity(OUT);
         let left_columns = self.columns.map(|column| {
             let (left, right) = column.split_at_mut(middle);
@@ -139,8 +139,8 @@ impl<const OUT: usize> Job<'_, OUT> {
         let mut right_columns = right_columns.into_iter();
         let right_columns = std::array::from_fn(|_| right_columns.next().unwrap_or_default());
         (
-            Self { eights: left_eights, columns: left_columns, ..self },
-            Self { eights: right_eights, columns: right_columns, first: self.first + middle, scalar: self.scalar },
+            Self { blocks: left_eights, columns: left_columns, ..self },
+            Self { blocks: right_eights, columns: right_columns, first: self.first + middle, scalar: self.scalar },
         )
     }
 
@@ -180,7 +180,7 @@ impl<const OUT: usize> Job<'_, OUT> {
     fn run_on<S: Simd, K: Kernel<OUT>>(mut self, simd: S, kernel: &K) {
         let count = self.len();
         let whole = count / LANES;
-        for (i, eight) in self.eights.iter().enumerate().take(whole) {
+        for (i, eight) in self.blocks.iter().enumerate().take(whole) {
             for first in (0..LANES).step_by(V::<S>::LEN) {
                 let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
                 let at = LANES * i + first;
@@ -192,14 +192,14 @@ impl<const OUT: usize> Job<'_, OUT> {
                 }
             }
         }
-        if let Some(eight) = self.eights.get(whole) {
+        if let Some(eight) = self.blocks.get(whole) {
             self.run_tail(simd, kernel, eight, LANES * whole..count);
         }
     }
 
     /// The last eight, of which only a part is wanted.
     #[inline(always)]
-    fn run_tail<S: Simd, K: Kernel<OUT>>(&mut self, simd: S, kernel: &K, eight: &Eight, wanted: Range<usize>) {
+    fn run_tail<S: Simd, K: Kernel<OUT>>(&mut self, simd: S, kernel: &K, eight: &Block, wanted: Range<usize>) {
         for first in (0..wanted.len()).step_by(V::<S>::LEN) {
             let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
             let at = wanted.start + first;

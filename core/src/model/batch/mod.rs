@@ -15,21 +15,21 @@ mod kernels;
 mod lanes;
 mod prepared;
 
-use crate::model::{Diffuse, ParameterSet, Pbrdf, Scene, Wanted};
+use crate::model::{Diffuse, GeometrySet, GradientRequest, ParameterSet, Pbrdf};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use coefficients::Coefficients;
 use gradient::DolpGradient;
 use kernels::{Both, Brdf, Dolp, LAMBERT, MINNAERT, NONE};
 pub use lanes::Instructions;
-use lanes::{Job, Kernel};
-use prepared::{Eight, eights};
+use lanes::{Kernel, Run};
+use prepared::{Block, blocks};
 
 /// Geometries prepared for many evaluations at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
     /// For the scalar form.
-    scene: Scene,
-    eights: Vec<Eight>,
+    scene: GeometrySet,
+    blocks: Vec<Block>,
     instructions: Instructions,
     single_threaded: bool,
 }
@@ -85,13 +85,13 @@ impl Batch {
     /// From geometries that are prepared already.
     #[must_use]
     pub fn from_facets(facets: Vec<Facet>) -> Self {
-        Self::from_scene(Scene::from_facets(facets))
+        Self::from_scene(GeometrySet::from_facets(facets))
     }
 
     /// From a scene, and all that is prepared in it.
     #[must_use]
-    pub fn from_scene(scene: Scene) -> Self {
-        Self { eights: eights(scene.facets()), scene, ..Self::default() }
+    pub fn from_scene(scene: GeometrySet) -> Self {
+        Self { blocks: blocks(scene.facets()), scene, ..Self::default() }
     }
 
     /// With other instructions than the widest that the processor has.
@@ -128,7 +128,7 @@ impl Batch {
     pub fn dolp(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
         let scalar = |point: usize| [self.scene.dolp(surface, point)];
         let job = self.job([out], &scalar);
-        match Coefficients::new(surface).map(Coefficients::lit) {
+        match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
             Some(of) => run_with_terms!(self, job, Dolp, &of),
             None => job.run_scalar(),
         }
@@ -138,7 +138,7 @@ impl Batch {
     pub fn brdf(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
         let scalar = |point: usize| [self.scene.reflection(surface, point).brdf];
         let job = self.job([out], &scalar);
-        match Coefficients::new(surface).map(Coefficients::lit) {
+        match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
             Some(of) => run_with_terms!(self, job, Brdf, &of),
             None => job.run_scalar(),
         }
@@ -151,7 +151,7 @@ impl Batch {
             [reflection.dolp, reflection.brdf, reflection.specular]
         };
         let job = self.job([&mut out.dolp, &mut out.brdf, &mut out.specular], &scalar);
-        match Coefficients::new(surface).map(Coefficients::lit) {
+        match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
             Some(of) => run_with_terms!(self, job, Both, &of),
             None => job.run_scalar(),
         }
@@ -159,7 +159,7 @@ impl Batch {
 
     /// DoLP of each point and its derivatives by the nine parameters, as [`Pbrdf::reflection_and_gradient`] has them.
     pub fn dolp_gradients(&self, surface: &Pbrdf, out: &mut DolpGradients) {
-        let wanted = Wanted { by: ParameterSet::ALL, brdf: false, dolp: true };
+        let wanted = GradientRequest { by: ParameterSet::ALL, brdf: false, dolp: true };
         let scalar = |point: usize| {
             let (reflection, gradient) = self.scene.reflection_and_gradient(surface, point, wanted);
             std::array::from_fn(|column| if column == 0 { reflection.dolp } else { gradient.dolp[column - 1] })
@@ -177,19 +177,19 @@ impl Batch {
         &'a self,
         columns: [&'a mut Vec<f64>; OUT],
         scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
-    ) -> Job<'a, OUT> {
+    ) -> Run<'a, OUT> {
         let columns = columns.map(|column| {
             column.resize(self.len(), 0.0);
             column.as_mut_slice()
         });
-        Job { eights: &self.eights, columns, first: 0, scalar }
+        Run { blocks: &self.blocks, columns, first: 0, scalar }
     }
 
-    fn run<const OUT: usize>(&self, job: Job<'_, OUT>, kernel: &impl Kernel<OUT>) {
+    fn run<const OUT: usize>(&self, job: Run<'_, OUT>, kernel: &impl Kernel<OUT>) {
         if self.single_threaded {
             job.run(kernel, self.instructions);
         } else {
-            job.spread(kernel, self.instructions);
+            job.run_parallel(kernel, self.instructions);
         }
     }
 }

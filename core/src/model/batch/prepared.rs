@@ -1,14 +1,14 @@
-//! Prepared geometries in eights: what the kernels need of a point, column by column.
+//! Prepared geometries in blocks: what the kernels need of a point, column by column.
 
 use crate::optics::Facet;
 
-/// Points in an [`Eight`]: the widest vector, of AVX-512.
+/// Points in a [`Block`]: the widest vector, of AVX-512.
 pub(crate) const LANES: usize = 8;
 
 /// Eight points, side by side. One cache line a column.
 #[derive(Debug, Clone, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Eight {
+pub(crate) struct Block {
     pub sin_beta_sq: [f64; LANES],
     pub cos_beta_sq: [f64; LANES],
     pub cos_beta: [f64; LANES],
@@ -23,7 +23,7 @@ pub(crate) struct Eight {
     pub half_theta_r_sq: [f64; LANES],
 }
 
-impl Eight {
+impl Block {
     /// Up to eight points; places that are left over repeat the first one.
     fn new(facets: &[Facet]) -> Self {
         let column = |of: fn(&Facet) -> f64| std::array::from_fn(|lane| facets.get(lane).or(facets.first()).map_or(0.0, of));
@@ -45,7 +45,7 @@ fn over(facet: &Facet, g_over_cosines: f64) -> f64 {
     1.0 / (one_over_cos_sq * one_over_cos_sq * g_over_cosines)
 }
 
-/// All points in eights.
-pub(crate) fn eights(facets: &[Facet]) -> Vec<Eight> {
-    facets.chunks(LANES).map(Eight::new).collect()
+/// All points in blocks.
+pub(crate) fn blocks(facets: &[Facet]) -> Vec<Block> {
+    facets.chunks(LANES).map(Block::new).collect()
 }

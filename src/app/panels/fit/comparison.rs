@@ -1,13 +1,13 @@
 //! The button that fits the ladder of models; its results are in a pane of their own.
 
-use crate::app::jobs::worker::Rung;
+use crate::app::jobs::worker::ModelFit;
 use crate::app::shell::commands::Command;
 use crate::app::views::running_model_ui;
 use egui::Ui;
 use tr::tr;
 
 /// Orders the comparison, and says where its results are.
-pub fn comparison_ui(comparison: &[Rung], running: Option<Option<&'static str>>, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn comparison_ui(comparison: &[ModelFit], running: Option<Option<&'static str>>, commands: &mut Vec<Command>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Compare models")));
         if compare.on_hover_text(tr!("Fit the whole ladder of models to this measurement; results in the pane Models")).clicked() {

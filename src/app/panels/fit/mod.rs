@@ -9,7 +9,7 @@ mod scans;
 
 use crate::app::jobs::worker::Job;
 use crate::app::panels::status::delta_e_text;
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::glossary;
@@ -20,9 +20,10 @@ use pbrdf::fit::Weights;
 use pbrdf::model::{Parameter, ParameterSet};
 use tr::tr;
 
-pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
+pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
     let free = explorer.free();
-    let Explorer { worker, commands, derived, last_fit, past_fits, document, settings, comparison, scans, outlook_is_shown, .. } = explorer;
+    let App { worker, commands, derived, last_fit, fit_history, document, settings, comparison, scans, show_predicted_errors, .. } =
+        explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -57,8 +58,8 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
         };
         options::options_ui(settings, &document.measurement, derived.states_sigmas(), ui);
         let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(derived.outlook(), ui));
-        let was_shown = std::mem::replace(outlook_is_shown, outlook.openness > 0.0);
-        if *outlook_is_shown != was_shown {
+        let was_shown = std::mem::replace(show_predicted_errors, outlook.openness > 0.0);
+        if *show_predicted_errors != was_shown {
             // It is made before the next frame.
             ui.ctx().request_repaint();
         }
@@ -79,7 +80,7 @@ pub fn fit_ui(explorer: &mut Explorer, ui: &mut Ui) {
                 ui.label(tr!("Move the sliders until the curves are near the points, then press Fit."));
             }
         }
-        past::past_fits_ui(past_fits, last_fit.as_ref(), document.number, commands, ui);
+        past::past_fits_ui(fit_history, last_fit.as_ref(), document.number, commands, ui);
         ui.separator();
         comparison::comparison_ui(comparison, worker.comparison.as_ref().map(Job::progress), commands, ui);
     });

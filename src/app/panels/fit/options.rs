@@ -4,7 +4,7 @@ use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::work::settings::Settings;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
-use pbrdf::fit::{BrdfResiduals, Choices, Eq17, Loss, Starts, Weights};
+use pbrdf::fit::{BrdfResiduals, DolpFormula, FitOptions, Loss, Starts, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameter;
 use tr::tr;
@@ -15,7 +15,7 @@ const MOST_STARTS: usize = 100_000;
 const SOME_STARTS: usize = 100;
 
 pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sigmas: bool, ui: &mut Ui) {
-    let are_defaults = settings.choices == Choices::default() && settings.starts == Starts::Automatic;
+    let are_defaults = settings.choices == FitOptions::default() && settings.starts == Starts::Automatic;
     let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
         Grid::new("fit options").num_columns(2).show(ui, |ui| {
@@ -29,7 +29,7 @@ pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sig
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
         if ui.add_enabled(!are_defaults, egui::Button::new(tr!("Default options"))).clicked() {
-            settings.choices = Choices::default();
+            settings.choices = FitOptions::default();
             settings.starts = Starts::Automatic;
             settings.seed = 1;
             keep_ks_where_only_ratios_count(settings, measurement.has_brdf());
@@ -52,7 +52,7 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut 
     *value != before
 }
 
-fn residuals_ui(choices: &mut Choices, ui: &mut Ui) {
+fn residuals_ui(choices: &mut FitOptions, ui: &mut Ui) {
     choice(
         ui,
         "Weights",
@@ -69,15 +69,15 @@ fn residuals_ui(choices: &mut Choices, ui: &mut Ui) {
     );
 }
 
-fn loss_ui(choices: &mut Choices, ui: &mut Ui) {
+fn loss_ui(choices: &mut FitOptions, ui: &mut Ui) {
     choice(
         ui,
         "Loss",
         "Linear: least squares. Huber and soft-L1 count residuals beyond the scale by their size, so that an outlier pulls less.",
         &mut choices.loss,
-        &[(Loss::Linear, "linear"), (Loss::Huber, "Huber"), (Loss::SoftL1, "soft-L1")],
+        &[(Loss::Squared, "linear"), (Loss::Huber, "Huber"), (Loss::SoftL1, "soft-L1")],
     );
-    if choices.loss == Loss::Linear {
+    if choices.loss == Loss::Squared {
         return;
     }
     let help = tr!("Where the loss changes from squares to sizes, in units of the residual; automatic: 1.345 × the normalised median \
@@ -103,7 +103,7 @@ fn eq17_ui(settings: &mut Settings, has_brdf: bool, ui: &mut Ui) {
         "Consistent: k_s in the numerator, as Eqs. (14, 15) have it. As printed: without it, so that k_s is a gain of its own and DoLP \
          may exceed 1.",
         &mut settings.choices.eq17,
-        &[(Eq17::Consistent, "consistent"), (Eq17::Printed, "as printed")],
+        &[(DolpFormula::Consistent, "consistent"), (DolpFormula::AsPrinted, "as printed")],
     );
     if changed {
         keep_ks_where_only_ratios_count(settings, has_brdf);
@@ -112,7 +112,7 @@ fn eq17_ui(settings: &mut Settings, has_brdf: bool, ui: &mut Ui) {
 
 /// As printed k_s counts by itself; in the consistent reading DoLP alone knows only ratios to it.
 fn keep_ks_where_only_ratios_count(settings: &mut Settings, has_brdf: bool) {
-    let only_ratios = settings.choices.eq17 == Eq17::Consistent && !has_brdf;
+    let only_ratios = settings.choices.eq17 == DolpFormula::Consistent && !has_brdf;
     settings.locked = if only_ratios { settings.locked.with(Parameter::Ks) } else { settings.locked.without(Parameter::Ks) };
 }
 

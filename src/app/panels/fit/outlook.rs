@@ -3,12 +3,12 @@
 use crate::app::panels::parameters::significant;
 use crate::app::text::glossary::open_help;
 use crate::app::text::i18n::phrase;
-use crate::app::views::derived::Outlook;
+use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};
 use tr::tr;
 
 /// Standard errors that a fit from the sliders would have, before it is made.
-pub fn outlook_ui(outlook: Option<&Outlook>, ui: &mut Ui) {
+pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
     let Some(outlook) = outlook else {
         ui.label("…");
         return;

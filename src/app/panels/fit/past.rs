@@ -3,13 +3,13 @@
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary::delta_e_help;
 use crate::app::text::i18n::translated;
-use crate::app::work::fit_history::{PastFit, PastFits};
+use crate::app::work::fit_history::{FitEntry, FitHistory};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::rc::Rc;
 use tr::tr;
 
-pub fn past_fits_ui(fits: &PastFits, shown: Option<&Rc<PastFit>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Rc<FitEntry>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
     if fits.is_empty() {
         return;
     }

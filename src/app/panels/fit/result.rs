@@ -7,16 +7,16 @@ use crate::app::shell::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::work::diagnostics::Bootstrap;
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::settings::Settings;
 use egui::{Button, Grid, RichText, Ui};
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, FitReport, Loss, Standing, StopReason, Weights};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
 use tr::tr;
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &PastFit, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
     let report = &fit.report;
     ui.horizontal(|ui| {
         let are_sliders = settings.parameters == report.parameters && settings.model == report.model;
@@ -66,8 +66,8 @@ pub fn result_ui(fit: &PastFit, settings: &Settings, bootstrap: Option<&Bootstra
 }
 
 /// What stays open, in words, the badly known included.
-fn open_ui(report: &FitReport, ui: &mut Ui) {
-    let open = report.open_in_words();
+fn open_ui(report: &FitResult, ui: &mut Ui) {
+    let open = report.describe_undetermined();
     if open.is_empty() {
         return;
     }
@@ -79,7 +79,7 @@ fn open_ui(report: &FitReport, ui: &mut Ui) {
 }
 
 /// Values and their errors, one parameter a row.
-fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
+fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
     Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
         ui.label("");
         for (heading, help) in [
@@ -109,7 +109,7 @@ fn estimates_ui(report: &FitReport, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
 }
 
 /// What fell, where that was not ΔE, named for what it is.
-fn minimised_text(fit: &PastFit) -> String {
+fn minimised_text(fit: &FitEntry) -> String {
     let report = &fit.report;
     let choices = fit.problem.choices();
     let Some(start) = report.start_sum_of_squares.filter(|_| !report.minimises_delta_e) else { return String::new() };
@@ -121,7 +121,7 @@ fn minimised_text(fit: &PastFit) -> String {
     };
     let weights = if choices.weights == Weights::Sigma { tr!(" over σ") } else { String::new() };
     let loss = match choices.loss {
-        Loss::Linear => String::new(),
+        Loss::Squared => String::new(),
         Loss::Huber => tr!(", Huber loss"),
         Loss::SoftL1 => tr!(", soft-L1 loss"),
     };
@@ -129,7 +129,7 @@ fn minimised_text(fit: &PastFit) -> String {
 }
 
 /// What it took; a session of an older version does not tell.
-fn effort_text(report: &FitReport) -> String {
+fn effort_text(report: &FitResult) -> String {
     if report.minima.is_empty() {
         return tr!("not known: from a session of an older version");
     }
@@ -137,7 +137,7 @@ fn effort_text(report: &FitReport) -> String {
 }
 
 /// χ² per degree of freedom where standard deviations were stated and used.
-fn reduced_chi2_text(report: &FitReport) -> String {
+fn reduced_chi2_text(report: &FitResult) -> String {
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let dof = report.dof as f64;
     match report.chi2 {
@@ -148,7 +148,7 @@ fn reduced_chi2_text(report: &FitReport) -> String {
 }
 
 /// Where the starts led: distinct minima, best first.
-fn minima_ui(report: &FitReport, ui: &mut Ui) {
+fn minima_ui(report: &FitResult, ui: &mut Ui) {
     if report.minima.is_empty() {
         return;
     }
@@ -168,7 +168,7 @@ fn minima_ui(report: &FitReport, ui: &mut Ui) {
 }
 
 /// Correlations of the determined parameters as a coloured table: blue where two rise together, orange where one makes up for the other.
-fn correlations_ui(report: &FitReport, ui: &mut Ui) {
+fn correlations_ui(report: &FitResult, ui: &mut Ui) {
     if report.determined.len() < 2 {
         return;
     }
@@ -210,11 +210,11 @@ fn short_correlation(r: f64) -> String {
 
 fn error_text(estimate: &Estimate) -> String {
     match estimate.standing() {
-        Standing::Fixed => tr!("fixed"),
-        Standing::AtBound(Edge::Lower) => tr!("at lower bound"),
-        Standing::AtBound(Edge::Upper) => tr!("at upper bound"),
-        Standing::Determined(error) => format!("{} {}", glossary::short(error), estimate.parameter.unit()).trim_end().to_owned(),
-        Standing::NoFreedom => tr!("no d.o.f."),
-        Standing::Open => tr!("open"),
+        EstimateStatus::Fixed => tr!("fixed"),
+        EstimateStatus::AtBound(Edge::Lower) => tr!("at lower bound"),
+        EstimateStatus::AtBound(Edge::Upper) => tr!("at upper bound"),
+        EstimateStatus::Determined(error) => format!("{} {}", glossary::short(error), estimate.parameter.unit()).trim_end().to_owned(),
+        EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
+        EstimateStatus::Open => tr!("open"),
     }
 }

@@ -6,8 +6,8 @@ use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
-use crate::app::work::diagnostics::{ProfileCurve, Scans};
-use crate::app::work::fit_history::PastFit;
+use crate::app::work::diagnostics::{Diagnostics, ProfileCurve};
+use crate::app::work::fit_history::FitEntry;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;
@@ -16,7 +16,7 @@ use tr::tr;
 /// Data sets that a bootstrap deals out at most.
 const MOST_REPLICATES: usize = 100_000;
 
-pub fn scans_ui(fit: &PastFit, scans: &mut Scans, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
     let free = fit.problem.free();
     if free.is_empty() || fit.problem.is_empty() {
         return;
@@ -45,7 +45,7 @@ pub fn scans_ui(fit: &PastFit, scans: &mut Scans, running: bool, commands: &mut 
     });
 }
 
-fn profile_choice_ui(free: &[Parameter], scans: &mut Scans, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn profile_choice_ui(free: &[Parameter], scans: &mut Diagnostics, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
     let chosen = scans.parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Profile of"));

@@ -1,13 +1,13 @@
 //! The hemisphere map for print: θr from the middle outwards in degrees, so that axes can tell it.
 
 use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, over};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::hemisphere::{Made, SIZE, place, values};
 use crate::app::work::settings::Quantity;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
 
-pub fn hemisphere_figure(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { views, settings, document, .. } = explorer;
+pub fn hemisphere_figure(explorer: &App) -> Option<Figure> {
+    let App { views, settings, document, .. } = explorer;
     let view = &views.hemisphere;
     let (key, made) = (view.job.key()?, view.job.get()?.as_ref()?);
     let theta_i = key.2;

@@ -3,7 +3,7 @@
 use crate::app::jobs::async_memo::Stopped;
 use crate::app::plots::contours::Heights;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::views::curves::Pieces;
+use crate::app::views::curves::Polyline;
 use crate::app::views::landscape::Key;
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::work::fit_setup::problem;
@@ -21,7 +21,7 @@ pub struct Drawn {
     pub landscape: Landscape,
     pub image: Arc<ColorImage>,
     pub scale: ColorScale,
-    pub contours: Vec<(Color32, Pieces)>,
+    pub contours: Vec<(Color32, Polyline)>,
     pub title: &'static str,
 }
 
@@ -78,13 +78,13 @@ impl Drawn {
 fn title(problem: &Problem) -> &'static str {
     match problem.choices().weights {
         _ if problem.minimises_delta_e() => "ΔE",
-        Weights::Sigma if problem.choices().loss == Loss::Linear => "χ²",
+        Weights::Sigma if problem.choices().loss == Loss::Squared => "χ²",
         _ => "Σ r²",
     }
 }
 
 /// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
-fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Pieces)> {
+fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Polyline)> {
     let Range { low, high } = scale.range;
     let levels = |factors: &[f64]| -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, reason = "a few decades")]
@@ -99,7 +99,7 @@ fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Piec
         low + (high - low) * index / f64_of(axis.count - 1)
     };
     let grid = Heights { values: heights, columns: key.across.count };
-    let pieces = |level: f64| -> Pieces {
+    let pieces = |level: f64| -> Polyline {
         let points =
             |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| PlotPoint::new(place(key.across, x), place(key.up, y))).collect();
         grid.lines(level).into_iter().map(points).collect()

@@ -1,7 +1,7 @@
 //! The landscape for print, with what lies on it.
 
 use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, placed};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::landscape::axes::{coordinate, value};
 use crate::app::views::landscape::drawn::Drawn;
 use crate::app::views::landscape::{Key, LandscapeView};
@@ -14,8 +14,8 @@ const WAY: Rgb = Rgb(255, 96, 64);
 const MINIMA: Rgb = Rgb(255, 214, 90);
 const METALS: Rgb = Rgb(150, 220, 255);
 
-pub fn landscape_figure(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { views, settings, document, .. } = explorer;
+pub fn landscape_figure(explorer: &App) -> Option<Figure> {
+    let App { views, settings, document, .. } = explorer;
     let view = &views.landscape;
     let (key, drawn) = (view.job.key()?, view.job.get()?.as_ref()?);
     let mut series = vec![Series::heat_map(heat_map(drawn, key))];

@@ -1,7 +1,7 @@
 //! What the marks on the map mean: on a dark plate in its corner, since their colours are made for the map and not for the page.
 
 use crate::app::views::landscape::marks::{METALS, MINIMA, Marks, PLATE, RING, way_color, way_name};
-use crate::app::work::settings::OverTwo;
+use crate::app::work::settings::LandscapeAxes;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use tr::tr;
 
@@ -23,7 +23,7 @@ const PAD: Vec2 = vec2(6.0, 3.0);
 const AWAY: Vec2 = vec2(5.0, 5.0);
 
 /// Names and samples of what lies on the map.
-fn entries(marks: Option<&Marks>, shown: OverTwo) -> Vec<(Sample, String)> {
+fn entries(marks: Option<&Marks>, shown: LandscapeAxes) -> Vec<(Sample, String)> {
     let mut entries = vec![(Sample::Sliders, tr!("sliders"))];
     let Some(marks) = marks else { return entries };
     let ways = marks.ways.len();
@@ -37,7 +37,7 @@ fn entries(marks: Option<&Marks>, shown: OverTwo) -> Vec<(Sample, String)> {
     entries
 }
 
-pub fn legend_ui(marks: Option<&Marks>, shown: OverTwo, map: Rect, ui: &Ui) {
+pub fn legend_ui(marks: Option<&Marks>, shown: LandscapeAxes, map: Rect, ui: &Ui) {
     let entries = entries(marks, shown);
     let painter = ui.painter().with_clip_rect(map.intersect(ui.clip_rect()));
     let font = FontId::proportional(LETTERS);

@@ -2,7 +2,7 @@
 
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{BAR_ROOM, line, plot};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
 use crate::app::views::landscape::drawn::Drawn;
 use crate::app::views::landscape::legend::legend_ui;
@@ -13,8 +13,8 @@ use pbrdf::fit::Axis;
 use pbrdf::model::Parameter;
 
 /// The map with what lies on it.
-pub fn map_ui(explorer: &mut Explorer, height: f32, ui: &mut Ui) -> PlotResponse<()> {
-    let Explorer { settings, views, .. } = explorer;
+pub fn map_ui(explorer: &mut App, height: f32, ui: &mut Ui) -> PlotResponse<()> {
+    let App { settings, views, .. } = explorer;
     let view = &mut views.landscape;
     let shown = settings.landscape;
     let drawn = view.job.get().and_then(Option::as_ref);

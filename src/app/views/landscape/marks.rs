@@ -5,8 +5,8 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::work::document::Document;
-use crate::app::work::fit_history::{PastFit, PastFits};
-use crate::app::work::settings::{OverTwo, Settings};
+use crate::app::work::fit_history::{FitEntry, FitHistory};
+use crate::app::work::settings::{LandscapeAxes, Settings};
 use egui::{Align2, Color32, Rect, RichText};
 use egui_plot::{MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
@@ -31,8 +31,8 @@ pub struct MarksKey {
 }
 
 impl MarksKey {
-    pub fn new(settings: &Settings, document: &Document, past: &PastFits, shown: Option<&PastFit>) -> Self {
-        let OverTwo { across, up, .. } = settings.landscape;
+    pub fn new(settings: &Settings, document: &Document, past: &FitHistory, shown: Option<&FitEntry>) -> Self {
+        let LandscapeAxes { across, up, .. } = settings.landscape;
         let wavelength_nm = settings.tabulated.wavelength_nm;
         let (axes, shown) = ((across, up), shown.map(|fit| fit.id));
         Self { axes, fits: past.made(), shown, number: document.number, wavelength_nm, language: i18n::current() }
@@ -72,13 +72,13 @@ impl Noted {
 }
 
 impl Marks {
-    pub fn new(key: &MarksKey, past: &PastFits, shown: Option<&PastFit>, document: &Document) -> Self {
+    pub fn new(key: &MarksKey, past: &FitHistory, shown: Option<&FitEntry>, document: &Document) -> Self {
         let (across, up) = key.axes;
         let place = |parameters: &Parameters| {
             let point = PlotPoint::new(coordinate(across, parameters[across]), coordinate(up, parameters[up]));
             (point.x.is_finite() && point.y.is_finite()).then_some(point)
         };
-        let way = |fit: &PastFit| {
+        let way = |fit: &FitEntry| {
             let mut way = Noted::default();
             for (step, parameters) in fit.report.trace.iter().zip(&fit.report.path) {
                 way.push(place(parameters), || {
@@ -162,7 +162,7 @@ fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shap
     plot.points(of(name).color(color).radius(radius));
 }
 
-pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: OverTwo) {
+pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: LandscapeAxes) {
     if shown.metals && !marks.metals.points.is_empty() {
         rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, METALS);
         names_in(plot, &marks.names);

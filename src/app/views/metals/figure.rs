@@ -1,12 +1,12 @@
 //! n and k of a metal against the wavelength for print.
 
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::metals::{PARTS, chosen};
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
-pub fn metals_figure(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { views, settings, .. } = explorer;
+pub fn metals_figure(explorer: &App) -> Option<Figure> {
+    let App { views, settings, .. } = explorer;
     let view = &views.metals;
     let metal = chosen(&settings.tabulated)?;
     let lines = view.lines.get()?;

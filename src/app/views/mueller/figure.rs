@@ -2,12 +2,12 @@
 
 use crate::app::panels::significant;
 use crate::app::plots::print::{FOREGROUND, MUTED};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::mueller::{REACH, normalised, number};
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
-pub fn mueller_figure(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { views, document, .. } = explorer;
+pub fn mueller_figure(explorer: &App) -> Option<Figure> {
+    let App { views, document, .. } = explorer;
     let view = &views.mueller;
     let (curves, ((_, _, theta_i, plane), backscatter)) = (view.curves.get()?, view.curves.key()?);
     let matrix = view.matrix.get().and_then(Option::as_ref).zip(view.matrix.key().map(|key| key.1));

@@ -1,12 +1,12 @@
 //! The polar lobe diagram for print. Rings are marked along both axes with the BRDF that they stand for.
 
 use crate::app::plots::print::{FOREGROUND, MUTED, points};
-use crate::app::shell::app::Explorer;
+use crate::app::shell::app::App;
 use crate::app::views::polar::{RIM, direction};
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 
-pub fn polar_figure(explorer: &Explorer) -> Option<Figure> {
-    let Explorer { views, document, .. } = explorer;
+pub fn polar_figure(explorer: &App) -> Option<Figure> {
+    let App { views, document, .. } = explorer;
     let view = &views.polar;
     let (lobes, ((_, _, theta_i, plane, _), _)) = (view.lobes.get()?, view.lobes.key()?);
     let mut series = Vec::new();
