@@ -13,6 +13,7 @@ use crate::app::storage::import::{Hashing, ImportOptions, ImportResult, ImportSo
 use crate::app::storage::session::{RestoredFit, SavedFit, Session};
 use crate::app::text::i18n::phrase;
 use crate::app::work::document::{Document, Mask};
+use crate::app::work::model_fit::ModelFit;
 use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, fit};
@@ -100,12 +101,6 @@ impl OpenedSession {
         let fits = session.fits.iter().filter_map(again).collect();
         Self { session, fits }
     }
-}
-
-/// A model of the ladder with its fit, or why there is none.
-pub struct ModelFit {
-    pub preset: &'static Preset,
-    pub result: Result<Box<FitResult>, ProblemError>,
 }
 
 /// A job on its way.

@@ -8,6 +8,7 @@ use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
@@ -16,7 +17,7 @@ use std::ops::RangeInclusive;
 use tr::tr;
 
 pub fn parameters_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, notices, lessons, .. } = explorer;
+    let App { work: Workspace { settings, .. }, notices, lessons, .. } = explorer;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);

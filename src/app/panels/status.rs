@@ -6,6 +6,7 @@ use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::text::glossary;
 use crate::app::text::i18n::phrase;
+use crate::app::work::workspace::Workspace;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
 use std::time::Duration;
@@ -17,7 +18,7 @@ const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
-    let App { derived, document, worker, commands, window, frame_times, .. } = explorer;
+    let App { work: Workspace { document, .. }, derived, worker, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",

@@ -2,7 +2,7 @@
 
 use crate::app::jobs::async_memo::Background;
 use crate::app::jobs::kind::JobKind;
-use crate::app::jobs::worker::{Event, ModelFit, Worker};
+use crate::app::jobs::worker::{Event, Worker};
 use crate::app::panels;
 use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::command_palette::{Palette, palette_ui};
@@ -27,57 +27,37 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::phrase;
 use crate::app::views::Views;
 use crate::app::views::derived::Derived;
-use crate::app::work::diagnostics::{Bootstrap, Diagnostics, ProfileCurve};
-use crate::app::work::document::{Document, EXAMPLES, Mask};
-use crate::app::work::fit_history::{FitEntry, FitHistory};
+use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
+use crate::app::work::document::{Document, EXAMPLES};
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{problem, reason};
-use crate::app::work::history::History;
 use crate::app::work::layout::Layout;
+use crate::app::work::model_fit::ModelFit;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
+use crate::app::work::workspace::{Setup, Workspace};
 use pbrdf::fit::{DolpFormula, FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
 use std::io::Write as _;
 use std::path::PathBuf;
-use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tr::tr;
 
-/// What a step of undo brings back: everything the user sets.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setup {
-    pub settings: Settings,
-    /// Of the measurement of that number.
-    pub mask: Mask,
-    pub number: u64,
-}
-
 /// The window.
 pub struct App {
-    pub settings: Settings,
+    pub work: Workspace,
     pub window: WindowSettings,
     /// Where the settings go; nowhere in tests.
     pub settings_file: Option<PathBuf>,
-    pub document: Document,
     pub derived: Derived,
     pub worker: Worker,
-    /// The fit that is shown.
-    pub last_fit: Option<Rc<FitEntry>>,
-    /// The fits before it.
-    pub fit_history: FitHistory,
-    /// The ladder of models on the open measurement.
-    pub comparison: Vec<ModelFit>,
     /// What the program found out about itself.
     pub reports: Benchmarks,
-    /// What was asked about the fit that is shown.
-    pub scans: Diagnostics,
-    pub history: History<Setup>,
     /// Whether the panel shows what the data would determine.
     pub show_predicted_errors: bool,
-    /// Where the last refit left the sliders: what differs from it was moved since.
-    pub(crate) refitted: Option<Parameters>,
     pub notices: Notices,
     pub views: Views,
     pub panes: Dock,
@@ -88,7 +68,7 @@ pub struct App {
     pub import: Option<ImportDialog>,
     pub lessons: Lessons,
     /// The user's own work, while a lesson is on.
-    pub(crate) aside: Option<Box<LessonSession>>,
+    pub(crate) lesson_session: Option<Box<LessonSession>>,
     /// Where panes make what takes longer than a frame.
     pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
@@ -97,8 +77,6 @@ pub struct App {
     pub typed: PathEntry,
     /// A file that is asked about before it is replaced.
     pub replacing: Option<OverwritePrompt>,
-    /// The file of the session that is open.
-    pub session_file: Option<PathBuf>,
     /// Where the working state goes; nowhere in tests.
     pub working_file: Option<PathBuf>,
     /// The working state as it was written last.
@@ -126,32 +104,24 @@ impl App {
         Self {
             saved,
             panes: Dock::new(&window.layout),
-            settings,
+            work: Workspace::new(settings),
             window,
             settings_file: None,
-            document: Document::new(String::new(), Measurement::default(), 0),
             derived: Derived::default(),
             worker: Worker::new(ctx),
-            last_fit: None,
-            fit_history: FitHistory::default(),
-            comparison: Vec::new(),
             reports: Benchmarks::default(),
-            scans: Diagnostics::default(),
-            history: History::default(),
             show_predicted_errors: false,
-            refitted: None,
             notices: Notices::default(),
             views: Views::default(),
             palette: Palette::default(),
             help: None,
             import: None,
             lessons: Lessons::default(),
-            aside: None,
+            lesson_session: None,
             background: Background::new(ctx),
             dragging: false,
             typed: PathEntry::default(),
             replacing: None,
-            session_file: None,
             working_file: None,
             autosaved: None,
             unsaved_since: None,
@@ -194,14 +164,14 @@ impl App {
         if !measurement.ignored_columns.is_empty() {
             self.say(format!("{name}: {}.", measurement.ignored_notice()));
         }
-        self.document = Document::new(name, measurement, self.generation);
-        self.settings.suit(&self.document);
-        self.last_fit = None;
-        self.scans.forget();
-        self.comparison.clear();
+        self.work.document = Document::new(name, measurement, self.generation);
+        self.work.settings.suit(&self.work.document);
+        self.work.shown_fit = None;
+        self.work.diagnostics.forget();
+        self.work.model_comparison.clear();
         self.views = Views::default();
         // What is set because of the new measurement is no step of its own.
-        self.history.replace(self.setup());
+        self.work.undo.replace(self.work.setup());
         self.worker.abandon();
     }
 
@@ -223,7 +193,7 @@ impl App {
         self.dragging = ctx.input(|input| input.pointer.any_down());
         self.refit_if_moved();
         if !self.dragging && self.worker.refit.is_none() {
-            self.history.rest(self.setup());
+            self.work.undo.rest(self.work.setup());
         }
         self.refresh();
         self.remember_window(ctx);
@@ -231,16 +201,11 @@ impl App {
         self.autosave_when_rested(ctx);
     }
 
-    /// Everything the user has set.
-    pub(crate) fn setup(&self) -> Setup {
-        Setup { settings: self.settings.clone(), mask: self.document.mask().clone(), number: self.document.number }
-    }
-
     /// Makes anew what is on screen and has other inputs than before.
     fn refresh(&mut self) {
-        self.derived.refresh_status(&self.settings, &self.document);
+        self.derived.refresh_status(&self.work.settings, &self.work.document);
         let free = self.free();
-        self.derived.refresh_outlook(&self.settings, &self.document, free, self.show_predicted_errors);
+        self.derived.refresh_outlook(&self.work.settings, &self.work.document, free, self.show_predicted_errors);
         self.refresh_import();
         self.panes.settle();
         let on_screen = self.panes.on_screen();
@@ -281,32 +246,32 @@ impl App {
             Event::Refitted(report) => {
                 // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
                 for parameter in self.free() {
-                    self.settings.parameters[parameter] = report.parameters[parameter];
+                    self.work.settings.parameters[parameter] = report.parameters[parameter];
                 }
-                if self.settings.parameters == report.parameters {
-                    self.refitted = Some(report.parameters);
+                if self.work.settings.parameters == report.parameters {
+                    self.work.last_refit_at = Some(report.parameters);
                 }
             }
-            Event::Compared(rungs) => self.comparison = rungs,
+            Event::Compared(rungs) => self.work.model_comparison = rungs,
             Event::Reported { made, is_part } => {
                 self.reports.take(*made, is_part);
                 self.go_on_with_reports();
             }
             Event::Broken(task) => self.broken(task),
             Event::Profiled(profile) => {
-                let curve = |fit: &Rc<FitEntry>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
-                self.scans.profile = self.last_fit.as_ref().map(curve);
+                let curve = |fit: &Arc<FitEntry>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
+                self.work.diagnostics.profile = self.work.shown_fit.as_ref().map(curve);
             }
-            Event::Scattered { replicates, scatter } => self.scans.scatter = Some(Bootstrap { replicates, scatter }),
+            Event::Scattered { replicates, scatter } => self.work.diagnostics.scatter = Some(Bootstrap { replicates, scatter }),
             Event::Fitted { report, problem, generation, mask } => {
-                let before = self.settings.parameters;
-                self.settings.parameters = report.parameters;
-                self.refitted = Some(report.parameters);
-                let Document { name, number, .. } = &self.document;
+                let before = self.work.settings.parameters;
+                self.work.settings.parameters = report.parameters;
+                self.work.last_refit_at = Some(report.parameters);
+                let Document { name, number, .. } = &self.work.document;
                 let (document, number) = (name.clone(), *number);
                 // The list of past fits numbers them.
                 let fit = FitEntry { id: 0, report: *report, problem, before, document, number, generation, mask };
-                let fit = self.fit_history.push(fit);
+                let fit = self.work.fit_history.push(fit);
                 self.show_fit(Some(fit));
             }
         }
@@ -340,17 +305,21 @@ impl App {
 
     /// Fits what is free again after a slider was moved, one fit at a time.
     fn refit_if_moved(&mut self) {
-        let parameters = self.settings.parameters;
-        if !self.settings.refit_live || self.worker.refit.is_some() || self.worker.fit.is_some() || self.refitted == Some(parameters) {
+        let parameters = self.work.settings.parameters;
+        if !self.work.settings.refit_live
+            || self.worker.refit.is_some()
+            || self.worker.fit.is_some()
+            || self.work.last_refit_at == Some(parameters)
+        {
             return;
         }
-        self.refitted = Some(parameters);
-        if parameters.validate(self.settings.model.parameters()).is_err() || self.free().is_empty() {
+        self.work.last_refit_at = Some(parameters);
+        if parameters.validate(self.work.settings.model.parameters()).is_err() || self.free().is_empty() {
             return;
         }
-        let Settings { model, choices, .. } = self.settings;
+        let Settings { model, choices, .. } = self.work.settings;
         // Why a fit is not possible is said when one is asked for.
-        if let Ok(problem) = problem(&self.settings, &self.document.measurement, model, self.free(), choices)
+        if let Ok(problem) = problem(&self.work.settings, &self.work.document.measurement, model, self.free(), choices)
             && let Err(sentence) = self.worker.start_refit(problem)
         {
             self.say(sentence);
@@ -358,7 +327,7 @@ impl App {
     }
 
     fn compare_models(&mut self) -> Result<(), String> {
-        let Self { settings, document, .. } = self;
+        let Self { work: Workspace { settings, document, .. }, .. } = self;
         let problems = PRESETS.iter().map(|preset| {
             let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
             let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
@@ -366,8 +335,8 @@ impl App {
             (preset, problem)
         });
         let problems = problems.collect();
-        self.comparison.clear();
-        self.worker.start_comparison(problems, self.settings.starts, self.settings.seed)
+        self.work.model_comparison.clear();
+        self.worker.start_comparison(problems, self.work.settings.starts, self.work.settings.seed)
     }
 
     pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
@@ -385,10 +354,10 @@ impl App {
             Command::CopyPlot(pane) => ctx.copy_image(export::image(self, pane)?),
             Command::CopyTable => self.copy_table(ctx),
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
-            Command::SaveMeasurement(path) => self.worker.save(path, self.document.measurement.clone())?,
+            Command::SaveMeasurement(path) => self.worker.save(path, self.work.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
-                self.document.set_masked(&rows, masked);
-                self.refitted = None;
+                self.work.document.set_masked(&rows, masked);
+                self.work.last_refit_at = None;
             }
             Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
@@ -400,22 +369,24 @@ impl App {
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.worker.fit.iter().for_each(crate::app::jobs::worker::Job::cancel),
             Command::UseFit => self.use_fit(),
-            Command::Back => self.settings.parameters = self.last_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before),
+            Command::Back => {
+                self.work.settings.parameters = self.work.shown_fit.as_ref().map_or(self.work.settings.parameters, |fit| fit.before)
+            }
             Command::DismissNotices => self.notices.clear(),
             Command::Undo => {
-                let step = self.history.undo();
+                let step = self.work.undo.undo();
                 self.go_to(step);
             }
             Command::Redo => {
-                let step = self.history.redo();
+                let step = self.work.undo.redo();
                 self.go_to(step);
             }
-            Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.settings.parameters)),
+            Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.work.settings.parameters)),
             Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
-            Command::PasteParameters(text) => self.settings.parameters = parameter_text::read(&text, self.settings.parameters)?,
+            Command::PasteParameters(text) => self.work.settings.parameters = parameter_text::read(&text, self.work.settings.parameters)?,
             Command::SetParameters(values) => self.set_parameters(values),
             Command::UseFinish(index) => self.use_finish(index),
-            Command::ResetParameters => self.settings.parameters = Parameters::default(),
+            Command::ResetParameters => self.work.settings.parameters = Parameters::default(),
             Command::UseModel(key) => self.use_model(key),
             Command::ReturnTo(index) => self.return_to(index),
             Command::Profile(parameter) => self.start_profile(parameter)?,
@@ -464,55 +435,57 @@ impl App {
     }
 
     fn set_parameters(&mut self, values: Vec<(Parameter, f64)>) {
-        values.into_iter().for_each(|(parameter, value)| self.settings.parameters[parameter] = value);
+        values.into_iter().for_each(|(parameter, value)| self.work.settings.parameters[parameter] = value);
     }
 
     fn use_finish(&mut self, index: usize) {
-        let parameters = self.settings.parameters;
-        self.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
+        let parameters = self.work.settings.parameters;
+        self.work.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
     }
 
     /// The values of the last fit, and the model that they belong to.
     fn use_fit(&mut self) {
-        if let Some(fit) = &self.last_fit {
-            self.settings.parameters = fit.report.parameters;
-            self.settings.model = fit.report.model;
+        if let Some(fit) = &self.work.shown_fit {
+            self.work.settings.parameters = fit.report.parameters;
+            self.work.settings.model = fit.report.model;
         }
     }
 
     fn use_model(&mut self, key: &str) {
         let preset = PRESETS.iter().find(|preset| preset.key == key);
-        self.settings.model = preset.map_or(self.settings.model, |preset| preset.model);
+        self.work.settings.model = preset.map_or(self.work.settings.model, |preset| preset.model);
     }
 
     /// The table of the pane Data to the clipboard.
     fn copy_table(&mut self, ctx: &egui::Context) {
         ctx.copy_text(crate::app::views::table_text(self));
-        self.notices.info(tr!("{} rows are copied; paste them into a spreadsheet.", self.document.measurement.rows.len()));
+        self.notices.info(tr!("{} rows are copied; paste them into a spreadsheet.", self.work.document.measurement.rows.len()));
     }
 
     /// Everything the user sets as a step of undo has it.
     fn go_to(&mut self, step: Option<Setup>) {
         let Some(Setup { settings, mask, number }) = step else { return };
-        self.settings = settings;
-        self.refitted = Some(self.settings.parameters);
+        self.work.settings = settings;
+        self.work.last_refit_at = Some(self.work.settings.parameters);
         // The rows of another measurement are other rows.
-        if number == self.document.number {
-            self.document.restore_mask(&mask);
+        if number == self.work.document.number {
+            self.work.document.restore_mask(&mask);
         }
-        self.history.replace(self.setup());
+        self.work.undo.replace(self.work.setup());
     }
 
     fn start_bootstrap(&mut self) -> Result<(), String> {
-        self.scans.scatter = None;
+        self.work.diagnostics.scatter = None;
         match self.shown_fit() {
-            Some((problem, report)) => self.worker.start_bootstrap(problem, report, self.scans.replicates, self.settings.seed),
+            Some((problem, report)) => {
+                self.worker.start_bootstrap(problem, report, self.work.diagnostics.replicates, self.work.settings.seed)
+            }
             None => Ok(()),
         }
     }
 
     fn start_profile(&mut self, parameter: Parameter) -> Result<(), String> {
-        self.scans.profile = None;
+        self.work.diagnostics.profile = None;
         match self.shown_fit() {
             Some((problem, report)) => self.worker.start_profile(problem, report, parameter),
             None => Ok(()),
@@ -521,23 +494,23 @@ impl App {
 
     /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
     pub fn free(&self) -> ParameterSet {
-        self.free_with(self.document.measurement.has_brdf()).without_all(self.settings.locked)
+        self.free_with(self.work.document.measurement.has_brdf()).without_all(self.work.settings.locked)
     }
 
     /// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
     pub fn free_in_plan(&self) -> ParameterSet {
-        let (has_brdf, planned) = (self.document.measurement.has_brdf(), self.settings.plan.has_brdf());
-        let locked = match self.settings.locked {
+        let (has_brdf, planned) = (self.work.document.measurement.has_brdf(), self.work.settings.plan.has_brdf());
+        let locked = match self.work.settings.locked {
             locked if has_brdf == planned => locked,
-            locked if planned || self.settings.choices.eq17 == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
+            locked if planned || self.work.settings.choices.eq17 == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
             locked => locked.with(Parameter::Ks),
         };
         self.free_with(planned).without_all(locked)
     }
 
     fn free_with(&self, has_brdf: bool) -> ParameterSet {
-        let model = self.settings.model;
-        match self.settings.choices.eq17 {
+        let model = self.work.settings.model;
+        match self.work.settings.choices.eq17 {
             _ if has_brdf => model.parameters(),
             DolpFormula::Consistent => model.dolp_parameters(),
             // As printed, k_s is a gain of its own.
@@ -549,27 +522,27 @@ impl App {
 
     /// Sliders, model and results as an earlier fit left them.
     fn return_to(&mut self, index: usize) {
-        if let Some(fit) = self.fit_history.get(index) {
-            self.settings.parameters = fit.report.parameters;
-            self.settings.model = fit.report.model;
-            self.refitted = Some(fit.report.parameters);
-            self.show_fit(Some(fit).filter(|fit| fit.number == self.document.number));
+        if let Some(fit) = self.work.fit_history.get(index) {
+            self.work.settings.parameters = fit.report.parameters;
+            self.work.settings.model = fit.report.model;
+            self.work.last_refit_at = Some(fit.report.parameters);
+            self.show_fit(Some(fit).filter(|fit| fit.number == self.work.document.number));
         }
     }
 
     /// Shows a fit; scans around another one end.
-    pub(crate) fn show_fit(&mut self, fit: Option<Rc<FitEntry>>) {
-        self.last_fit = fit;
-        self.scans.forget();
+    pub(crate) fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
+        self.work.shown_fit = fit;
+        self.work.diagnostics.forget();
         self.worker.abandon_scan();
     }
 
     /// Sliders and terms of a model that was compared.
     fn use_rung(&mut self, index: usize) {
-        if let Some(ModelFit { result: Ok(report), .. }) = self.comparison.get(index) {
-            self.settings.parameters = report.parameters;
-            self.settings.model = report.model;
-            self.refitted = Some(report.parameters);
+        if let Some(ModelFit { result: Ok(report), .. }) = self.work.model_comparison.get(index) {
+            self.work.settings.parameters = report.parameters;
+            self.work.settings.model = report.model;
+            self.work.last_refit_at = Some(report.parameters);
         }
     }
 
@@ -579,35 +552,35 @@ impl App {
         let (case, setting) = (row.case.clone(), row.setting.clone());
         match setting {
             Setting::Evaluation { model, parameters, geometry } => {
-                self.settings.model = model;
-                self.settings.parameters = parameters;
-                self.settings.theta_i = geometry.theta_i().0;
-                self.settings.dphi = geometry.dphi().0;
+                self.work.settings.model = model;
+                self.work.settings.parameters = parameters;
+                self.work.settings.theta_i = geometry.theta_i().0;
+                self.work.settings.dphi = geometry.dphi().0;
             }
             Setting::Fit { model, start, measurement } => {
-                self.settings.model = model;
-                self.settings.parameters = start;
+                self.work.settings.model = model;
+                self.work.settings.parameters = start;
                 self.take(case, measurement);
-                self.session_file = None;
+                self.work.session_file = None;
             }
         }
         // The sliders are where the case wants them: nothing is fitted again from there.
-        self.refitted = Some(self.settings.parameters);
+        self.work.last_refit_at = Some(self.work.settings.parameters);
     }
 
     /// The fit that is shown, with the problem that it solved.
     fn shown_fit(&self) -> Option<(Problem, FitResult)> {
-        let fit = self.last_fit.as_ref()?;
+        let fit = self.work.shown_fit.as_ref()?;
         // An automatic scale of the loss belongs to the fit, not to its problem.
         Some((fit.problem.with_loss_scales(fit.report.loss_scales), fit.report.clone()))
     }
 
     fn start_fit(&mut self) -> Result<(), String> {
-        let Settings { model, parameters, choices, starts, seed, .. } = self.settings;
+        let Settings { model, parameters, choices, starts, seed, .. } = self.work.settings;
         parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", phrase(&error)))?;
-        let measurement = &self.document.measurement;
-        match problem(&self.settings, measurement, model, self.free(), choices) {
-            Ok(problem) => self.worker.start_fit(problem, &self.document, starts, seed),
+        let measurement = &self.work.document.measurement;
+        match problem(&self.work.settings, measurement, model, self.free(), choices) {
+            Ok(problem) => self.worker.start_fit(problem, &self.work.document, starts, seed),
             Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }
@@ -619,7 +592,7 @@ impl App {
             self.window.size = [size.x.round(), size.y.round()];
         }
         // While all panes are closed, the arrangement before that is kept; that of a lesson goes with it.
-        if let Some(layout) = self.panes.layout().filter(|_| self.aside.is_none()) {
+        if let Some(layout) = self.panes.layout().filter(|_| self.lesson_session.is_none()) {
             self.window.layout = layout;
         }
     }
@@ -638,13 +611,13 @@ impl App {
     }
 
     fn is_changed(&self) -> bool {
-        *self.own_settings() != self.saved.settings || self.window != self.saved.window
+        self.own_work().settings != self.saved.settings || self.window != self.saved.window
     }
 
     /// Writes the settings now.
     pub fn save(&mut self) {
         self.changed_at = None;
-        self.saved = SettingsFile { settings: self.own_settings().clone(), window: self.window.clone() };
+        self.saved = SettingsFile { settings: self.own_work().settings.clone(), window: self.window.clone() };
         if let Some(path) = &self.settings_file
             && let Err(error) = settings_file::save(path, &self.saved)
         {

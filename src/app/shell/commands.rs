@@ -151,10 +151,10 @@ impl Switch {
     /// Where it is kept.
     pub fn of(self, explorer: &mut App) -> &mut bool {
         match self {
-            Self::LogBrdf => &mut explorer.settings.log_brdf,
-            Self::Limit => &mut explorer.settings.show_limit,
-            Self::Backscatter => &mut explorer.settings.show_backscatter,
-            Self::RefitLive => &mut explorer.settings.refit_live,
+            Self::LogBrdf => &mut explorer.work.settings.log_brdf,
+            Self::Limit => &mut explorer.work.settings.show_limit,
+            Self::Backscatter => &mut explorer.work.settings.show_backscatter,
+            Self::RefitLive => &mut explorer.work.settings.refit_live,
             Self::FrameTimes => &mut explorer.window.show_frame_times,
         }
     }
@@ -278,15 +278,15 @@ static ENTRIES: &[Entry] = &[
     row(Command::ChooseExport(ExportKind::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
         always),
     row(Command::ChooseExport(ExportKind::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
-        |e| only_if(e.last_fit.is_some())),
+        |e| only_if(e.work.shown_fit.is_some())),
     row(Command::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
-        |e| only_if(e.last_fit.is_some())),
+        |e| only_if(e.work.shown_fit.is_some())),
     row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
     row(Command::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Command::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
-        |e| only_if(e.history.can_undo())),
-    row(Command::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |e| only_if(e.history.can_redo())),
+        |e| only_if(e.work.undo.can_undo())),
+    row(Command::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |e| only_if(e.work.undo.can_redo())),
     row(Command::CopyParameters, Menu::Edit, "Copy parameters", "All nine as text: n=2, k=3, …", ctrl_shift(Key::C), always),
     row(Command::RequestPaste, Menu::Edit, "Paste parameters", "From text such as n=2.07, k=2.9; those that it does not name stay",
         ctrl_shift(Key::V), always),
@@ -295,11 +295,11 @@ static ENTRIES: &[Entry] = &[
     row(Command::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
         plain(Key::F5), |e| only_if(e.worker.fit.is_none())),
     row(Command::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.worker.fit.is_some())),
-    row(Command::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |e| only_if(e.last_fit.is_some())),
+    row(Command::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |e| only_if(e.work.shown_fit.is_some())),
     row(Command::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
-        |e| only_if(e.last_fit.is_some())),
+        |e| only_if(e.work.shown_fit.is_some())),
     row(Command::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
-        |e| only_if(e.fit_history.len() > 1)),
+        |e| only_if(e.work.fit_history.len() > 1)),
     row(Command::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
         |e| only_if(e.worker.comparison.is_none())),
     row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
@@ -313,18 +313,18 @@ static ENTRIES: &[Entry] = &[
     row(Command::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
         |e| only_if(e.reports.running.is_some())),
     row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
-        |e| only_if(e.last_fit.is_some() && e.worker.scan.is_none())),
+        |e| only_if(e.work.shown_fit.is_some() && e.worker.scan.is_none())),
     row(Command::CancelScan, Menu::Fit, "Stop profile or bootstrap", "What is done so far is shown", None,
         |e| only_if(e.worker.scan.is_some())),
     row(Command::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
-        "Fixed parameters follow their sliders, the others are fitted again at once", None, |e| switch(e.settings.refit_live)),
+        "Fixed parameters follow their sliders, the others are fitted again at once", None, |e| switch(e.work.settings.refit_live)),
     row(Command::ResetLayout, Menu::View, "Reset layout", "All panes where they were at first", None, always),
     row(Command::Toggle(Switch::LogBrdf), Menu::View, "Logarithmic lobes", "BRDF against a logarithmic axis", ctrl(Key::L),
-        |e| switch(e.settings.log_brdf)),
+        |e| switch(e.work.settings.log_brdf)),
     row(Command::Toggle(Switch::Limit), Menu::View, "Show Fresnel limit", "DoLP without any depolarising term", None,
-        |e| switch(e.settings.show_limit)),
+        |e| switch(e.work.settings.show_limit)),
     row(Command::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
-        ctrl(Key::B), |e| switch(e.settings.show_backscatter)),
+        ctrl(Key::B), |e| switch(e.work.settings.show_backscatter)),
     row(Command::Toggle(Switch::FrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |e| switch(e.window.show_frame_times)),
     row(Command::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
@@ -418,7 +418,7 @@ pub fn items(explorer: &App) -> Vec<Item> {
             switch(on_screen.contains(&entry.pane)),
         )
     });
-    let current = Preset::of(explorer.settings.model).map(|preset| preset.key);
+    let current = Preset::of(explorer.work.settings.model).map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
         let text = tr!("Model: {}", translated(preset.name));
         item(
@@ -457,7 +457,7 @@ pub fn pressed(explorer: &App, ctx: &egui::Context) -> Option<Command> {
     if !any_key {
         return None;
     }
-    if explorer.history.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
+    if explorer.work.undo.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
         // As other programs have it.
         return Some(Command::Redo);
     }

@@ -33,7 +33,7 @@ impl App {
         let question = match command {
             Command::ChooseMeasurement => FileRequest::Open,
             Command::ChooseSession => FileRequest::OpenSession,
-            Command::ChooseSave => FileRequest::Save(self.document.file_name()),
+            Command::ChooseSave => FileRequest::Save(self.work.document.file_name()),
             Command::ChooseExport(what) => FileRequest::Export(*what, what.file_name(self)),
             // No other one asks.
             _ => return Ok(()),

@@ -95,7 +95,7 @@ impl App {
             self.say(format!("{name}: {about}"));
         }
         self.take(name, imported.measurement);
-        self.document.sha256 = sha256;
-        self.session_file = None;
+        self.work.document.sha256 = sha256;
+        self.work.session_file = None;
     }
 }

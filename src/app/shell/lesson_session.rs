@@ -1,34 +1,18 @@
-//! The user's own work, set aside while a lesson is on: a lesson moves sliders, opens examples and arranges panes, and gives all of it back.
+//! A lesson works on a workspace of its own; the user's workspace is saved meanwhile and comes back when the lesson ends.
 //!
-//! What is kept without being asked, the settings and the working state, is the user's own work all the while: a crash in a lesson brings that
-//! back, without the lesson.
+//! Settings file and autosave always hold the user's workspace, so that a crash in a lesson loses nothing of it.
 
-use crate::app::jobs::worker::ModelFit;
-use crate::app::shell::app::{App, Setup};
+use crate::app::shell::app::App;
 use crate::app::shell::docking::Dock;
 use crate::app::views::Views;
-use crate::app::work::diagnostics::Diagnostics;
-use crate::app::work::document::Document;
-use crate::app::work::fit_history::{FitEntry, FitHistory};
-use crate::app::work::history::History;
-use crate::app::work::settings::Settings;
-use pbrdf::model::Parameters;
-use std::path::PathBuf;
-use std::rc::Rc;
+use crate::app::work::workspace::Workspace;
 use tr::tr;
 
-/// What a lesson gives back.
+/// The user's work while a lesson is open.
 pub struct LessonSession {
-    pub settings: Settings,
-    pub document: Document,
-    pub last_fit: Option<Rc<FitEntry>>,
-    pub fit_history: FitHistory,
+    /// The user's own work as it was when the lesson began.
+    pub saved: Workspace,
     panes: Dock,
-    comparison: Vec<ModelFit>,
-    scans: Diagnostics,
-    history: History<Setup>,
-    refitted: Option<Parameters>,
-    session_file: Option<PathBuf>,
 }
 
 impl App {
@@ -54,22 +38,14 @@ impl App {
             self.say(tr!("What was being fitted was stopped for the lesson."));
         }
         self.worker.abandon();
-        let setup = self.setup();
-        self.history.rest(setup);
+        let setup = self.work.setup();
+        self.work.undo.rest(setup);
         let copy = self.panes_at_its_beginning();
-        self.aside = Some(Box::new(LessonSession {
-            settings: std::mem::replace(&mut self.settings, Settings::for_measurement(&self.document.measurement)),
-            document: self.document.clone(),
-            last_fit: self.last_fit.take(),
-            fit_history: self.fit_history.clone(),
+        let lesson = self.work.for_lesson();
+        self.lesson_session = Some(Box::new(LessonSession {
+            saved: std::mem::replace(&mut self.work, lesson),
             panes: std::mem::replace(&mut self.panes, copy),
-            comparison: std::mem::take(&mut self.comparison),
-            scans: std::mem::take(&mut self.scans),
-            history: std::mem::take(&mut self.history),
-            refitted: self.refitted,
-            session_file: self.session_file.take(),
         }));
-        self.refitted = Some(self.settings.parameters);
     }
 
     /// Whether nothing is on its way that belongs to what is shown now: a file would meet the other work.
@@ -97,52 +73,34 @@ impl App {
 
     /// The panes as a lesson finds them.
     pub(crate) fn panes_at_its_beginning(&self) -> Dock {
-        let own = self.aside.as_ref().map_or(&self.panes, |aside| &aside.panes);
+        let own = self.lesson_session.as_ref().map_or(&self.panes, |session| &session.panes);
         own.layout().map_or_else(|| Dock::new(&self.window.layout), |layout| Dock::new(&layout))
     }
 
     /// Closes the lesson; the user's own work is back as it was.
     pub(crate) fn close_lesson(&mut self) {
         self.lessons.open = None;
-        let Some(aside) = self.aside.take() else { return };
-        let LessonSession { settings, document, last_fit, fit_history, panes, comparison, scans, history, refitted, session_file } = *aside;
+        let Some(session) = self.lesson_session.take() else { return };
+        let LessonSession { saved, panes } = *session;
         self.worker.abandon();
         self.worker.abandon_load();
         self.worker.session = None;
         self.import = None;
-        self.settings = settings;
-        self.document = document;
-        self.last_fit = last_fit;
-        self.fit_history = fit_history;
+        self.work = saved;
         self.panes = panes;
-        self.comparison = comparison;
-        self.scans = scans;
-        self.history = history;
-        self.refitted = refitted;
-        self.session_file = session_file;
         self.views = Views::default();
     }
 
     /// Closes the lesson and goes on with what it set; undo leads back to the sliders of before.
     pub(crate) fn keep_lesson(&mut self) {
         self.lessons.open = None;
-        if let Some(aside) = self.aside.take() {
-            self.history = aside.history;
+        if let Some(session) = self.lesson_session.take() {
+            self.work.undo = session.saved.undo;
         }
     }
 
-    /// The settings that are the user's own.
-    pub(crate) fn own_settings(&self) -> &Settings {
-        self.aside.as_ref().map_or(&self.settings, |aside| &aside.settings)
-    }
-
-    /// The measurement that is the user's own.
-    pub(crate) fn own_document(&self) -> &Document {
-        self.aside.as_ref().map_or(&self.document, |aside| &aside.document)
-    }
-
-    /// The fits that are the user's own.
-    pub(crate) fn own_fits(&self) -> &FitHistory {
-        self.aside.as_ref().map_or(&self.fit_history, |aside| &aside.fit_history)
+    /// The user's own work, also while a lesson is open.
+    pub(crate) fn own_work(&self) -> &Workspace {
+        self.lesson_session.as_ref().map_or(&self.work, |session| &session.saved)
     }
 }

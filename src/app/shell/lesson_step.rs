@@ -14,19 +14,19 @@ impl App {
         let Some(steps) = self.lessons.all.get(lesson).and_then(|lesson| lesson.steps.get(..=step)).map(<[Step]>::to_vec) else { return };
         self.worker.abandon();
         self.show_fit(None);
-        self.comparison.clear();
+        self.work.model_comparison.clear();
         let mut fresh = begins;
         for length in step.max(1)..=step + 1 {
             self.set_up(&steps[..length], fresh);
-            let setup = self.setup();
+            let setup = self.work.setup();
             if fresh {
-                self.history.replace(setup);
+                self.work.undo.replace(setup);
             } else {
-                self.history.rest(setup);
+                self.work.undo.rest(setup);
             }
             fresh = false;
         }
-        self.refitted = Some(self.settings.parameters);
+        self.work.last_refit_at = Some(self.work.settings.parameters);
         let mut panes = self.panes_at_its_beginning();
         for step in &steps {
             let named: Vec<PaneId> = step.panes.iter().filter_map(|name| PaneId::try_from(name.clone()).ok()).collect();
@@ -48,17 +48,17 @@ impl App {
             }
             None => (EXAMPLES[0].name, Some(EXAMPLES[0].text)),
         };
-        if begins || self.document.name != name {
+        if begins || self.work.document.name != name {
             let read = |text: &str| pbrdf::measurement::read(text.as_bytes(), &mut |_| ControlFlow::Continue(()));
             // Tests read all that are bundled.
             self.take(name.to_owned(), text.and_then(|text| read(text).ok()).unwrap_or_default());
         }
         // No row of an example is masked by its file.
-        self.document.restore_mask(&Mask::default());
+        self.work.document.restore_mask(&Mask::default());
         let mut settings = Settings::default();
-        settings.suit(&self.document);
+        settings.suit(&self.work.document);
         steps.iter().for_each(|step| apply(step, &mut settings));
-        self.settings = settings;
+        self.work.settings = settings;
     }
 }
 

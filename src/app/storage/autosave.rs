@@ -38,16 +38,16 @@ impl App {
 
     fn working(&self) -> AutosaveKey {
         AutosaveKey {
-            settings: self.own_settings().clone(),
+            settings: self.own_work().settings.clone(),
             layout: self.window.layout.clone(),
-            generation: self.own_document().generation,
-            fits: self.own_fits().made(),
+            generation: self.own_work().document.generation,
+            fits: self.own_work().fit_history.made(),
         }
     }
 
     /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
     fn due(&self) -> Option<(PathBuf, AutosaveKey)> {
-        let path = self.working_file.clone().filter(|_| self.own_document().measurement.rows.len() <= MOST_ROWS)?;
+        let path = self.working_file.clone().filter(|_| self.own_work().document.measurement.rows.len() <= MOST_ROWS)?;
         let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
         let working = self.working();
         (!is_waiting && self.autosaved.as_ref() != Some(&working)).then_some((path, working))
@@ -81,7 +81,7 @@ impl App {
 
     pub fn save_session(&mut self, ctx: &egui::Context) -> Result<(), String> {
         let what = ExportKind::Session;
-        let command = self.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
+        let command = self.work.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
         self.execute(ctx, command)
     }
 
@@ -91,8 +91,8 @@ impl App {
                 self.typed.served(&path);
                 self.notices.info(tr!("{0} is saved to {1}.", translated(what.name()), path.display()));
                 // What was saved out of a lesson is no file of the work that comes back.
-                if what == ExportKind::Session && self.aside.is_none() {
-                    self.session_file = Some(path);
+                if what == ExportKind::Session && self.lesson_session.is_none() {
+                    self.work.session_file = Some(path);
                 }
             }
             Err(sentence) => self.say(sentence),
@@ -111,7 +111,7 @@ impl App {
                 if !left_out.is_empty() {
                     self.say(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out.join("; ")));
                 }
-                self.session_file = (!is_working).then(|| path.to_owned());
+                self.work.session_file = (!is_working).then(|| path.to_owned());
                 if is_working {
                     self.autosaved = Some(self.working());
                 } else {
@@ -137,27 +137,27 @@ impl App {
     fn show_session(&mut self, opened: OpenedSession) {
         // It takes the place of a lesson, and of what that would give back.
         self.lessons.open = None;
-        self.aside = None;
+        self.lesson_session = None;
         let OpenedSession { session, fits } = opened;
         let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
         self.take(session.name, measurement);
-        self.document.sha256 = session.sha256;
-        self.settings = session.settings;
+        self.work.document.sha256 = session.sha256;
+        self.work.settings = session.settings;
         self.window.layout = session.layout;
         self.panes = Dock::new(&self.window.layout);
-        self.refitted = Some(self.settings.parameters);
+        self.work.last_refit_at = Some(self.work.settings.parameters);
         let shown = session.shown;
         for (index, RestoredFit { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
-            let (document, number) = (self.document.name.clone(), self.document.number);
+            let (document, number) = (self.work.document.name.clone(), self.work.document.number);
             // None of this document, where the mask was another one.
-            let generation = if mask == *self.document.mask() { self.document.generation } else { 0 };
+            let generation = if mask == *self.work.document.mask() { self.work.document.generation } else { 0 };
             let fit = FitEntry { id: 0, report, problem, before, document, number, generation, mask };
-            let fit = self.fit_history.push(fit);
+            let fit = self.work.fit_history.push(fit);
             if Some(index) == shown {
                 self.show_fit(Some(fit));
             }
         }
-        let setup = self.setup();
-        self.history.replace(setup);
+        let setup = self.work.setup();
+        self.work.undo.replace(setup);
     }
 }

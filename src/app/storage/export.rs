@@ -14,6 +14,7 @@ use crate::app::work::document::Document;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use crate::export;
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
 use crate::report::{FitDocument, Source, write_curves, write_fitted};
@@ -21,7 +22,7 @@ use crate::write_file::write_file;
 use egui_plot::PlotPoint;
 use pbrdf::model::Pbrdf;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::Arc;
 use tr::tr;
 
 /// Something that can be written.
@@ -83,7 +84,7 @@ impl ExportKind {
 
     /// A name to begin with.
     pub fn file_name(self, explorer: &App) -> String {
-        let name = explorer.document.file_name();
+        let name = explorer.work.document.file_name();
         let stem = name.trim_end_matches(".csv");
         let what = match self {
             Self::Plot(pane) => format!("-{}", pane.entry().key),
@@ -126,14 +127,14 @@ impl ExportKind {
             }
             Self::Curves => {
                 let surface = surface(explorer)?;
-                let series = explorer.document.series.clone();
-                let backscatter = explorer.settings.show_backscatter || explorer.document.has_backscatter();
+                let series = explorer.work.document.series.clone();
+                let backscatter = explorer.work.settings.show_backscatter || explorer.work.document.has_backscatter();
                 Ok(written(move |out| write_curves(&surface, &series, backscatter, out)))
             }
             Self::Fitted => {
-                let fit = explorer.last_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
+                let fit = explorer.work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", phrase(&error)))?;
-                let (choices, measurement) = (*fit.problem.choices(), explorer.document.measurement.clone());
+                let (choices, measurement) = (*fit.problem.choices(), explorer.work.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.eq17, choices.dolp_only, out)))
             }
             Self::Report => report(explorer),
@@ -156,13 +157,14 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
 }
 
 fn surface(explorer: &App) -> Result<Pbrdf, String> {
-    Pbrdf::new(explorer.settings.model, explorer.settings.parameters).map_err(|error| tr!("There are no curves: {}.", phrase(&error)))
+    Pbrdf::new(explorer.work.settings.model, explorer.work.settings.parameters)
+        .map_err(|error| tr!("There are no curves: {}.", phrase(&error)))
 }
 
 fn report(explorer: &App) -> Result<Write, String> {
-    let fit = explorer.last_fit.clone().ok_or_else(|| translated(NO_FIT))?;
+    let fit = explorer.work.shown_fit.clone().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
-    let (measurement, document) = (explorer.document.measurement.clone(), &explorer.document);
+    let (measurement, document) = (explorer.work.document.measurement.clone(), &explorer.work.document);
     let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", phrase(&reason)))?;
@@ -179,27 +181,26 @@ fn report(explorer: &App) -> Result<Write, String> {
 
 /// The session as it is shown, that of a lesson included.
 pub fn session(explorer: &App) -> Session {
-    let App { settings, document, fit_history, last_fit, .. } = explorer;
+    let App { work: Workspace { settings, document, fit_history, shown_fit: last_fit, .. }, .. } = explorer;
     let layout = explorer.panes.layout().unwrap_or_else(|| explorer.window.layout.clone());
     session_of(settings, layout, document, fit_history, last_fit.as_ref())
 }
 
 /// The session of the user's own work, which a lesson sets aside.
 pub fn own_session(explorer: &App) -> Session {
-    let last_fit = explorer.aside.as_ref().map_or(&explorer.last_fit, |aside| &aside.last_fit);
-    let layout = explorer.window.layout.clone();
-    session_of(explorer.own_settings(), layout, explorer.own_document(), explorer.own_fits(), last_fit.as_ref())
+    let Workspace { settings, document, fit_history, shown_fit, .. } = explorer.own_work();
+    session_of(settings, explorer.window.layout.clone(), document, fit_history, shown_fit.as_ref())
 }
 
-fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &FitHistory, shown: Option<&Rc<FitEntry>>) -> Session {
-    let fits: Vec<&Rc<FitEntry>> = fits.iter().filter(|fit| fit.number == document.number).collect();
+fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &FitHistory, shown: Option<&Arc<FitEntry>>) -> Session {
+    let fits: Vec<&Arc<FitEntry>> = fits.iter().filter(|fit| fit.number == document.number).collect();
     Session {
         settings: settings.clone(),
         layout,
         name: document.name.clone(),
         sha256: document.sha256.clone(),
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
-        shown: fits.iter().position(|fit| shown.is_some_and(|shown| Rc::ptr_eq(fit, shown))),
+        shown: fits.iter().position(|fit| shown.is_some_and(|shown| Arc::ptr_eq(fit, shown))),
         fits: fits.into_iter().map(|fit| SavedFit::new(fit)).collect(),
         left_out: Vec::new(),
     }
@@ -252,7 +253,7 @@ fn band(ribbons: &[Ribbon], name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> S
 }
 
 fn dolp(explorer: &App) -> Option<Figure> {
-    let App { derived, settings, views, document, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, derived, views, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
     let plain = |y: f64| y;
     let limit = |curves: &Curves, color| Series::dashed("Fresnel limit", points(&curves.limit, plain), Dash::Dashed).colored(color);
@@ -289,7 +290,7 @@ fn dolp(explorer: &App) -> Option<Figure> {
 }
 
 fn lobes(explorer: &App) -> Option<Figure> {
-    let App { derived, settings, views, document, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, derived, views, .. } = explorer;
     let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
     let log = key.brdf.log;
     let quantity = if key.brdf.times_cosine { "BRDF × cos θr" } else { "BRDF" };

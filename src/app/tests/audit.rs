@@ -19,7 +19,7 @@ fn shown() -> Harness<'static, Option<App>> {
 #[test]
 fn every_finding_has_its_number_verdict_and_reason() {
     let mut harness = shown();
-    let settings = explorer(&mut harness).settings.clone();
+    let settings = explorer(&mut harness).work.settings.clone();
     let audit = Audit::new(&Pbrdf::new(settings.model, settings.parameters).expect("the defaults"));
     assert_eq!(explorer(&mut harness).views.audit.audit(), Some(&audit));
     for finding in &audit.findings {
@@ -54,10 +54,10 @@ fn findings_stand_below_each_other_in_narrow_and_wide_panes() {
 #[test]
 fn a_surface_that_shines_is_warned_of_and_terms_that_are_absent_are_not_judged() {
     let mut harness = shown();
-    explorer(&mut harness).settings.parameters.kd = 1.5;
+    explorer(&mut harness).work.settings.parameters.kd = 1.5;
     wait(&mut harness);
     harness.get_by_label_contains("More light leaves than falls on the surface from θi = 0° on.");
-    let settings = &mut explorer(&mut harness).settings;
+    let settings = &mut explorer(&mut harness).work.settings;
     settings.parameters.kd = 0.1;
     settings.model.diffuse = Diffuse::Absent;
     settings.model.volume = false;
@@ -73,7 +73,7 @@ fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
     wait(&mut harness);
     assert!(explorer(&mut harness).views.audit.audit().is_none());
     let mut harness = shown();
-    explorer(&mut harness).settings.parameters.q = f64::NAN;
+    explorer(&mut harness).work.settings.parameters.q = f64::NAN;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.audit.audit().is_none());
 }

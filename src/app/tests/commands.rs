@@ -54,7 +54,7 @@ fn every_command_can_be_carried_out() {
 #[test]
 fn commands_about_what_is_not_there_change_nothing() {
     let mut harness = harness();
-    let (settings, rows) = (explorer(&mut harness).settings.clone(), explorer(&mut harness).document.measurement.rows.clone());
+    let (settings, rows) = (explorer(&mut harness).work.settings.clone(), explorer(&mut harness).work.document.measurement.rows.clone());
     let profiles = pbrdf::model::Parameter::ALL.map(Command::Profile);
     let others = [
         Command::ImportDialog,
@@ -74,7 +74,7 @@ fn commands_about_what_is_not_there_change_nothing() {
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         assert_eq!(
-            (explorer.notices.take(), &explorer.settings, &explorer.document.measurement.rows),
+            (explorer.notices.take(), &explorer.work.settings, &explorer.work.document.measurement.rows),
             (None, &settings, &rows),
             "{command:?}"
         );
@@ -86,12 +86,12 @@ fn keys_do_what_menus_say() {
     let mut harness = harness();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings.log_brdf);
     harness.get_by_label("View").click();
     harness.run();
     harness.get_by_label("Logarithmic lobes").click();
     harness.run();
-    assert!(!explorer(&mut harness).settings.log_brdf);
+    assert!(!explorer(&mut harness).work.settings.log_brdf);
 }
 
 #[test]
@@ -101,14 +101,14 @@ fn keys_work_while_a_slider_has_the_focus_and_not_while_a_field_is_typed_into() 
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings.log_brdf);
     harness.get_by_label("File").click();
     harness.run();
     harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Type a path to open and press Enter:").focus();
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings.log_brdf);
 }
 
 #[test]
@@ -135,11 +135,11 @@ fn arrows_choose_in_the_palette_and_escape_leaves_it() {
     harness.run();
     harness.key_press(Key::ArrowDown);
     harness.run();
-    explorer(&mut harness).settings.parameters.n = 7.0;
+    explorer(&mut harness).work.settings.parameters.n = 7.0;
     harness.key_press(Key::Escape);
     harness.run();
     assert!(!explorer(&mut harness).palette.is_open());
-    assert_eq!(explorer(&mut harness).settings.parameters.n, 7.0);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 7.0);
 }
 
 #[test]
@@ -169,20 +169,20 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
 #[test]
 fn ctrl_y_does_again_what_was_undone() {
     let mut harness = harness();
-    explorer(&mut harness).settings.parameters.k = 4.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.5;
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run();
-    assert_eq!(explorer(&mut harness).settings.parameters, Parameters::default());
+    assert_eq!(explorer(&mut harness).work.settings.parameters, Parameters::default());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Y);
     harness.run();
-    assert_eq!(explorer(&mut harness).settings.parameters.k, 4.5);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.k, 4.5);
 }
 
 #[test]
 fn undo_brings_back_every_setting() {
     let mut harness = harness();
-    let before = explorer(&mut harness).settings.clone();
+    let before = explorer(&mut harness).work.settings.clone();
     let steps: [fn(&mut crate::app::work::settings::Settings); 5] = [
         |settings| settings.parameters.k = 4.5,
         |settings| settings.model.volume = false,
@@ -191,37 +191,37 @@ fn undo_brings_back_every_setting() {
         |settings| settings.show_limit = false,
     ];
     for step in steps {
-        step(&mut explorer(&mut harness).settings);
+        step(&mut explorer(&mut harness).work.settings);
         harness.run();
     }
-    let after = explorer(&mut harness).settings.clone();
+    let after = explorer(&mut harness).work.settings.clone();
     for _ in steps {
         explorer(&mut harness).commands.push(Command::Undo);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).settings, before);
+    assert_eq!(explorer(&mut harness).work.settings, before);
     for _ in steps {
         explorer(&mut harness).commands.push(Command::Redo);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).settings, after);
+    assert_eq!(explorer(&mut harness).work.settings, after);
 }
 
 #[test]
 fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
     let mut harness = harness();
-    let steps_before = explorer(&mut harness).history.can_undo();
+    let steps_before = explorer(&mut harness).work.undo.can_undo();
     for command in [Command::SetTheme(Theme::Dark), Command::Toggle(Switch::FrameTimes)] {
         explorer(&mut harness).commands.push(command);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).history.can_undo(), steps_before);
+    assert_eq!(explorer(&mut harness).work.undo.can_undo(), steps_before);
 }
 
 #[test]
 fn parameters_are_copied_and_pasted_as_text() {
     let mut harness = harness();
-    explorer(&mut harness).settings.parameters.n = 2.07;
+    explorer(&mut harness).work.settings.parameters.n = 2.07;
     explorer(&mut harness).commands.push(Command::CopyParameters);
     harness.step();
     let copied = harness.output().platform_output.commands.iter().find_map(|command| match command {
@@ -230,14 +230,14 @@ fn parameters_are_copied_and_pasted_as_text() {
     });
     let copied = copied.expect("text on the clipboard");
     assert!(copied.starts_with("n=2.07, k=3"), "{copied}");
-    explorer(&mut harness).settings.parameters = Parameters::default();
+    explorer(&mut harness).work.settings.parameters = Parameters::default();
     harness.input_mut().events.push(egui::Event::Paste(copied));
     harness.run();
-    assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 2.07);
     harness.input_mut().events.push(egui::Event::Paste("what is this".to_owned()));
     harness.run();
     assert!(explorer(&mut harness).notices.text().expect("a notice").contains("is no set of parameters"));
-    assert_eq!(explorer(&mut harness).settings.parameters.n, 2.07);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 2.07);
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn the_palette_finds_english_names_in_every_language() {
     harness.key_press(Key::Enter);
     harness.step();
     wait(&mut harness);
-    assert!(explorer(&mut harness).last_fit.is_some());
+    assert!(explorer(&mut harness).work.shown_fit.is_some());
     // And the names that are shown, without the English ones.
     explorer(&mut harness).commands.push(Command::OpenPalette);
     harness.run();

@@ -38,10 +38,10 @@ fn a_dropped_file_is_opened() {
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!((explorer.document.name.as_str(), explorer.document.measurement.rows.len()), ("mine.csv", 2));
-    assert_eq!(explorer.settings.theta_i, 35.0);
-    assert!(!explorer.settings.locked.contains(Parameter::Ks), "a BRDF can determine k_s");
-    assert!(explorer.document.has_backscatter());
+    assert_eq!((explorer.work.document.name.as_str(), explorer.work.document.measurement.rows.len()), ("mine.csv", 2));
+    assert_eq!(explorer.work.settings.theta_i, 35.0);
+    assert!(!explorer.work.settings.locked.contains(Parameter::Ks), "a BRDF can determine k_s");
+    assert!(explorer.work.document.has_backscatter());
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = file(&folder, "bad.csv", "theta_i,theta_r,dolp\n30,20,0.1\n30,25,abc\n");
     let mut harness = harness();
-    let rows = explorer(&mut harness).document.measurement.rows.clone();
+    let rows = explorer(&mut harness).work.document.measurement.rows.clone();
     for (command, expected) in [
         (Command::OpenMeasurement(path), "line 3, column 3 (dolp)"),
         (Command::OpenMeasurement(folder.path().to_owned()), "directory"),
@@ -60,7 +60,7 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
         let explorer = explorer(&mut harness);
         let notice = explorer.notices.text().expect("a notice");
         assert!(notice.contains(expected), "{notice}");
-        assert_eq!(explorer.document.measurement.rows, rows);
+        assert_eq!(explorer.work.document.measurement.rows, rows);
     }
     harness.get_by_label("Dismiss").click();
     harness.run();
@@ -87,7 +87,7 @@ fn a_path_can_be_typed_into_the_menu_after_a_click() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).document.name, "typed.csv");
+    assert_eq!(explorer(&mut harness).work.document.name, "typed.csv");
 }
 
 #[test]
@@ -97,8 +97,8 @@ fn every_example_opens_and_says_that_it_is_simulated() {
         explorer(&mut harness).commands.push(Command::OpenExample(index));
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        assert_eq!((explorer.document.name.as_str(), explorer.notices.text()), (example.name, None));
-        assert!(explorer.document.description().contains("simulated"));
+        assert_eq!((explorer.work.document.name.as_str(), explorer.notices.text()), (example.name, None));
+        assert!(explorer.work.document.description().contains("simulated"));
         assert!(explorer.derived.delta_e().is_some());
     }
 }
@@ -118,7 +118,7 @@ fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
     let mut harness = harness();
     explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
     wait(&mut harness);
-    assert!(explorer(&mut harness).settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings.log_brdf);
 }
 
 #[test]

@@ -55,7 +55,7 @@ fn small() -> Harness<'static, Option<App>> {
     explorer(&mut harness).take("small.csv".to_owned(), table);
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
-    assert!(explorer(&mut harness).last_fit.is_some());
+    assert!(explorer(&mut harness).work.shown_fit.is_some());
     harness
 }
 
@@ -69,7 +69,7 @@ fn text(session: &Session) -> Vec<u8> {
 fn session() -> Session {
     let mut harness = small();
     let explorer = explorer(&mut harness);
-    explorer.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    explorer.work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
     export::session(explorer)
 }
 
@@ -127,7 +127,7 @@ fn settings() {
         assert_eq!(settings_file::load_from(&copy), (stored.clone(), None));
         let explorer = explorer(&mut harness);
         explorer.panes = Dock::new(&stored.window.layout);
-        (explorer.settings, explorer.window) = (stored.settings, stored.window);
+        (explorer.work.settings, explorer.window) = (stored.settings, stored.window);
         wait(&mut harness);
         true
     });

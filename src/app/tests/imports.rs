@@ -34,7 +34,7 @@ fn press(harness: &mut Harness<'static, Option<App>>, button: &str) {
 /// Name and number of rows of what is open, and whether a question is.
 fn state(harness: &mut Harness<'static, Option<App>>) -> (String, usize, bool) {
     let explorer = explorer(harness);
-    (explorer.document.name.clone(), explorer.document.measurement.rows.len(), explorer.import.is_some())
+    (explorer.work.document.name.clone(), explorer.work.document.measurement.rows.len(), explorer.import.is_some())
 }
 
 const ELLIPSOMETRY: &str = "sample\nVASEmethod[x]\nnm\n600\t55\t43\t150\t0.01\t0.02\n600\t65\t42\t140\n650\t55\t43.5\t151\n650\t65\t42.5\t141\ndpolE\t650\t55\t1.5\n";
@@ -50,12 +50,12 @@ fn ellipsometry_asks_for_a_wavelength_and_becomes_specular_dolp() {
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("al.dat".to_owned(), 2, false));
     let explorer = explorer(&mut harness);
-    let row = explorer.document.measurement.rows[0];
+    let row = explorer.work.document.measurement.rows[0];
     let expected = 86.0_f64.to_radians();
     assert!((row.dolp.expect("a DoLP").value - libm::cos(expected)).abs() < 1e-12);
-    assert_eq!(explorer.document.measurement.metadata("imported_from"), Some("al.dat"));
-    assert_eq!(explorer.document.wavelength_nm(), Some(600.0));
-    assert!(explorer.document.sha256.is_some() && explorer.window.recent[0].ends_with("al.dat"));
+    assert_eq!(explorer.work.document.measurement.metadata("imported_from"), Some("al.dat"));
+    assert_eq!(explorer.work.document.wavelength_nm(), Some(600.0));
+    assert!(explorer.work.document.sha256.is_some() && explorer.window.recent[0].ends_with("al.dat"));
     assert!(explorer.notices.text().is_some_and(|notice| notice.contains("not applied to DoLP")));
 }
 
@@ -89,8 +89,8 @@ fn a_tensor_asks_for_its_slices() {
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("mine.pbsdf".to_owned(), 6, false));
     let explorer = explorer(&mut harness);
-    assert!(explorer.document.measurement.has_brdf() && explorer.document.measurement.has_dolp());
-    assert!(explorer.document.measurement.rows.iter().all(|row| row.geometry.dphi().0 == 90.0));
+    assert!(explorer.work.document.measurement.has_brdf() && explorer.work.document.measurement.has_dolp());
+    assert!(explorer.work.document.measurement.rows.iter().all(|row| row.geometry.dphi().0 == 90.0));
 }
 
 const TABLE: &str = "Sample;AOI [deg];View (rad);DoLP %;note\nsteel;30;0,5;12,5;a\nsteel;30;0,6;13;b\n";
@@ -102,7 +102,7 @@ fn a_foreign_table_is_guessed_shown_and_opened() {
     harness.get_by_label("The first of 2 rows as they will be:");
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("theirs.csv".to_owned(), 2, false));
-    let row = explorer(&mut harness).document.measurement.rows[0];
+    let row = explorer(&mut harness).work.document.measurement.rows[0];
     let (theta_r, dolp) = (row.geometry.theta_r().0, row.dolp.expect("a DoLP").value);
     assert!((theta_r - 0.5_f64.to_degrees()).abs() < 1e-12 && (dolp - 0.125).abs() < 1e-15);
     assert!(explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("Sample, note")));
@@ -152,12 +152,12 @@ fn a_table_at_a_single_angle_of_incidence_is_opened_with_a_constant() {
     assert_eq!(mapping(&mut harness).theta_i, Some(45.0));
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("single.csv".to_owned(), 2, false));
-    assert_eq!(explorer(&mut harness).document.measurement.incidence_angles(), [45.0]);
+    assert_eq!(explorer(&mut harness).work.document.measurement.incidence_angles(), [45.0]);
     // Stated beside the numbers, it is offered.
     let (mut harness, _folder) = opened("stated.csv", b"# angle of incidence: 30 deg\n# by JL\nview,dolp,sd\n20,0.1,0.01\n");
     assert_eq!((mapping(&mut harness).theta_i, mapping(&mut harness).to_string().as_str()), (Some(30.0), "theta_r=1,dolp=2,dolp_sigma=3"));
     press(&mut harness, "Open");
-    let measurement = &explorer(&mut harness).document.measurement;
+    let measurement = &explorer(&mut harness).work.document.measurement;
     assert_eq!((measurement.incidence_angles(), measurement.metadata("comment")), (vec![30.0], Some("by JL")));
     assert_eq!(measurement.rows[0].dolp.and_then(|dolp| dolp.sigma), Some(0.01));
 }
@@ -290,5 +290,5 @@ fn enter_opens_a_table_whose_columns_are_guessed() {
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     assert!(explorer.import.is_none());
-    assert_eq!(explorer.document.measurement.rows.len(), 3);
+    assert_eq!(explorer.work.document.measurement.rows.len(), 3);
 }

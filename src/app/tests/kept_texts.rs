@@ -31,7 +31,7 @@ fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
 #[test]
 fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
-    explorer(&mut harness).settings.starts = Starts::One;
+    explorer(&mut harness).work.settings.starts = Starts::One;
     order(&mut harness, Command::StartFit);
     explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     harness.run_steps(4);
@@ -48,10 +48,10 @@ fn what_a_pointer_reads_on_the_landscape() {
 #[test]
 fn why_a_model_was_skipped() {
     let mut harness = harness();
-    let mut measurement = (*explorer(&mut harness).document.measurement).clone();
+    let mut measurement = (*explorer(&mut harness).work.document.measurement).clone();
     measurement.rows.iter_mut().for_each(|row| row.brdf = row.dolp.take());
     explorer(&mut harness).take("lobes".to_owned(), measurement);
-    explorer(&mut harness).settings.starts = Starts::One;
+    explorer(&mut harness).work.settings.starts = Starts::One;
     explorer(&mut harness).panes.show(PaneId::Models);
     order(&mut harness, Command::CompareModels);
     assert_eq!(is_there_in_both(&mut harness, "the model predicts DoLP only"), [true, false]);
@@ -61,7 +61,7 @@ fn why_a_model_was_skipped() {
 fn why_nothing_is_predicted() {
     let mut harness = harness();
     explorer(&mut harness).panes.show(PaneId::Planner);
-    explorer(&mut harness).settings.plan.theta_r.clear();
+    explorer(&mut harness).work.settings.plan.theta_r.clear();
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
 }

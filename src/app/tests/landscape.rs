@@ -25,11 +25,11 @@ fn it_follows_every_slider_but_its_own_two() {
     harness.get_by_label(HINT);
     let before = explorer(&mut harness).views.landscape.key().cloned().expect("a landscape");
     assert_eq!((before.across.count, before.up.count), (256, 256));
-    explorer(&mut harness).settings.parameters.n = 1.3;
-    explorer(&mut harness).settings.parameters.k = f64::NAN;
+    explorer(&mut harness).work.settings.parameters.n = 1.3;
+    explorer(&mut harness).work.settings.parameters.k = f64::NAN;
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.landscape.key(), Some(&before), "n and k are its axes");
-    explorer(&mut harness).settings.parameters.sigma = 0.2;
+    explorer(&mut harness).work.settings.parameters.sigma = 0.2;
     wait(&mut harness);
     assert_ne!(explorer(&mut harness).views.landscape.key(), Some(&before));
     assert!(explorer(&mut harness).views.landscape.is_there());
@@ -60,7 +60,7 @@ fn nothing_is_computed_off_screen() {
     let before = explorer(&mut harness).views.landscape.key().cloned();
     explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
-    explorer(&mut harness).settings.parameters.sigma = 0.2;
+    explorer(&mut harness).work.settings.parameters.sigma = 0.2;
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.landscape.key().cloned(), before);
 }
@@ -72,7 +72,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
         wait(&mut harness);
         let before = explorer(&mut harness).views.landscape.key().cloned();
-        explorer(&mut harness).settings.parameters.sigma = 0.2;
+        explorer(&mut harness).work.settings.parameters.sigma = 0.2;
         harness.step();
         let running = |harness: &mut Harness<'static, Option<App>>| {
             let views = &explorer(harness).views;
@@ -92,7 +92,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
 #[test]
 fn a_click_sets_both_sliders_in_one_step_of_undo() {
     let mut harness = shown();
-    let before = explorer(&mut harness).settings.parameters;
+    let before = explorer(&mut harness).work.settings.parameters;
     let at = harness.get_by_label(HINT).rect().left_top() + egui::vec2(250.0, -120.0);
     harness.hover_at(at);
     harness.run();
@@ -102,14 +102,14 @@ fn a_click_sets_both_sliders_in_one_step_of_undo() {
     wait(&mut harness);
     harness.hover_at(at);
     harness.run();
-    let after = explorer(&mut harness).settings.parameters;
+    let after = explorer(&mut harness).work.settings.parameters;
     assert!(after.n != before.n && after.k != before.k, "{after:?}");
     // What is read under the pointer is what the click has set.
     let reading = format!("n = {}, k = {}: ΔE = ", after.n, after.k);
     assert!(harness.query_by_label_contains(&reading).is_some(), "{reading}");
     explorer(&mut harness).commands.push(Command::Undo);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).settings.parameters, before);
+    assert_eq!(explorer(&mut harness).work.settings.parameters, before);
 }
 
 #[test]
@@ -126,14 +126,14 @@ fn ways_minima_and_metals_lie_on_it() {
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    let report = &explorer.last_fit.as_ref().expect("a fit").report;
+    let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
     let (steps, minima) = (report.path.len(), report.minima.len());
     let marks = explorer.views.landscape.marks().expect("marks");
     assert_eq!((marks.ways.len(), marks.ways[0].len(), marks.minima.len()), (1, steps + 1, minima.min(24)));
     assert!(marks.text("way of the last fit", 0).expect("a text").contains("evaluation 1"));
     assert!(marks.text("minima", 0).expect("a text").contains("minimum 1"));
     // Metals have no place where the axes are others.
-    explorer.settings.landscape.up = Parameter::Kd;
+    explorer.work.settings.landscape.up = Parameter::Kd;
     wait(&mut harness);
     assert_eq!(crate::app::tests::explorer(&mut harness).views.landscape.marks().expect("marks").metals.len(), 0);
 }
@@ -142,20 +142,20 @@ fn ways_minima_and_metals_lie_on_it() {
 fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
     let mut harness = shown();
     for across in Parameter::ALL {
-        let landscape = &mut explorer(&mut harness).settings.landscape;
+        let landscape = &mut explorer(&mut harness).work.settings.landscape;
         (landscape.across, landscape.up) = (across, if across == Parameter::Sigma { Parameter::Q } else { Parameter::Sigma });
         wait(&mut harness);
         assert!(explorer(&mut harness).views.landscape.is_there(), "{}", across.key());
     }
-    let landscape = &mut explorer(&mut harness).settings.landscape;
+    let landscape = &mut explorer(&mut harness).work.settings.landscape;
     (landscape.across, landscape.up) = (Parameter::N, Parameter::N);
     wait(&mut harness);
     harness.get_by_label("Both axes are the same parameter: choose another one for one of them.");
-    explorer(&mut harness).settings.landscape.up = Parameter::K;
-    explorer(&mut harness).settings.choices.weights = Weights::Sigma;
+    explorer(&mut harness).work.settings.landscape.up = Parameter::K;
+    explorer(&mut harness).work.settings.choices.weights = Weights::Sigma;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.landscape.is_there());
-    explorer(&mut harness).settings.choices.loss = pbrdf::fit::Loss::Huber;
+    explorer(&mut harness).work.settings.choices.loss = pbrdf::fit::Loss::Huber;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.landscape.is_there());
 }
@@ -163,7 +163,7 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
 #[test]
 fn masked_rows_have_no_landscape() {
     let mut harness = shown();
-    let rows = (0..explorer(&mut harness).document.measurement.rows.len()).collect();
+    let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
     explorer(&mut harness).commands.push(Command::Mask { rows, masked: true });
     wait(&mut harness);
     assert!(!explorer(&mut harness).views.landscape.is_there());

@@ -112,7 +112,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
     let mut harness = harness();
     show(&mut harness, PaneId::Hemisphere);
     for quantity in [Quantity::Dolp, Quantity::Brdf] {
-        explorer(&mut harness).settings.shown.hemisphere = quantity;
+        explorer(&mut harness).work.settings.shown.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         let exported = figure(explorer, PaneId::Hemisphere).expect("a map");
@@ -121,7 +121,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
         let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
         let (x, y) = (middle(&map.x_edges, column), middle(&map.y_edges, row));
         let (theta_r, dphi) = (libm::hypot(x, y), libm::atan2(-y, -x).to_degrees().rem_euclid(360.0));
-        let settings = &explorer.settings;
+        let settings = &explorer.work.settings;
         let surface = Pbrdf::new(settings.model, settings.parameters).expect("a surface");
         let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("a direction");
         let reflection = surface.reflection(&Facet::new(geometry));
@@ -141,7 +141,7 @@ fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
     let explorer = explorer(&mut harness);
     let exported = figure(explorer, PaneId::Landscape).expect("a map");
     let map = map_of(&exported);
-    let fit = explorer.last_fit.as_ref().expect("a fit");
+    let fit = explorer.work.shown_fit.as_ref().expect("a fit");
     let [n, k] = [fit.report.parameters.n, fit.report.parameters.k];
     let cell = |edges: &[f64], value: f64| edges.windows(2).position(|pair| (pair[0]..pair[1]).contains(&value)).expect("inside");
     let at = |n: f64, k: f64| map.values[cell(&map.y_edges, k) * (map.x_edges.len() - 1) + cell(&map.x_edges, n)];
@@ -157,7 +157,7 @@ fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
 #[test]
 fn a_logarithmic_plot_is_exported_with_its_values() {
     let mut harness = harness();
-    explorer(&mut harness).settings.log_brdf = true;
+    explorer(&mut harness).work.settings.log_brdf = true;
     harness.run();
     let explorer = explorer(&mut harness);
     let panel = &figure(explorer, PaneId::Lobes).expect("a plot").panels[0];
@@ -259,7 +259,7 @@ fn a_file_is_known_by_its_hash() {
     let text = "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n30,60,0.3\n";
     std::fs::write(&path, text).expect("a writable folder");
     let mut harness = harness();
-    assert_eq!(explorer(&mut harness).document.sha256, None);
+    assert_eq!(explorer(&mut harness).work.document.sha256, None);
     order(&mut harness, Command::OpenMeasurement(path));
-    assert_eq!(explorer(&mut harness).document.sha256, Some(crate::export::sha256(text.as_bytes())));
+    assert_eq!(explorer(&mut harness).work.document.sha256, Some(crate::export::sha256(text.as_bytes())));
 }

@@ -42,7 +42,7 @@ fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
     let mut harness = harness();
     explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
     harness.run();
-    let settings = &explorer(&mut harness).settings;
+    let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.parameters.n, settings.parameters.k, settings.theta_i), (1.5, 0.0, 56.3));
     assert_eq!(Some(settings.model), Preset::from_key("fresnel").map(|preset| preset.model));
     harness.get_by_label("Next step").click();
@@ -70,18 +70,18 @@ fn a_damaged_lesson_is_named_and_the_window_goes_on() {
     std::fs::write(folder.path().join("good.txt"), "title: Mine\nstep: My own step\nset: n=1.75\n").expect("a file");
     std::fs::write(folder.path().join("latin.txt"), b"title: \xff\n").expect("a file");
     let mut harness = harness();
-    let before = explorer(&mut harness).settings.clone();
+    let before = explorer(&mut harness).work.settings.clone();
     explorer(&mut harness).read_lessons(Some(folder.path()));
     harness.run();
     let notice = explorer(&mut harness).notices.text().expect("a sentence");
     for part in ["bad.txt is no lesson: line 3", "latin.txt is no lesson: "] {
         assert!(notice.contains(part), "{notice}");
     }
-    assert_eq!(explorer(&mut harness).settings, before);
+    assert_eq!(explorer(&mut harness).work.settings, before);
     let last = explorer(&mut harness).lessons.all.len() - 1;
     explorer(&mut harness).commands.push(Command::ShowStep(last, 0));
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).settings.parameters.n, 1.75);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 1.75);
     assert!(harness.query_all_by_label_contains("My own step").next().is_some());
 }
 
@@ -106,11 +106,11 @@ struct Work {
 
 fn work(explorer: &App) -> Work {
     Work {
-        settings: explorer.settings.clone(),
-        rows: explorer.document.measurement.rows.clone(),
-        mask: explorer.document.mask().clone(),
-        fits: explorer.fit_history.iter().map(|fit| fit.id).collect(),
-        shown: explorer.last_fit.as_ref().map(|fit| fit.id),
+        settings: explorer.work.settings.clone(),
+        rows: explorer.work.document.measurement.rows.clone(),
+        mask: explorer.work.document.mask().clone(),
+        fits: explorer.work.fit_history.iter().map(|fit| fit.id).collect(),
+        shown: explorer.work.shown_fit.as_ref().map(|fit| fit.id),
         layout: explorer.panes.layout(),
     }
 }
@@ -120,10 +120,10 @@ fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     order(&mut harness, Command::Mask { rows: vec![2, 7], masked: true });
-    explorer(&mut harness).settings.starts = pbrdf::fit::Starts::One;
+    explorer(&mut harness).work.settings.starts = pbrdf::fit::Starts::One;
     order(&mut harness, Command::StartFit);
     order(&mut harness, Command::ClosePane(PaneId::Lobes));
-    explorer(&mut harness).settings.parameters.k = 4.25;
+    explorer(&mut harness).work.settings.parameters.k = 4.25;
     harness.run();
     harness
 }
@@ -132,12 +132,12 @@ fn worked_in() -> Harness<'static, Option<App>> {
 fn go_through_a_lesson(harness: &mut Harness<'static, Option<App>>) {
     order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
     order(harness, Command::Mask { rows: vec![1], masked: true });
-    explorer(harness).settings.starts = pbrdf::fit::Starts::One;
+    explorer(harness).work.settings.starts = pbrdf::fit::Starts::One;
     order(harness, Command::StartFit);
     order(harness, Command::ClosePane(PaneId::Dolp));
     // Into another lesson and back.
     order(harness, Command::ShowStep(0, 0));
-    explorer(harness).settings.parameters.k = 1.5;
+    explorer(harness).work.settings.parameters.k = 1.5;
     order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
 }
 
@@ -159,7 +159,7 @@ fn closing_a_lesson_brings_everything_back() {
         assert_eq!(explorer(&mut harness).lessons.open, None);
         // Undo goes on where it was.
         order(&mut harness, Command::Undo);
-        assert_ne!(explorer(&mut harness).settings.parameters.k, 4.25);
+        assert_ne!(explorer(&mut harness).work.settings.parameters.k, 4.25);
         order(&mut harness, Command::Redo);
         assert_eq!(work(explorer(&mut harness)), before, "{button}");
     }
@@ -168,7 +168,7 @@ fn closing_a_lesson_brings_everything_back() {
 /// What a step sets up: settings, data, mask, panes.
 fn set_up(explorer: &App) -> (Settings, String, Vec<Row>, Mask, Option<Layout>) {
     let Work { settings, rows, mask, layout, .. } = work(explorer);
-    (settings, explorer.document.name.clone(), rows, mask, layout)
+    (settings, explorer.work.document.name.clone(), rows, mask, layout)
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
         }
         // What a user moves, switches and opens on the way.
         let open = explorer(&mut harness);
-        (open.settings.parameters.sigma, open.settings.shown.facets_equal_median, open.settings.tabulated.wavelength_nm) =
+        (open.work.settings.parameters.sigma, open.work.settings.shown.facets_equal_median, open.work.settings.tabulated.wavelength_nm) =
             (1.75, true, 333.0);
         order(&mut harness, Command::ClosePane(PaneId::Dolp));
         for (step, forward) in forward.iter().enumerate().rev() {
@@ -203,7 +203,7 @@ fn undo_leads_to_the_step_before_whichever_way_one_came() {
     // "Quite another metal, the same curve", reached from behind.
     order(&mut harness, Command::ShowStep(2, 3));
     order(&mut harness, Command::ShowStep(2, 1));
-    let k = |harness: &mut Harness<'static, Option<App>>| explorer(harness).settings.parameters.k;
+    let k = |harness: &mut Harness<'static, Option<App>>| explorer(harness).work.settings.parameters.k;
     assert_eq!(k(&mut harness), 10.0054);
     order(&mut harness, Command::Undo);
     assert_eq!(k(&mut harness), 6.6);
@@ -224,12 +224,12 @@ fn a_lesson_has_a_measurement_of_its_own() {
     explorer(&mut harness).read_lessons(Some(folder.path()));
     let last = explorer(&mut harness).lessons.all.len() - 1;
     order(&mut harness, Command::ShowStep(last, 0));
-    assert_eq!(explorer(&mut harness).document.name, EXAMPLES[0].name);
-    assert_eq!(explorer(&mut harness).document.mask().len(), 0);
+    assert_eq!(explorer(&mut harness).work.document.name, EXAMPLES[0].name);
+    assert_eq!(explorer(&mut harness).work.document.mask().len(), 0);
     order(&mut harness, Command::ShowStep(last, 1));
-    assert!(explorer(&mut harness).document.measurement.rows.is_empty());
+    assert!(explorer(&mut harness).work.document.measurement.rows.is_empty());
     assert!(harness.query_by_label("No measurement: curves alone").is_some());
-    let tabulated = &explorer(&mut harness).settings.tabulated;
+    let tabulated = &explorer(&mut harness).work.settings.tabulated;
     assert_eq!((tabulated.metal.as_str(), tabulated.wavelength_nm), ("Cu", 450.0));
     order(&mut harness, Command::CloseLesson);
     assert_eq!(work(explorer(&mut harness)), before);
@@ -247,15 +247,15 @@ fn an_example_that_is_still_being_read_is_no_guest_of_the_own_work() {
 #[test]
 fn what_a_lesson_shows_can_be_kept_and_undone() {
     let mut harness = worked_in();
-    let before = explorer(&mut harness).settings.clone();
+    let before = explorer(&mut harness).work.settings.clone();
     order(&mut harness, Command::ShowStep(0, 0));
     harness.get_by_label("Keep this").click();
     wait(&mut harness);
-    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).settings.parameters.n), (None, 1.5));
+    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).work.settings.parameters.n), (None, 1.5));
     order(&mut harness, Command::CloseLesson);
-    assert_eq!(explorer(&mut harness).settings.parameters.n, 1.5, "there is nothing to go back to any more");
+    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 1.5, "there is nothing to go back to any more");
     order(&mut harness, Command::Undo);
-    assert_eq!(explorer(&mut harness).settings, before);
+    assert_eq!(explorer(&mut harness).work.settings, before);
 }
 
 #[test]
@@ -297,7 +297,7 @@ fn saving_in_a_lesson_leaves_the_file_of_the_own_session_alone() {
     order(&mut harness, Command::Export(ExportKind::Session, other.clone()));
     assert_eq!(k(&other), 0.0);
     order(&mut harness, Command::CloseLesson);
-    explorer(&mut harness).settings.parameters.k = 4.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.5;
     order(&mut harness, Command::SaveSession);
     assert_eq!((k(&path), k(&other)), (4.5, 0.0));
 }
@@ -313,7 +313,7 @@ fn a_session_opened_in_a_lesson_ends_it() {
     order(&mut harness, Command::OpenSession(path));
     assert_eq!(explorer(&mut harness).lessons.open, None);
     order(&mut harness, Command::CloseLesson);
-    assert_eq!(explorer(&mut harness).settings, before);
+    assert_eq!(explorer(&mut harness).work.settings, before);
 }
 
 #[test]
@@ -322,11 +322,11 @@ fn a_session_that_is_still_being_read_does_not_replace_what_a_closed_lesson_give
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
     order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
-    explorer(&mut harness).settings.parameters.k = 4.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.5;
     order(&mut harness, Command::ShowStep(0, 0));
     explorer(&mut harness).commands.extend([Command::OpenSession(path), Command::CloseLesson]);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).settings.parameters.k, 4.5);
+    assert_eq!(explorer(&mut harness).work.settings.parameters.k, 4.5);
 }
 
 #[test]
@@ -339,9 +339,9 @@ fn a_file_opened_in_a_lesson_ends_it_and_stays() {
     order(&mut harness, Command::OpenMeasurement(path));
     let notice = explorer(&mut harness).notices.text().expect("a sentence");
     assert!(notice.contains("The lesson has ended") && notice.contains("mine.csv"), "{notice}");
-    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).settings.parameters.k), (None, 4.25));
+    assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).work.settings.parameters.k), (None, 4.25));
     order(&mut harness, Command::CloseLesson);
-    assert_eq!(explorer(&mut harness).document.name, "mine.csv");
+    assert_eq!(explorer(&mut harness).work.document.name, "mine.csv");
 }
 
 #[test]
@@ -349,23 +349,23 @@ fn a_mask_set_in_a_lesson_is_not_taken_for_one_set_after_it() {
     let mut harness = worked_in();
     order(&mut harness, Command::ShowStep(0, 0));
     order(&mut harness, Command::Mask { rows: vec![1], masked: true });
-    let in_lesson = explorer(&mut harness).document.generation;
+    let in_lesson = explorer(&mut harness).work.document.generation;
     order(&mut harness, Command::CloseLesson);
     order(&mut harness, Command::Mask { rows: vec![5], masked: true });
-    assert_ne!(explorer(&mut harness).document.generation, in_lesson);
+    assert_ne!(explorer(&mut harness).work.document.generation, in_lesson);
 }
 
 #[test]
 fn a_lesson_begins_with_the_defaults_whatever_was_set() {
     let mut harness = worked_in();
-    assert!(explorer(&mut harness).last_fit.is_some());
-    let settings = &mut explorer(&mut harness).settings;
+    assert!(explorer(&mut harness).work.shown_fit.is_some());
+    let settings = &mut explorer(&mut harness).work.settings;
     (settings.refit_live, settings.show_limit, settings.parameters.sigma) = (true, false, 2.0);
     harness.run();
     order(&mut harness, Command::ShowStep(0, 0));
-    let settings = &explorer(&mut harness).settings;
+    let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.refit_live, settings.show_limit, settings.parameters.sigma), (false, true, Parameters::default().sigma));
-    assert!(explorer(&mut harness).last_fit.is_none(), "no curve of a fit among those of the lesson");
+    assert!(explorer(&mut harness).work.shown_fit.is_none(), "no curve of a fit among those of the lesson");
 }
 
 #[test]
@@ -422,7 +422,7 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = harness();
-    explorer(&mut harness).settings.parameters.k = 4.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.5;
     wait(&mut harness);
     // The lesson is asked for in the very frame in which the answer comes.
     let question = crate::app::shell::file_dialogs::FileRequest::Export(ExportKind::Session, String::new());

@@ -6,6 +6,7 @@ use crate::app::shell::commands::Command;
 use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
+use crate::app::work::workspace::Workspace;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -23,7 +24,7 @@ fn table() -> Harness<'static, Option<App>> {
 }
 
 fn masked(harness: &mut Harness<'static, Option<App>>) -> Vec<usize> {
-    explorer(harness).document.mask().to_vec()
+    explorer(harness).work.document.mask().to_vec()
 }
 
 #[test]
@@ -37,7 +38,7 @@ fn a_row_is_masked_in_the_table_and_counts_no_more() {
     assert_ne!(explorer.derived.delta_e(), before);
     assert_eq!(explorer.views.dolp.residuals.of_series.get().into_iter().flatten().map(Vec::len).sum::<usize>(), 26);
     assert_eq!(explorer.derived.marks.get().expect("marks").series.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
-    assert!(explorer.document.description().contains("27 rows, 1 masked"));
+    assert!(explorer.work.document.description().contains("27 rows, 1 masked"));
 }
 
 #[test]
@@ -61,7 +62,7 @@ fn masks_survive_fits_and_are_undone() {
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
     assert_eq!(masked(&mut harness), [0, 5, 7]);
-    assert_eq!(explorer(&mut harness).last_fit.as_ref().expect("a fit").problem.len(), 24);
+    assert_eq!(explorer(&mut harness).work.shown_fit.as_ref().expect("a fit").problem.len(), 24);
     for expected in [vec![0, 5, 7], vec![]] {
         explorer(&mut harness).commands.push(Command::Undo);
         harness.run();
@@ -80,7 +81,7 @@ fn a_measurement_with_everything_masked_is_no_disaster() {
     assert_eq!(explorer(&mut harness).derived.delta_e(), None);
     explorer(&mut harness).commands.push(Command::StartFit);
     wait(&mut harness);
-    let report = &explorer(&mut harness).last_fit.as_ref().expect("an answer").report;
+    let report = &explorer(&mut harness).work.shown_fit.as_ref().expect("an answer").report;
     assert_eq!(report.stop_reason, pbrdf::fit::StopReason::NoData);
 }
 
@@ -95,8 +96,8 @@ fn masks_are_saved_and_read_back() {
     let text = std::fs::read(&path).expect("a file");
     let read = pbrdf::measurement::read(text.as_slice(), &mut |_| ControlFlow::Continue(())).expect("a measurement");
     let explorer = explorer(&mut harness);
-    assert_eq!(read.rows, explorer.document.measurement.rows);
-    assert_eq!(read.metadata, explorer.document.measurement.metadata);
+    assert_eq!(read.rows, explorer.work.document.measurement.rows);
+    assert_eq!(read.metadata, explorer.work.document.measurement.metadata);
     assert_eq!(read.rows.iter().filter(|row| row.masked).count(), 2);
     assert!(explorer.notices.text().is_some_and(|notice| notice.contains("saved")));
 
@@ -178,7 +179,7 @@ fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
 /// Where that point of the lobes is on the screen.
 fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
     let rect = harness.get_by_label("Plot: BRDF against θr").rect();
-    let App { derived, views, settings, .. } = explorer(harness);
+    let App { work: Workspace { settings, .. }, derived, views, .. } = explorer(harness);
     let (x, y) = (derived.curves.key().expect("curves").x(), views.lobes.range().expect("curves"));
     let value = if settings.log_brdf { libm::log10(brdf) } else { brdf };
     let share = |range: Range, value: f64| (value - range.low) / (range.high - range.low);
@@ -193,7 +194,7 @@ fn points_of_a_hidden_series_cannot_be_clicked() {
     // Its names are those of the lobes, too.
     explorer(&mut harness).commands.extend([Command::OpenExample(2), Command::ClosePane(PaneId::Dolp)]);
     wait(&mut harness);
-    let series = explorer(&mut harness).document.series[0].clone();
+    let series = explorer(&mut harness).work.document.series[0].clone();
     let mark = &series.brdf[series.brdf.len() / 2];
     let at = place_in_lobes(&mut harness, mark.theta_r, mark.quantity.value);
     let is_masked = |harness: &mut Harness<'static, Option<App>>| {

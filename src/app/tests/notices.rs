@@ -65,7 +65,7 @@ fn what_is_left_sinks_to_the_place_of_what_went() {
 fn a_missing_curve_does_not_move_the_plots_either() {
     let mut harness = harness();
     let before = plot(&harness);
-    let parameters = &mut explorer(&mut harness).settings.parameters;
+    let parameters = &mut explorer(&mut harness).work.settings.parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     harness.run();
     harness.get_by_label_contains("There is no curve");

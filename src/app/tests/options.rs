@@ -31,16 +31,16 @@ fn bounds_are_edited_under_the_slider_and_hold_in_a_fit() {
     harness.run();
     harness.get_by_label("Upper bound of n").set_value_accesskit(1.5);
     harness.run();
-    assert_eq!(explorer(&mut harness).settings.bounds, [(Parameter::N, 0.01, 1.5)]);
+    assert_eq!(explorer(&mut harness).work.settings.bounds, [(Parameter::N, 0.01, 1.5)]);
     fit(&mut harness);
-    let report = &explorer(&mut harness).last_fit.as_ref().expect("a fit").report;
+    let report = &explorer(&mut harness).work.shown_fit.as_ref().expect("a fit").report;
     let n = report.estimates.iter().find(|estimate| estimate.parameter == Parameter::N).expect("n is of the model");
     assert!(n.value <= 1.5, "{}", n.value);
     // These angles leave n to wander: without the bound it goes elsewhere.
     assert_eq!(n.at_bound.is_some(), n.value == 1.5);
     harness.get_by_label("Reset bounds of n").click();
     harness.run();
-    assert!(explorer(&mut harness).settings.bounds.is_empty());
+    assert!(explorer(&mut harness).work.settings.bounds.is_empty());
 }
 
 #[test]
@@ -58,24 +58,24 @@ fn bounds_that_are_none_are_refused_with_a_sentence() {
         let explorer = explorer(&mut harness);
         let notice = explorer.notices.take().expect("a sentence");
         assert!(notice.contains(expected), "{notice}");
-        assert!(explorer.settings.bounds.is_empty());
+        assert!(explorer.work.settings.bounds.is_empty());
     }
 }
 
 #[test]
 fn bounds_hold_while_refitting_and_comparing() {
     let mut harness = harness();
-    explorer(&mut harness).settings.set_bounds(Parameter::K, 2.0, 2.5).expect("sound bounds");
-    explorer(&mut harness).settings.refit_live = true;
+    explorer(&mut harness).work.settings.set_bounds(Parameter::K, 2.0, 2.5).expect("sound bounds");
+    explorer(&mut harness).work.settings.refit_live = true;
     harness.step();
     wait(&mut harness);
-    let k = explorer(&mut harness).settings.parameters.k;
+    let k = explorer(&mut harness).work.settings.parameters.k;
     assert!((2.0..=2.5).contains(&k), "{k}");
     explorer(&mut harness).commands.push(Command::CompareModels);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert!(!explorer.comparison.is_empty());
-    for rung in &explorer.comparison {
+    assert!(!explorer.work.model_comparison.is_empty());
+    for rung in &explorer.work.model_comparison {
         let k = rung.result.as_ref().expect("a fit").parameters.k;
         assert!((2.0..=2.5).contains(&k), "{}: {k}", rung.preset.key);
     }
@@ -91,9 +91,9 @@ fn options_reach_the_fit() {
     choose(&mut harness, "Starts", "one, from the sliders");
     fit(&mut harness);
     let explorer = explorer(&mut harness);
-    let settings = &explorer.settings;
+    let settings = &explorer.work.settings;
     assert_eq!((settings.choices.weights, settings.choices.loss, settings.starts), (Weights::Sigma, Loss::Huber, Starts::One));
-    let report = &explorer.last_fit.as_ref().expect("a fit").report;
+    let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
     assert_eq!(report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(), 1);
     assert!(report.chi2.is_some() && !report.minimises_delta_e);
     harness.get_by_label_contains("over σ, Huber loss");
@@ -103,14 +103,14 @@ fn options_reach_the_fit() {
 #[test]
 fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
     let mut harness = harness();
-    explorer(&mut harness).settings.parameters.ks = 0.5;
+    explorer(&mut harness).work.settings.parameters.ks = 0.5;
     harness.run();
     let consistent = explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0][40].y;
     harness.get_by_label("Options").click();
     harness.run();
     choose(&mut harness, "Eq. (17)", "as printed");
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.settings.choices.eq17, DolpFormula::AsPrinted);
+    assert_eq!(explorer.work.settings.choices.eq17, DolpFormula::AsPrinted);
     assert!(explorer.free().contains(Parameter::Ks));
     assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[0][40].y, consistent / 0.5);
     harness.get_by_label("Default options").click();
@@ -122,10 +122,10 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
 fn weights_without_standard_deviations_are_a_sentence() {
     let mut harness = harness();
     let explorer = explorer(&mut harness);
-    let mut measurement = (*explorer.document.measurement).clone();
+    let mut measurement = (*explorer.work.document.measurement).clone();
     measurement.rows[3].dolp = measurement.rows[3].dolp.map(|dolp| pbrdf::measurement::Quantity { sigma: None, ..dolp });
     explorer.take("bare".to_owned(), measurement);
-    explorer.settings.choices.weights = Weights::Sigma;
+    explorer.work.settings.choices.weights = Weights::Sigma;
     explorer.commands.push(Command::StartFit);
     harness.run();
     let notice = self::explorer(&mut harness).notices.text().expect("a sentence");
@@ -136,17 +136,17 @@ fn weights_without_standard_deviations_are_a_sentence() {
 fn a_click_in_the_history_returns_to_a_fit() {
     let mut harness = harness();
     fit(&mut harness);
-    let first = explorer(&mut harness).settings.parameters;
-    explorer(&mut harness).settings.set_bounds(Parameter::K, 1.0, 1.5).expect("sound bounds");
+    let first = explorer(&mut harness).work.settings.parameters;
+    explorer(&mut harness).work.settings.set_bounds(Parameter::K, 1.0, 1.5).expect("sound bounds");
     fit(&mut harness);
-    assert_ne!(explorer(&mut harness).settings.parameters, first);
+    assert_ne!(explorer(&mut harness).work.settings.parameters, first);
     harness.get_by_label("History of fits (2)").click();
     harness.run();
     harness.get_by_label("1. cauchy").click_accesskit();
     harness.run();
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.settings.parameters, first);
-    assert_eq!(explorer.last_fit.as_ref().expect("a fit").report.parameters, first);
+    assert_eq!(explorer.work.settings.parameters, first);
+    assert_eq!(explorer.work.shown_fit.as_ref().expect("a fit").report.parameters, first);
 }
 
 #[test]

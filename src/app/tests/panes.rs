@@ -55,7 +55,7 @@ fn what_is_not_on_screen_is_not_computed() {
     }
     harness.run();
     let before = explorer(&mut harness).derived.curves.key().cloned();
-    explorer(&mut harness).settings.parameters.k = 4.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.5;
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
@@ -96,7 +96,7 @@ fn every_option_of_every_pane_can_be_switched() {
     ] {
         let mut harness = shown(pane);
         for option in options {
-            let before = explorer(&mut harness).settings.clone();
+            let before = explorer(&mut harness).work.settings.clone();
             // The menu may have closed.
             if harness.query_all_by_label(options[0]).next().is_none() {
                 harness.get_by_label(&format!("Show in {}", pane.entry().title)).click();
@@ -105,7 +105,7 @@ fn every_option_of_every_pane_can_be_switched() {
             // A legend may have an entry of the same name; that of the menu comes first.
             harness.query_all_by_label(option).next().expect("an option").click();
             harness.run();
-            assert_ne!(explorer(&mut harness).settings, before, "{option}");
+            assert_ne!(explorer(&mut harness).work.settings, before, "{option}");
         }
     }
 }
@@ -129,7 +129,7 @@ fn views_draw_whatever_the_sliders_hold() {
         for parameters in odd {
             for logarithmic in [false, true] {
                 for specular in [true, false] {
-                    let settings = &mut explorer(&mut harness).settings;
+                    let settings = &mut explorer(&mut harness).work.settings;
                     settings.parameters = parameters;
                     settings.model.specular = specular;
                     settings.model.diffuse = if specular { Diffuse::Minnaert } else { Diffuse::Lambert };

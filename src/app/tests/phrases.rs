@@ -26,7 +26,7 @@ use pbrdf::selftest::Host;
 use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Words that are the same in Chinese: keys of files and options, names of quantities, units, formats, people and methods.
@@ -534,7 +534,7 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
     for (example, model) in [(0, "hyde"), (1, "cauchy"), (1, "three-component")] {
         explorer(&mut harness).commands.push(Command::OpenExample(example));
         wait(&mut harness);
-        explorer(&mut harness).settings.model = Preset::from_key(model).expect("a model").model;
+        explorer(&mut harness).work.settings.model = Preset::from_key(model).expect("a model").model;
         explorer(&mut harness).commands.push(Command::StartFit);
         wait(&mut harness);
         let path = folder.path().join("report.html");
@@ -542,7 +542,7 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
         // The second time it does not know how it came about, like one out of an old session.
         for _ in 0..2 {
             ExportKind::Report.taken_from(explorer(&mut harness)).expect("a report")(&path).expect("a file");
-            left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).document));
+            left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).work.document));
             without_account(explorer(&mut harness));
         }
         assert!(left.is_empty(), "{model}: {left:#?}");
@@ -551,11 +551,11 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
 
 /// The fit that is shown without an account of how it came about.
 fn without_account(explorer: &mut App) {
-    let fit = explorer.last_fit.as_ref().expect("a fit");
+    let fit = explorer.work.shown_fit.as_ref().expect("a fit");
     let report = FitResult { minima: Vec::new(), ..fit.report.clone() };
     let FitEntry { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
-    explorer.last_fit = Some(Rc::new(FitEntry { id, report, problem, before, document, number, generation, mask }));
+    explorer.work.shown_fit = Some(Arc::new(FitEntry { id, report, problem, before, document, number, generation, mask }));
 }
 
 /// What is English in the report of a fit.

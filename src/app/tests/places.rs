@@ -46,7 +46,7 @@ fn the_tab_of_a_pane_that_is_shown_is_in_view() {
 fn the_plot_of_dolp_stays_where_it_is_when_nothing_is_left_to_miss() {
     let mut harness = harness();
     let [before, strip] = ["Plot: DoLP against θr", "Plot: residuals of DoLP against θr"].map(|name| plot(&harness, name));
-    let rows = (0..explorer(&mut harness).document.measurement.rows.len()).collect();
+    let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
     order(&mut harness, Command::Mask { rows, masked: true });
     assert_eq!(plot(&harness, "Plot: DoLP against θr"), before);
     assert_eq!(plot(&harness, "Plot: residuals of DoLP against θr"), strip);
@@ -55,7 +55,7 @@ fn the_plot_of_dolp_stays_where_it_is_when_nothing_is_left_to_miss() {
 #[test]
 fn a_measurement_without_dolp_has_no_strip_under_it() {
     let mut harness = harness();
-    let mut measurement = (*explorer(&mut harness).document.measurement).clone();
+    let mut measurement = (*explorer(&mut harness).work.document.measurement).clone();
     for row in &mut measurement.rows {
         (row.brdf, row.dolp) = (row.dolp, None);
     }

@@ -37,18 +37,18 @@ fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<Ap
 #[test]
 fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
     let mut harness = with_report(BenchmarkId::Stability, 0);
-    let before = explorer(&mut harness).settings.clone();
+    let before = explorer(&mut harness).work.settings.clone();
     let row = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows[2].clone();
     let Setting::Evaluation { model, parameters, geometry } = row.setting else { panic!("evaluations come first") };
     harness.get_by_label(&row.case).click();
     wait(&mut harness);
-    let settings = &explorer(&mut harness).settings;
+    let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.model, settings.parameters), (model, parameters));
     assert_eq!((settings.theta_i, settings.dphi), (geometry.theta_i().0, geometry.dphi().0));
     assert_ne!(*settings, before);
     explorer(&mut harness).commands.push(Command::Undo);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).settings, before);
+    assert_eq!(explorer(&mut harness).work.settings, before);
 }
 
 #[test]
@@ -61,8 +61,8 @@ fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
     explorer(&mut harness).commands.push(Command::UseCase(index));
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.settings.parameters, start);
-    assert_eq!(explorer.document.measurement.rows, measurement.rows);
+    assert_eq!(explorer.work.settings.parameters, start);
+    assert_eq!(explorer.work.document.measurement.rows, measurement.rows);
     assert!(explorer.reports.stability.is_some(), "the gallery stays");
 }
 

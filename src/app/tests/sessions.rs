@@ -25,11 +25,11 @@ fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
 fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::Mask { rows: vec![3, 5], masked: true });
-    explorer(&mut harness).settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    explorer(&mut harness).work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
     order(&mut harness, Command::StartFit);
     order(&mut harness, Command::ClosePane(PaneId::Lobes));
-    explorer(&mut harness).settings.theta_i = 35.5;
-    explorer(&mut harness).settings.parameters.k = 4.25;
+    explorer(&mut harness).work.settings.theta_i = 35.5;
+    explorer(&mut harness).work.settings.parameters.k = 4.25;
     harness.run();
     harness
 }
@@ -49,17 +49,17 @@ fn a_session_opens_with_everything_that_was_in_it() {
     order(&mut after, Command::OpenSession(path.clone()));
     let (before, after) = (explorer(&mut before), explorer(&mut after));
     assert_eq!(after.notices.text(), None);
-    assert_eq!(after.settings, before.settings);
-    assert_eq!(after.document.measurement.rows, before.document.measurement.rows);
-    assert_eq!(after.document.measurement.metadata, before.document.measurement.metadata);
-    assert_eq!(after.document.mask(), before.document.mask());
-    assert_eq!(after.document.name, before.document.name);
+    assert_eq!(after.work.settings, before.work.settings);
+    assert_eq!(after.work.document.measurement.rows, before.work.document.measurement.rows);
+    assert_eq!(after.work.document.measurement.metadata, before.work.document.measurement.metadata);
+    assert_eq!(after.work.document.mask(), before.work.document.mask());
+    assert_eq!(after.work.document.name, before.work.document.name);
     assert!(!after.panes.is_on_screen(PaneId::Lobes));
-    let (old, new) = (before.last_fit.as_ref().expect("a fit"), after.last_fit.as_ref().expect("the fit again"));
+    let (old, new) = (before.work.shown_fit.as_ref().expect("a fit"), after.work.shown_fit.as_ref().expect("the fit again"));
     assert_eq!((old.before, old.problem.start()), (new.before, new.problem.start()));
     assert_eq!(old.problem.free(), new.problem.free());
     assert_eq!(old.report, new.report);
-    assert_eq!(after.session_file.as_deref(), Some(path.as_path()));
+    assert_eq!(after.work.session_file.as_deref(), Some(path.as_path()));
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let mut before = harness();
     // One with an automatic scale of its loss, and an earlier one that is shown.
     order(&mut before, Command::StartFit);
-    explorer(&mut before).settings.choices.loss = Loss::Huber;
+    explorer(&mut before).work.settings.choices.loss = Loss::Huber;
     order(&mut before, Command::StartFit);
     order(&mut before, Command::Mask { rows: vec![4], masked: true });
     order(&mut before, Command::ReturnTo(1));
@@ -94,11 +94,11 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     assert!(after.query_by_label_contains("The mask has changed").is_some());
     assert!(after.query_by_label_contains("made no step").is_none());
     let (before, after) = (explorer(&mut before), explorer(&mut after));
-    for (old, new) in before.fit_history.iter().zip(after.fit_history.iter()) {
+    for (old, new) in before.work.fit_history.iter().zip(after.work.fit_history.iter()) {
         assert_eq!(old.report, new.report);
         assert!(old.report.trace.len() > 1 && old.report.evaluations > 1 && old.report.elapsed_ms > 0.0);
     }
-    let shown = |explorer: &App| explorer.last_fit.as_ref().map(|fit| fit.id);
+    let shown = |explorer: &App| explorer.work.shown_fit.as_ref().map(|fit| fit.id);
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));
     let marks = |explorer: &App| {
         let marks = explorer.views.landscape.marks().expect("what lies on the map");
@@ -121,7 +121,7 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     std::fs::write(&path, old.to_string()).expect("a file");
     let mut other = harness();
     order(&mut other, Command::OpenSession(path.clone()));
-    assert!(explorer(&mut other).last_fit.is_some());
+    assert!(explorer(&mut other).work.shown_fit.is_some());
     assert!(other.query_by_label_contains("not known: from a session of an older version").is_some());
     // Saved again with another mask, and so as some files are: with an account that tells of the mask alone.
     order(&mut other, Command::Mask { rows: vec![8], masked: true });
@@ -138,8 +138,8 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
         order(&mut third, Command::OpenSession(path.clone()));
         let third = explorer(&mut third);
         assert_eq!(third.notices.text(), None);
-        assert_eq!(third.last_fit.as_ref().expect("the fit").mask[..], [3, 5]);
-        assert_eq!(third.document.mask()[..], [3, 5, 8]);
+        assert_eq!(third.work.shown_fit.as_ref().expect("the fit").mask[..], [3, 5]);
+        assert_eq!(third.work.document.mask()[..], [3, 5, 8]);
     }
     for wrong in ["evaluations", "minima from"] {
         assert!(other.query_by_label_contains(wrong).is_none(), "{wrong}");
@@ -156,7 +156,7 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     explorer(&mut source).commands.push(Command::StartFit);
     source.step();
     // While the fit runs: they are what "back" leads to.
-    let parameters = &mut explorer(&mut source).settings.parameters;
+    let parameters = &mut explorer(&mut source).work.settings.parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     wait(&mut source);
     order(&mut source, Command::Back);
@@ -165,8 +165,8 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     order(&mut other, Command::OpenMeasurement(path));
     let explorer = explorer(&mut other);
     assert_eq!(explorer.notices.text(), None);
-    assert_eq!((explorer.settings.parameters.n, explorer.settings.parameters.k), (0.0, 0.0));
-    assert!(explorer.last_fit.is_some());
+    assert_eq!((explorer.work.settings.parameters.n, explorer.work.settings.parameters.k), (0.0, 0.0));
+    assert!(explorer.work.shown_fit.is_some());
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn saving_again_goes_into_the_same_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = worked_in();
     let path = saved(&mut harness, folder.path());
-    explorer(&mut harness).settings.parameters.n = 1.875;
+    explorer(&mut harness).work.settings.parameters.n = 1.875;
     order(&mut harness, Command::SaveSession);
     let text = std::fs::read_to_string(&path).expect("the session");
     assert_eq!(Session::read(&text).expect("a session").settings.parameters.n, 1.875);
@@ -220,8 +220,8 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         (good.replacen("\"fits\": [", "\"fits\": 7, \"others\": [", 1), "fits"),
     ];
     let mut harness = harness();
-    let before = explorer(&mut harness).settings.clone();
-    let rows = explorer(&mut harness).document.measurement.rows.clone();
+    let before = explorer(&mut harness).work.settings.clone();
+    let rows = explorer(&mut harness).work.document.measurement.rows.clone();
     for (text, expected) in cases {
         assert_ne!(text, good, "{expected}: the damage is there");
         let path = folder.path().join("bad.pbrdf.json");
@@ -230,7 +230,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         let explorer = explorer(&mut harness);
         let notice = explorer.notices.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");
-        assert_eq!((&explorer.settings, &explorer.document.measurement.rows), (&before, &rows));
+        assert_eq!((&explorer.work.settings, &explorer.work.document.measurement.rows), (&before, &rows));
     }
 }
 
@@ -238,7 +238,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
 fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
-    explorer(&mut source).settings.choices.loss = Loss::Huber;
+    explorer(&mut source).work.settings.choices.loss = Loss::Huber;
     order(&mut source, Command::StartFit);
     order(&mut source, Command::ReturnTo(1));
     let good: serde_json::Value =
@@ -270,9 +270,9 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         let other = explorer(&mut other);
         let notice = other.notices.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json is opened without") && notice.contains(expected), "{place} {value}: {notice}");
-        assert_eq!(other.settings, explorer(&mut source).settings);
-        assert_eq!(other.document.mask(), explorer(&mut source).document.mask());
-        let (fits, shown) = (other.fit_history.len(), other.last_fit.as_ref().map(|fit| fit.problem.choices().loss));
+        assert_eq!(other.work.settings, explorer(&mut source).work.settings);
+        assert_eq!(other.work.document.mask(), explorer(&mut source).work.document.mask());
+        let (fits, shown) = (other.work.fit_history.len(), other.work.shown_fit.as_ref().map(|fit| fit.problem.choices().loss));
         assert_eq!((fits, shown), (1, Some(Loss::Squared)), "{place}");
     }
 }
@@ -288,8 +288,8 @@ fn the_working_state_is_kept_and_comes_back() {
     explorer(&mut second).working_file = Some(path.clone());
     explorer(&mut second).resume();
     wait(&mut second);
-    assert_eq!(explorer(&mut second).settings, explorer(&mut first).settings);
-    assert_eq!(explorer(&mut second).session_file, None, "what is kept without being asked is no session of the user's");
+    assert_eq!(explorer(&mut second).work.settings, explorer(&mut first).work.settings);
+    assert_eq!(explorer(&mut second).work.session_file, None, "what is kept without being asked is no session of the user's");
     // Damaged, it is set aside with a sentence.
     std::fs::write(&path, "{").expect("a writable folder");
     let mut third = harness();
@@ -357,7 +357,7 @@ fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
             // The state before the first save of all.
             _ => {}
         }
-        assert_eq!(session.measurement.expect("its data").rows, explorer(&mut source).document.measurement.rows);
+        assert_eq!(session.measurement.expect("its data").rows, explorer(&mut source).work.document.measurement.rows);
     }
     assert!(seen.iter().all(|&times| times > 0), "both states were seen, {seen:?}: the kills met a process at work");
 }

@@ -107,7 +107,7 @@ fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     let free = [Parameter::N, Parameter::K, Parameter::Kd];
-    explorer(&mut harness).settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    explorer(&mut harness).work.settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
     order(&mut harness, Command::StartFit);
     harness
 }

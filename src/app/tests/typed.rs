@@ -145,7 +145,7 @@ fn a_path_that_could_not_be_opened_stays_to_be_mended() {
     explorer(&mut harness).typed.open.clear();
     type_path(&mut harness, OPEN, &path);
     assert_eq!(
-        (explorer(&mut harness).document.name.clone(), explorer(&mut harness).typed.open.clone()),
+        (explorer(&mut harness).work.document.name.clone(), explorer(&mut harness).typed.open.clone()),
         ("mine.csv".to_owned(), String::new())
     );
 }

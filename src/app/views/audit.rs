@@ -14,6 +14,7 @@ use crate::app::shell::theme;
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::translated;
 use crate::app::views::curves::{Polyline, pieces};
+use crate::app::work::workspace::Workspace;
 use egui::{Label, ScrollArea, Ui};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};
@@ -89,7 +90,7 @@ impl AuditView {
 }
 
 pub fn audit_refresh(explorer: &mut App) {
-    let App { settings, views, background, dragging, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, background, dragging, .. } = explorer;
     let view = &mut views.audit;
     let key = (settings.parameters, settings.model);
     let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else {

@@ -1,6 +1,6 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
-use crate::app::jobs::worker::{Job, ModelFit};
+use crate::app::jobs::worker::Job;
 use crate::app::panels::significant;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
@@ -9,6 +9,8 @@ use crate::app::text::glossary;
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
+use crate::app::work::model_fit::ModelFit;
+use crate::app::work::workspace::Workspace;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
 use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
@@ -18,7 +20,7 @@ use tr::tr;
 const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
 
 pub fn comparison_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { comparison, worker, commands, settings, document, .. } = explorer;
+    let App { work: Workspace { model_comparison: comparison, settings, document, .. }, worker, commands, .. } = explorer;
     let running = worker.comparison.as_ref().map(Job::progress);
     ui.horizontal(|ui| {
         let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));

@@ -13,10 +13,11 @@ use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::curves::{Polyline, pieces};
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::workspace::Workspace;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
 use pbrdf::fit::TracePoint;
-use std::rc::Rc;
+use std::sync::Arc;
 use tr::tr;
 
 /// What the pane keeps.
@@ -28,13 +29,13 @@ pub struct ConvergenceView {
 
 /// The fit that is drawn, by identity, and whether it is drawn against time.
 #[derive(Default)]
-struct Key(Option<Rc<FitEntry>>, bool);
+struct Key(Option<Arc<FitEntry>>, bool);
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
         self.1 == other.1
             && match (&self.0, &other.0) {
-                (Some(a), Some(b)) => Rc::ptr_eq(a, b),
+                (Some(a), Some(b)) => Arc::ptr_eq(a, b),
                 (a, b) => a.is_none() && b.is_none(),
             }
     }
@@ -80,7 +81,7 @@ impl Way {
 }
 
 pub fn convergence_refresh(explorer: &mut App) {
-    let App { last_fit, settings, views, .. } = explorer;
+    let App { work: Workspace { shown_fit: last_fit, settings, .. }, views, .. } = explorer;
     views.convergence.way.refresh(Key(last_fit.clone(), settings.shown.convergence_by_time), |Key(fit, by_time)| {
         fit.as_ref().map_or_else(Way::default, |fit| Way::new(&fit.report.trace, *by_time))
     });
@@ -88,14 +89,14 @@ pub fn convergence_refresh(explorer: &mut App) {
 
 /// What is drawn in the pane.
 pub fn convergence_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let by_time = &mut explorer.settings.shown.convergence_by_time;
+    let by_time = &mut explorer.work.settings.shown.convergence_by_time;
     ui.radio_value(by_time, false, tr!("Against evaluations"))
         .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
     ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
 }
 
 pub fn convergence_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { last_fit, settings, views, .. } = explorer;
+    let App { work: Workspace { shown_fit: last_fit, settings, .. }, views, .. } = explorer;
     let view = &mut views.convergence;
     let (Some(fit), Some(way)) = (last_fit, view.way.get()) else {
         ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));

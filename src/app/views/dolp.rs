@@ -17,6 +17,7 @@ use crate::app::views::residuals;
 use crate::app::views::residuals::Residuals;
 use crate::app::work::document::Document;
 use crate::app::work::settings::{Overlay, Settings};
+use crate::app::work::workspace::Workspace;
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use pbrdf::fit::DolpFormula;
@@ -61,7 +62,7 @@ impl DolpView {
 }
 
 pub fn dolp_refresh(explorer: &mut App) {
-    let App { derived, settings, document, views, last_fit, dragging, .. } = explorer;
+    let App { work: Workspace { settings, document, shown_fit: last_fit, .. }, derived, views, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
@@ -128,7 +129,7 @@ pub fn dolp_ui(explorer: &mut App, ui: &mut Ui) {
 
 /// What is drawn in the pane.
 pub fn dolp_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let shown = &mut explorer.settings.shown;
+    let shown = &mut explorer.work.settings.shown;
     ui.checkbox(&mut shown.share, tr!("Specular share"))
         .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
     ui.separator();
@@ -141,11 +142,11 @@ pub fn dolp_options_ui(explorer: &mut App, ui: &mut Ui) {
         ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
     }
     ui.separator();
-    ui.checkbox(&mut explorer.settings.show_band, tr!("Confidence band"))
+    ui.checkbox(&mut explorer.work.settings.show_band, tr!("Confidence band"))
         .on_hover_text(tr!("One standard error of the fitted curve to either side"));
-    ui.checkbox(&mut explorer.settings.show_limit, tr!("Fresnel limit"))
+    ui.checkbox(&mut explorer.work.settings.show_limit, tr!("Fresnel limit"))
         .on_hover_text(tr!("DoLP without any depolarising term: no point can lie above it"));
-    ui.checkbox(&mut explorer.settings.show_backscatter, tr!("Backscatter side"))
+    ui.checkbox(&mut explorer.work.settings.show_backscatter, tr!("Backscatter side"))
         .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
@@ -272,7 +273,7 @@ fn key_entries(view: &DolpView, marks: &MarkSet, settings: &Settings, is_fitted:
 const BAND: f32 = 8.0;
 
 fn curves_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
-    let App { derived, settings, document, views, commands, last_fit, .. } = explorer;
+    let App { work: Workspace { settings, document, shown_fit: last_fit, .. }, derived, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
     let dark = ui.visuals().dark_mode;

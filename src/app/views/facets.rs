@@ -12,6 +12,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{Polyline, directions, pieces};
 use crate::app::work::document::Series;
+use crate::app::work::workspace::Workspace;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle, VLine};
 use pbrdf::optics::{Degrees, Facet, SlopeDistribution};
@@ -111,7 +112,7 @@ fn crossing(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 const DECADES: f64 = 6.0;
 
 pub fn facets_refresh(explorer: &mut App) {
-    let App { settings, views, dragging, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, dragging, .. } = explorer;
     let view = &mut views.facets;
     let (parameters, model, shown) = (settings.parameters, settings.model, settings.shown);
     let key = (parameters.sigma, parameters.q, shown.facets_log, model.distribution, shown.facets_equal_median);
@@ -147,7 +148,7 @@ fn masking(theta_i: f64, dphi: f64) -> Polyline {
 
 /// What is drawn in the pane.
 pub fn facets_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let shown = &mut explorer.settings.shown;
+    let shown = &mut explorer.work.settings.shown;
     ui.checkbox(&mut shown.facets_log, tr!("Logarithmic densities")).on_hover_text(tr!("Shows the tails, which q sets"));
     ui.checkbox(&mut shown.facets_equal_median, tr!("Equal median slope")).on_hover_text(tr!(
         "The distribution that the model does not have is drawn with the median slope of the other, not with the same σ"
@@ -200,7 +201,7 @@ pub fn facets_ui(explorer: &mut App, ui: &mut Ui) {
 }
 
 fn densities_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.facets;
     let Some(densities) = view.densities.get() else { return };
     let dark = ui.visuals().dark_mode;
@@ -237,7 +238,7 @@ fn densities_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
 }
 
 fn masking_ui(explorer: &mut App, ui: &mut Ui, height: f32) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.facets;
     let Some(masking) = view.masking.get() else { return };
     let dark = ui.visuals().dark_mode;

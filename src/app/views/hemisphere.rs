@@ -14,6 +14,7 @@ use crate::app::views::curves::{DECADES, MOST_POINTS, SETS_AXES};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Quantity;
+use crate::app::work::workspace::Workspace;
 use crate::figure::ColorMap;
 use egui::{Align2, Color32, ColorImage, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use pbrdf::fit::DolpFormula;
@@ -214,7 +215,7 @@ fn measured(document: &Document, theta_i: f64) -> Vec<Vec2> {
 }
 
 pub fn hemisphere_refresh(explorer: &mut App) {
-    let App { settings, document, views, background, dragging, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, background, dragging, .. } = explorer;
     let view = &mut views.hemisphere;
     let (parameters, model, theta_i, eq17) = (settings.parameters, settings.model, settings.theta_i, settings.choices.eq17);
     let Ok(surface) = Pbrdf::new(model, parameters) else {
@@ -239,7 +240,7 @@ const MARGIN: Vec2 = vec2(34.0, 20.0);
 const LETTERS: f32 = 12.0;
 
 pub fn hemisphere_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.hemisphere;
     ui.horizontal_wrapped(|ui| {
         for quantity in Quantity::ALL {

@@ -16,6 +16,7 @@ use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::work::settings::{LandscapeAxes, Settings};
+use crate::app::work::workspace::Workspace;
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::Drawn;
 use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
@@ -74,7 +75,7 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
 }
 
 pub fn landscape_refresh(explorer: &mut App) {
-    let App { settings, document, views, background, dragging, last_fit, fit_history, .. } = explorer;
+    let App { work: Workspace { settings, document, shown_fit: last_fit, fit_history, .. }, views, background, dragging, .. } = explorer;
     let view = &mut views.landscape;
     let LandscapeAxes { across, up, .. } = settings.landscape;
     let seen = view.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
@@ -111,7 +112,7 @@ pub fn landscape_refresh(explorer: &mut App) {
 
 /// What is drawn in the pane.
 pub fn landscape_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let shown = &mut explorer.settings.landscape;
+    let shown = &mut explorer.work.settings.landscape;
     ui.checkbox(&mut shown.contours, tr!("Contours"));
     ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
         .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
@@ -122,7 +123,7 @@ pub fn landscape_options_ui(explorer: &mut App, ui: &mut Ui) {
 
 pub fn landscape_ui(explorer: &mut App, ui: &mut Ui) {
     axes_ui(explorer, ui);
-    let LandscapeAxes { across, up, .. } = explorer.settings.landscape;
+    let LandscapeAxes { across, up, .. } = explorer.work.settings.landscape;
     let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
     let height = (ui.available_height() - line).max(80.0);
     let response = map_ui(explorer, height, ui);
@@ -172,7 +173,7 @@ fn status(is_there: bool, is_one: bool) -> String {
 }
 
 fn axes_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let used = settings.model.parameters();
     let LandscapeAxes { across, up, .. } = &mut settings.landscape;
     let mut is_reset = false;

@@ -11,6 +11,7 @@ use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, brdf_bands};
 use crate::app::views::curves::{BrdfScale, Curves, DECADES, MarkSet, Polyline, axis_values};
+use crate::app::work::workspace::Workspace;
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
 use std::collections::BTreeSet;
@@ -46,7 +47,7 @@ impl LobesView {
 }
 
 pub fn lobes_refresh(explorer: &mut App) {
-    let App { derived, settings, document, views, last_fit, dragging, .. } = explorer;
+    let App { work: Workspace { settings, document, shown_fit: last_fit, .. }, derived, views, dragging, .. } = explorer;
     derived.refresh_curves(settings, document);
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
@@ -75,13 +76,13 @@ pub fn lobes_refresh(explorer: &mut App) {
 
 /// What is drawn in the pane.
 pub fn lobes_options_ui(explorer: &mut App, ui: &mut Ui) {
-    ui.checkbox(&mut explorer.settings.log_brdf, tr!("Logarithmic BRDF"));
-    ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
-    ui.checkbox(&mut explorer.settings.shown.times_cosine, tr!("Times cos θr"))
+    ui.checkbox(&mut explorer.work.settings.log_brdf, tr!("Logarithmic BRDF"));
+    ui.checkbox(&mut explorer.work.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
+    ui.checkbox(&mut explorer.work.settings.shown.times_cosine, tr!("Times cos θr"))
         .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
-    ui.checkbox(&mut explorer.settings.show_band, tr!("Confidence band"))
+    ui.checkbox(&mut explorer.work.settings.show_band, tr!("Confidence band"))
         .on_hover_text(tr!("One standard error of the fitted curve to either side"));
-    ui.checkbox(&mut explorer.settings.show_backscatter, tr!("Backscatter side"))
+    ui.checkbox(&mut explorer.work.settings.show_backscatter, tr!("Backscatter side"))
         .on_hover_text(tr!("Negative θr, also where nothing was measured"));
 }
 
@@ -118,7 +119,7 @@ fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<(Line, Ke
 }
 
 pub fn lobes_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { derived, settings, document, views, commands, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, derived, views, commands, .. } = explorer;
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.lobes;
     let dark = ui.visuals().dark_mode;

@@ -15,6 +15,7 @@ use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::curves::{Polyline, pieces};
 use crate::app::work::settings::{MetalSelection, Settings};
+use crate::app::work::workspace::Workspace;
 use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, Points, VLine};
@@ -50,7 +51,7 @@ fn chosen(tabulated: &MetalSelection) -> Option<&'static Metal> {
 }
 
 pub fn metals_refresh(explorer: &mut App) {
-    let App { settings, views, dragging, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, dragging, .. } = explorer;
     let view = &mut views.metals;
     let Some(metal) = chosen(&settings.tabulated) else { return };
     let wavelength_nm = settings.tabulated.wavelength_nm;
@@ -77,13 +78,13 @@ pub fn metals_refresh(explorer: &mut App) {
 }
 
 pub fn metals_ui(explorer: &mut App, ui: &mut Ui) {
-    let Some(metal) = chosen(&explorer.settings.tabulated) else { return };
+    let Some(metal) = chosen(&explorer.work.settings.tabulated) else { return };
     ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
-        let before = explorer.settings.tabulated.clone();
-        choice_ui(&mut explorer.settings.tabulated, metal, ui);
+        let before = explorer.work.settings.tabulated.clone();
+        choice_ui(&mut explorer.work.settings.tabulated, metal, ui);
         wavelength_ui(explorer, ui);
         finishes_ui(explorer, ui);
-        let tabulated = &explorer.settings.tabulated;
+        let tabulated = &explorer.work.settings.tabulated;
         // The followed source takes the sliders along the wavelength.
         if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
             let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
@@ -126,8 +127,8 @@ fn choice_ui(tabulated: &mut MetalSelection, metal: &Metal, ui: &mut Ui) {
 }
 
 fn wavelength_ui(explorer: &mut App, ui: &mut Ui) {
-    let measured = explorer.document.wavelength_nm();
-    let wavelength_nm = &mut explorer.settings.tabulated.wavelength_nm;
+    let measured = explorer.work.document.wavelength_nm();
+    let wavelength_nm = &mut explorer.work.settings.tabulated.wavelength_nm;
     ui.horizontal(|ui| {
         let help = tr!("Vacuum wavelength in nm");
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
@@ -152,7 +153,7 @@ const ROW: f32 = 21.0;
 
 /// Every source with n, k and where it was published.
 fn sources_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
-    let App { settings, views, commands, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, commands, .. } = explorer;
     let Some(found) = views.metals.found.get() else { return };
     if found.iter().all(Option::is_none) {
         let (low, high) = metal.range_nm();
@@ -236,7 +237,7 @@ const HEIGHT: f32 = 130.0;
 
 /// n and k against the wavelength, side by side.
 fn lines_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.metals;
     let Some(lines) = view.lines.get() else { return };
     let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);

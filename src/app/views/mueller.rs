@@ -13,6 +13,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::directions;
 use crate::app::work::document::Series;
+use crate::app::work::workspace::Workspace;
 use crate::figure::ColorMap;
 use egui::{Align2, Color32, DragValue, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -68,7 +69,7 @@ fn normalised(matrix: &Mueller, element: usize) -> f64 {
 }
 
 pub fn mueller_refresh(explorer: &mut App) {
-    let App { settings, document, views, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let view = &mut views.mueller;
     let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
     let backscatter = settings.show_backscatter || document.has_backscatter();
@@ -97,7 +98,7 @@ const LETTERS: f32 = 12.0;
 const GAP: f32 = 14.0;
 
 pub fn mueller_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, document, views, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let view = &mut views.mueller;
     let low: f64 = if settings.show_backscatter || document.has_backscatter() { -90.0 } else { 0.0 };
     let mut theta_r = view.theta_r(settings.theta_i, low < 0.0);

@@ -10,6 +10,7 @@ use crate::app::text::i18n::{Language, phrase, translated};
 use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
 use crate::app::work::document::Document;
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{DolpFormula, describe_poorly_determined, is_poorly_determined};
 use pbrdf::measurement::Columns;
@@ -28,7 +29,7 @@ pub struct PlannerView {
 
 pub fn planner_refresh(explorer: &mut App) {
     let free = explorer.free_in_plan();
-    let App { settings, document, views, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let Settings { parameters, model, choices, ref plan, .. } = *settings;
     let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, i18n::current());
     views
@@ -43,7 +44,7 @@ const WITH_PERCENT: f32 = 400.0;
 const SIDE_BY_SIDE: f32 = 540.0;
 
 pub fn planner_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, document, views, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
         if ui.available_width() > SIDE_BY_SIDE {
             ui.horizontal_top(|ui| {

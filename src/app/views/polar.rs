@@ -13,6 +13,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{BrdfScale, Curves, DECADES, Polyline, axis_values};
 use crate::app::work::document::Series;
+use crate::app::work::workspace::Workspace;
 use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
 use pbrdf::fit::DolpFormula;
@@ -44,7 +45,7 @@ struct Lobes {
 }
 
 pub fn polar_refresh(explorer: &mut App) {
-    let App { settings, views, dragging, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, dragging, .. } = explorer;
     let view = &mut views.polar;
     let log = settings.shown.polar_log;
     let key = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0), log);
@@ -127,13 +128,13 @@ fn short(value: f64) -> String {
 
 /// What is drawn in the pane.
 pub fn polar_options_ui(explorer: &mut App, ui: &mut Ui) {
-    ui.checkbox(&mut explorer.settings.shown.polar_log, tr!("Logarithmic radius"))
+    ui.checkbox(&mut explorer.work.settings.shown.polar_log, tr!("Logarithmic radius"))
         .on_hover_text(tr!("Shows weak lobes beside strong ones"));
-    ui.checkbox(&mut explorer.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
+    ui.checkbox(&mut explorer.work.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
 }
 
 pub fn polar_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.polar;
     let (Some(lobes), Some(range)) = (view.lobes.get(), view.range.get()) else { return };
     let dark = ui.visuals().dark_mode;

@@ -8,6 +8,7 @@ use crate::app::text::glossary::{mask_help, short};
 use crate::app::text::i18n::translated;
 use crate::app::work::document::{Document, Series};
 use crate::app::work::fit_setup::dolp_gain;
+use crate::app::work::workspace::Workspace;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::fit::DolpFormula;
@@ -38,7 +39,7 @@ pub struct TableView {
 
 /// Evaluates the rows that are seen, and no others: there may be a million.
 pub fn table_refresh(explorer: &mut App) {
-    let App { settings, document, views, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let view = &mut views.table;
     let rows = &document.measurement.rows;
     let visible = view.visible.start.min(rows.len())..view.visible.end.min(rows.len());
@@ -56,7 +57,7 @@ pub fn table_refresh(explorer: &mut App) {
 
 /// All rows as the pane shows them, with all digits, and with tabs between cells.
 pub fn table_text(explorer: &App) -> String {
-    let App { settings, document, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, .. } = explorer;
     let measurement = &document.measurement;
     let surface = Pbrdf::new(settings.model, settings.parameters).ok();
     let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
@@ -87,7 +88,7 @@ pub fn table_text(explorer: &App) -> String {
 }
 
 pub fn table_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { document, commands, views, .. } = explorer;
+    let App { work: Workspace { document, .. }, commands, views, .. } = explorer;
     metadata_ui(document, ui);
     series_ui(document, commands, ui);
     let visible = rows_ui(document, &views.table, commands, ui);

@@ -4,7 +4,6 @@ use crate::app::work::document::Mask;
 use pbrdf::fit::{FitResult, Problem};
 use pbrdf::model::Parameters;
 use std::collections::VecDeque;
-use std::rc::Rc;
 use std::sync::Arc;
 
 /// A fit as the window remembers it.
@@ -35,18 +34,18 @@ const MOST_RESIDUALS: usize = 500_000;
 /// The last fits, newest first.
 #[derive(Clone, Default)]
 pub struct FitHistory {
-    fits: VecDeque<Rc<FitEntry>>,
+    fits: VecDeque<Arc<FitEntry>>,
     made: usize,
 }
 
 impl FitHistory {
     /// Takes a fit in, and gives it back to be shown.
-    pub fn push(&mut self, fit: FitEntry) -> Rc<FitEntry> {
+    pub fn push(&mut self, fit: FitEntry) -> Arc<FitEntry> {
         self.made += 1;
-        let fit = Rc::new(FitEntry { id: self.made, ..fit });
+        let fit = Arc::new(FitEntry { id: self.made, ..fit });
         self.fits.push_front(fit.clone());
         self.fits.truncate(MOST_FITS);
-        let residuals = |fits: &VecDeque<Rc<FitEntry>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
+        let residuals = |fits: &VecDeque<Arc<FitEntry>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
         while self.fits.len() > 1 && residuals(&self.fits) > MOST_RESIDUALS {
             self.fits.pop_back();
         }
@@ -54,7 +53,7 @@ impl FitHistory {
     }
 
     /// The fit so many before the newest.
-    pub fn get(&self, index: usize) -> Option<Rc<FitEntry>> {
+    pub fn get(&self, index: usize) -> Option<Arc<FitEntry>> {
         self.fits.get(index).cloned()
     }
 
@@ -63,7 +62,7 @@ impl FitHistory {
         self.made
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Rc<FitEntry>> {
+    pub fn iter(&self) -> impl Iterator<Item = &Arc<FitEntry>> {
         self.fits.iter()
     }
 

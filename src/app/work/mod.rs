@@ -8,5 +8,7 @@ pub mod fit_setup;
 pub mod history;
 pub mod layout;
 pub mod lesson;
+pub mod model_fit;
 pub mod parameter_text;
 pub mod settings;
+pub mod workspace;

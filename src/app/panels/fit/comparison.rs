@@ -1,8 +1,8 @@
 //! The button that fits the ladder of models; its results are in a pane of their own.
 
-use crate::app::jobs::worker::ModelFit;
 use crate::app::shell::commands::Command;
 use crate::app::views::running_model_ui;
+use crate::app::work::model_fit::ModelFit;
 use egui::Ui;
 use tr::tr;
 

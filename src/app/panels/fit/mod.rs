@@ -15,6 +15,7 @@ use crate::app::shell::theme;
 use crate::app::text::glossary;
 use crate::app::views::derived::Derived;
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{Label, RichText, Ui};
 use pbrdf::fit::Weights;
 use pbrdf::model::{Parameter, ParameterSet};
@@ -22,8 +23,8 @@ use tr::tr;
 
 pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
     let free = explorer.free();
-    let App { worker, commands, derived, last_fit, fit_history, document, settings, comparison, scans, show_predicted_errors, .. } =
-        explorer;
+    let App { work, worker, commands, derived, show_predicted_errors, .. } = explorer;
+    let Workspace { shown_fit: last_fit, fit_history, document, settings, model_comparison: comparison, diagnostics: scans, .. } = work;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {

@@ -6,10 +6,10 @@ use crate::app::text::i18n::translated;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
-use std::rc::Rc;
+use std::sync::Arc;
 use tr::tr;
 
-pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Rc<FitEntry>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
     if fits.is_empty() {
         return;
     }
@@ -26,7 +26,7 @@ pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Rc<FitEntry>>, number: u64
                 let model = Preset::of(report.model).map_or_else(|| tr!("own terms"), |preset| preset.key.to_owned());
                 let elsewhere =
                     if fit.number == number { String::new() } else { format!("\n{}", tr!("of another measurement than the open one")) };
-                let is_shown = shown.is_some_and(|shown| Rc::ptr_eq(shown, fit));
+                let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
                 let help = format!("{}\n{}{elsewhere}", fit.document, translated(report.stop_reason.text()));
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Command::ReturnTo(index));

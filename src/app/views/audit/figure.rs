@@ -2,12 +2,13 @@
 
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
 use crate::app::shell::app::App;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Figure, Panel, Rgb, SERIES, Series};
 
 const WARNING: Rgb = Rgb(190, 30, 30);
 
 pub fn audit_figure(explorer: &App) -> Option<Figure> {
-    let App { views, document, .. } = explorer;
+    let App { work: Workspace { document, .. }, views, .. } = explorer;
     let view = &views.audit;
     let curves = view.curves.get()?;
     let mut series = vec![Series::level("", 1.0).colored(MUTED)];

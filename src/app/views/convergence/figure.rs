@@ -1,11 +1,12 @@
 //! The way of the last fit for print.
 
 use crate::app::shell::app::App;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
 pub fn convergence_figure(explorer: &App) -> Option<Figure> {
-    let App { last_fit, settings, document, .. } = explorer;
+    let App { work: Workspace { shown_fit: last_fit, settings, document, .. }, .. } = explorer;
     let trace = &last_fit.as_ref()?.report.trace;
     let by_time = settings.shown.convergence_by_time;
     let points: Vec<[f64; 2]> =

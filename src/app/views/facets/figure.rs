@@ -5,11 +5,12 @@ use crate::app::plots::Range;
 use crate::app::plots::print::{FOREGROUND, over, points};
 use crate::app::shell::app::App;
 use crate::app::views::facets::name;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 use pbrdf::optics::SlopeDistribution;
 
 pub fn facets_figure(explorer: &App) -> Option<Figure> {
-    let App { views, settings, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &views.facets;
     let (densities, masking) = (view.densities.get()?, view.masking.get()?);
     let &(sigma, q, log, ..) = view.densities.key()?;

@@ -4,10 +4,11 @@ use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, over};
 use crate::app::shell::app::App;
 use crate::app::views::hemisphere::{Made, SIZE, place, values};
 use crate::app::work::settings::Quantity;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
 
 pub fn hemisphere_figure(explorer: &App) -> Option<Figure> {
-    let App { views, settings, document, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let view = &views.hemisphere;
     let (key, made) = (view.job.key()?, view.job.get()?.as_ref()?);
     let theta_i = key.2;

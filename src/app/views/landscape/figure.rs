@@ -6,6 +6,7 @@ use crate::app::views::landscape::axes::{coordinate, value};
 use crate::app::views::landscape::drawn::Drawn;
 use crate::app::views::landscape::{Key, LandscapeView};
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 use egui_plot::PlotPoint;
 use pbrdf::fit::Axis as Nodes;
@@ -15,7 +16,7 @@ const MINIMA: Rgb = Rgb(255, 214, 90);
 const METALS: Rgb = Rgb(150, 220, 255);
 
 pub fn landscape_figure(explorer: &App) -> Option<Figure> {
-    let App { views, settings, document, .. } = explorer;
+    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
     let view = &views.landscape;
     let (key, drawn) = (view.job.key()?, view.job.get()?.as_ref()?);
     let mut series = vec![Series::heat_map(heat_map(drawn, key))];

@@ -7,6 +7,7 @@ use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
 use crate::app::views::landscape::drawn::Drawn;
 use crate::app::views::landscape::legend::legend_ui;
 use crate::app::views::landscape::marks::{marks_in, sliders_in};
+use crate::app::work::workspace::Workspace;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
 use pbrdf::fit::Axis;
@@ -14,7 +15,7 @@ use pbrdf::model::Parameter;
 
 /// The map with what lies on it.
 pub fn map_ui(explorer: &mut App, height: f32, ui: &mut Ui) -> PlotResponse<()> {
-    let App { settings, views, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &mut views.landscape;
     let shown = settings.landscape;
     let drawn = view.job.get().and_then(Option::as_ref);

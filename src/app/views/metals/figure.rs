@@ -3,10 +3,11 @@
 use crate::app::plots::print::{FOREGROUND, MUTED, over, points};
 use crate::app::shell::app::App;
 use crate::app::views::metals::{PARTS, chosen};
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 pub fn metals_figure(explorer: &App) -> Option<Figure> {
-    let App { views, settings, .. } = explorer;
+    let App { work: Workspace { settings, .. }, views, .. } = explorer;
     let view = &views.metals;
     let metal = chosen(&settings.tabulated)?;
     let lines = view.lines.get()?;

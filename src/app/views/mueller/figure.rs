@@ -4,10 +4,11 @@ use crate::app::panels::significant;
 use crate::app::plots::print::{FOREGROUND, MUTED};
 use crate::app::shell::app::App;
 use crate::app::views::mueller::{REACH, normalised, number};
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 
 pub fn mueller_figure(explorer: &App) -> Option<Figure> {
-    let App { views, document, .. } = explorer;
+    let App { work: Workspace { document, .. }, views, .. } = explorer;
     let view = &views.mueller;
     let (curves, ((_, _, theta_i, plane), backscatter)) = (view.curves.get()?, view.curves.key()?);
     let matrix = view.matrix.get().and_then(Option::as_ref).zip(view.matrix.key().map(|key| key.1));

@@ -3,10 +3,11 @@
 use crate::app::plots::print::{FOREGROUND, MUTED, points};
 use crate::app::shell::app::App;
 use crate::app::views::polar::{RIM, direction};
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 
 pub fn polar_figure(explorer: &App) -> Option<Figure> {
-    let App { views, document, .. } = explorer;
+    let App { work: Workspace { document, .. }, views, .. } = explorer;
     let view = &views.polar;
     let (lobes, ((_, _, theta_i, plane, _), _)) = (view.lobes.get()?, view.lobes.key()?);
     let mut series = Vec::new();
