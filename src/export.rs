@@ -30,28 +30,67 @@ fn extension(path: &Path) -> String {
     path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// What a figure's file name asks for; the error is a phrase.
-pub fn picture_kind(path: &Path) -> Result<PictureKind, String> {
+/// The endings that a kind of file has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Endings {
+    /// `.svg`, `.png`.
+    Picture,
+    /// `.html`, `.md`.
+    Report,
+    /// One alone, without its dot.
+    #[cfg(any(feature = "gui", test))]
+    Only(&'static str),
+}
+
+impl std::fmt::Display for Endings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Picture => f.write_str(".svg or .png"),
+            Self::Report => f.write_str(".html or .md"),
+            #[cfg(any(feature = "gui", test))]
+            Self::Only(ending) => write!(f, ".{ending}"),
+        }
+    }
+}
+
+/// A file name that asks for another kind of file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}: expected a name that ends in {expected}", .path.display())]
+pub struct EndingError {
+    /// The name.
+    pub path: PathBuf,
+    /// What it should end in.
+    pub expected: Endings,
+}
+
+impl EndingError {
+    fn new(path: &Path, expected: Endings) -> Self {
+        Self { path: path.to_owned(), expected }
+    }
+}
+
+/// What a figure's file name asks for.
+pub fn picture_kind(path: &Path) -> Result<PictureKind, EndingError> {
     match extension(path).as_str() {
         "svg" => Ok(PictureKind::Svg),
         "png" => Ok(PictureKind::Png),
-        _ => Err(format!("{}: expected a name that ends in .svg or .png", path.display())),
+        _ => Err(EndingError::new(path, Endings::Picture)),
     }
 }
 
-/// What a report's file name asks for; the error is a phrase.
-pub fn report_kind(path: &Path) -> Result<ReportKind, String> {
+/// What a report's file name asks for.
+pub fn report_kind(path: &Path) -> Result<ReportKind, EndingError> {
     match extension(path).as_str() {
         "html" | "htm" => Ok(ReportKind::Html),
         "md" | "markdown" => Ok(ReportKind::Markdown),
-        _ => Err(format!("{}: expected a name that ends in .html or .md", path.display())),
+        _ => Err(EndingError::new(path, Endings::Report)),
     }
 }
 
-/// Refuses a file name that says another kind of file; the error is a phrase. Only the window asks for a name by its kind.
+/// Refuses a file name that says another kind of file. Only the window asks for a name by its kind.
 #[cfg(any(feature = "gui", test))]
-pub fn expect_ending(path: &Path, ending: &str) -> Result<(), String> {
-    if extension(path) == ending { Ok(()) } else { Err(format!("{}: expected a name that ends in .{ending}", path.display())) }
+pub fn expect_ending(path: &Path, ending: &'static str) -> Result<(), EndingError> {
+    if extension(path) == ending { Ok(()) } else { Err(EndingError::new(path, Endings::Only(ending))) }
 }
 
 /// Writes a figure.
@@ -119,11 +158,11 @@ mod tests {
     fn names_say_what_is_written() {
         assert_eq!(picture_kind(Path::new("a/b.PNG")), Ok(PictureKind::Png));
         assert_eq!(picture_kind(Path::new("b.c.svg")), Ok(PictureKind::Svg));
-        assert!(picture_kind(Path::new("svg")).unwrap_err().contains(".svg or .png"));
+        assert!(picture_kind(Path::new("svg")).unwrap_err().to_string().contains(".svg or .png"));
         assert_eq!(report_kind(Path::new("b.md")), Ok(ReportKind::Markdown));
         assert!(report_kind(Path::new("b.pdf")).is_err());
         assert_eq!(expect_ending(Path::new("a/b.CSV"), "csv"), Ok(()));
-        assert!(expect_ending(Path::new("b.csv.svg"), "csv").unwrap_err().contains("ends in .csv"));
+        assert!(expect_ending(Path::new("b.csv.svg"), "csv").unwrap_err().to_string().contains("ends in .csv"));
     }
 
     #[test]

@@ -1,17 +1,38 @@
-//! Opening a file, with the reason in words where it cannot be.
+//! Opening a file, with the usual reasons why it cannot be.
 
 use std::fs::File;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// Opens a file for reading; the error is a phrase without the file's name.
-pub fn open_file(path: &Path) -> Result<File, String> {
+/// Why a file cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The path leads to a directory.
+    #[error("this is a directory; expected a file")]
+    Directory,
+    /// Nothing has this path.
+    #[error("there is no such file")]
+    NotFound,
+    /// Nobody may read it here.
+    #[error("permission to read the file is denied")]
+    Denied,
+    /// The system refuses.
+    #[error("the file cannot be opened: {0}")]
+    Other(io::Error),
+}
+
+/// Opens a file for reading.
+///
+/// # Errors
+///
+/// [`OpenError`] where the path is a directory or the system refuses.
+pub fn open_file(path: &Path) -> Result<File, OpenError> {
     if path.is_dir() {
-        return Err("this is a directory; expected a file".to_owned());
+        return Err(OpenError::Directory);
     }
     File::open(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        ErrorKind::PermissionDenied => "permission to read the file is denied".to_owned(),
-        _ => format!("the file cannot be opened: {error}"),
+        ErrorKind::NotFound => OpenError::NotFound,
+        ErrorKind::PermissionDenied => OpenError::Denied,
+        _ => OpenError::Other(error),
     })
 }

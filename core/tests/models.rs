@@ -132,7 +132,7 @@ fn the_distribution_that_made_the_data_wins_and_a_held_gauss_is_no_better_than_a
     let (on_cauchy, held) = contest(SlopeDistribution::Cauchy, 0.002);
     assert_eq!(on_cauchy.winner(), Some(SlopeDistribution::Cauchy));
     assert!(on_cauchy.ratio() > 1.1 && on_cauchy.aicc_gain.is_some_and(|gain| gain > 10.0), "{on_cauchy:?}");
-    assert!(on_cauchy.text().starts_with("Cauchy wins over Gauss: ΔE ") && on_cauchy.text().contains("essentially no support"));
+    assert!(on_cauchy.to_string().starts_with("Cauchy wins over Gauss: ΔE ") && on_cauchy.to_string().contains("essentially no support"));
     let held = held.expect("σ is free");
     for (_, sum) in [held.equal_sigma, held.equal_median] {
         // The free fit ends within its tolerance of the minimum.
@@ -146,12 +146,12 @@ fn the_distribution_that_made_the_data_wins_and_a_held_gauss_is_no_better_than_a
 #[test]
 fn no_distribution_wins_against_the_evidence() {
     let near = DistributionComparison { gauss: 2.561_8e-3, cauchy: 2.561_799e-3, aicc_gain: Some(-4.6), is_delta_e: true };
-    assert!(near.winner().is_none() && near.text().contains("alike") && !near.text().contains("wins"), "{}", near.text());
+    assert!(near.winner().is_none() && near.to_string().contains("alike") && !near.to_string().contains("wins"), "{}", near.to_string());
     let costly = DistributionComparison { cauchy: 2.5e-3, ..near };
     assert!(
-        costly.text().starts_with("Cauchy comes nearer than Gauss") && costly.text().contains("lower by 4.6 for Gauss"),
+        costly.to_string().starts_with("Cauchy comes nearer than Gauss") && costly.to_string().contains("lower by 4.6 for Gauss"),
         "{}",
-        costly.text()
+        costly.to_string()
     );
 }
 

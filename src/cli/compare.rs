@@ -70,7 +70,7 @@ fn verdicts(rungs: &[Rung]) -> Vec<String> {
         let contest = DistributionComparison::new(gauss_fit, cauchy_fit)?;
         let held = GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
         let held = held.map_or_else(String::new, |held| format!("\n{}", held.text(&contest)));
-        Some(format!("{gauss} and {cauchy}: {}{held}", contest.text()))
+        Some(format!("{gauss} and {cauchy}: {contest}{held}"))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

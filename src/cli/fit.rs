@@ -6,7 +6,7 @@ use crate::cli::problem::{problem, starts};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::export;
-use crate::report::{FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
+use crate::report::{English, FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
 use pbrdf::fit::{BootstrapEstimate, Edge, EstimateStatus, FitResult, Problem, Profile, fit};
 use pbrdf::fit::{bootstrap, profile};
 use pbrdf::measurement::{Measurement, append_columns};
@@ -61,13 +61,13 @@ fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem:
     let name = task.input.file_name().map_or_else(|| task.input.display().to_string(), |name| name.to_string_lossy().into_owned());
     let source = Source { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
-    let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date };
+    let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
     if let Some(path) = &task.report {
-        let kind = export::report_kind(path).map_err(Failure::usage)?;
+        let kind = export::report_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
         export::write_report(path, kind, &fitted.document()).map_err(|error| Failure::output(path.display(), &error))?;
     }
     if let Some(path) = &task.figure {
-        let kind = export::picture_kind(path).map_err(Failure::usage)?;
+        let kind = export::picture_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
         let figure = fitted.figure().ok_or_else(|| Failure::usage("There is nothing to draw: no row has a value."))?;
         export::write_picture(path, kind, &figure).map_err(|error| Failure::output(path.display(), &error))?;
     }
@@ -107,7 +107,7 @@ fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &Fi
     let open = report.describe_undetermined();
     if !open.is_empty() {
         writeln!(out, "\nThe data leave open:")?;
-        open.iter().try_for_each(|text| writeln!(out, "  {text}"))?;
+        open.iter().try_for_each(|what| writeln!(out, "  {what}"))?;
     }
     Ok(())
 }

@@ -57,7 +57,7 @@ fn print(out: &mut dyn Write, plan: &fit::Design, prediction: &DesignPrediction)
         writeln!(out, "  {:<8} {value:>12.6} ± {error} {unit}", parameter.key())?;
     }
     for direction in &prediction.undetermined {
-        writeln!(out, "open: {}", direction.text)?;
+        writeln!(out, "open: {direction}")?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::cli::output::Progress;
 use crate::cli::{interrupt, output};
 use crate::export::{machine, now};
 use crate::figure::Figure;
-use crate::report::BenchmarkFigures;
+use crate::report::{BenchmarkFigures, English};
 use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
 use serde_json::Value;
 use std::path::Path;
@@ -34,7 +34,7 @@ impl Answer {
     where
         Report<R>: BenchmarkFigures,
     {
-        Self { json: report.json(), whole_json: report.json_with_curves(), markdown: report.markdown(), figures: report.figures() }
+        Self { json: report.json(), whole_json: report.json_with_curves(), markdown: report.markdown(), figures: report.figures(&English) }
     }
 }
 

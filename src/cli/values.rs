@@ -133,13 +133,13 @@ fn range(from: f64, to: f64, step: f64, angles: &mut Vec<f64>) -> Result<(), Str
 /// The name of a file that a report is written to.
 pub fn report_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    export::report_kind(&path).map(|_| path)
+    export::report_kind(&path).map_err(|error| error.to_string()).map(|_| path)
 }
 
 /// The name of a file that a figure is written to.
 pub fn picture_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    export::picture_kind(&path).map(|_| path)
+    export::picture_kind(&path).map_err(|error| error.to_string()).map(|_| path)
 }
 #[cfg(test)]
 mod tests {

@@ -1,35 +1,37 @@
 //! Figures of what the program says about itself.
 
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, Series};
-use pbrdf::selftest::{Cell, Cost, ErrorVsTime, GRADIENT_BAR, Report, Stability, TaskKind, VALUE_BAR, digits, short_method as short};
+use crate::report::wording::Wording;
+use pbrdf::selftest::{BenchmarkMethod, Cell, Cost, ErrorVsTime, GRADIENT_BAR, Report, Stability, TaskKind, VALUE_BAR, digits};
 
 /// A report that has figures.
 pub trait BenchmarkFigures {
-    /// The figures, each with the end of the name of its file.
-    fn figures(&self) -> Vec<(&'static str, Figure)>;
+    /// The figures in a language, each with the end of the name of its file.
+    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)>;
 }
 
 impl BenchmarkFigures for Report<ErrorVsTime> {
-    fn figures(&self) -> Vec<(&'static str, Figure)> {
-        vec![
-            ("evaluate", work_precision(&self.rows, Compared::Evaluations)),
-            ("fit", along_fits(&self.curves.fits)),
-            ("profile", performance_profile(&self.curves.profiles)),
-            ("models", work_precision(&self.rows, Compared::Models)),
-            ("ladder", along_the_ladder(&self.curves.models)),
-        ]
+    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+        let figures = vec![
+            ("evaluate", work_precision(&self.rows, Compared::Evaluations, words)),
+            ("fit", along_fits(&self.curves.fits, words)),
+            ("profile", performance_profile(&self.curves.profiles, words)),
+            ("models", work_precision(&self.rows, Compared::Models, words)),
+            ("ladder", along_the_ladder(&self.curves.models, words)),
+        ];
+        figures.into_iter().map(|(name, figure)| (name, figure.translate(&|text| words.label(text)))).collect()
     }
 }
 
 impl BenchmarkFigures for Report<Stability> {
-    fn figures(&self) -> Vec<(&'static str, Figure)> {
-        vec![("digits", digits_held(&self.rows))]
+    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+        vec![("digits", digits_held(&self.rows).translate(&|text| words.label(text)))]
     }
 }
 
 impl BenchmarkFigures for Report<Cost> {
-    fn figures(&self) -> Vec<(&'static str, Figure)> {
-        vec![("time", bars(&self.rows))]
+    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+        vec![("time", bars(&self.rows, words).translate(&|text| words.label(text)))]
     }
 }
 
@@ -44,7 +46,7 @@ enum Compared {
 }
 
 /// Work–precision diagram: from the median to the worst error at the time of each method.
-fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
+fn work_precision(rows: &[ErrorVsTime], compared: Compared, words: &dyn Wording) -> Figure {
     let belongs = |row: &&ErrorVsTime| match compared {
         Compared::Evaluations => row.task == TaskKind::Evaluate,
         Compared::Models => row.is_model(),
@@ -52,7 +54,7 @@ fn work_precision(rows: &[ErrorVsTime], compared: Compared) -> Figure {
     let rows: Vec<&ErrorVsTime> = rows.iter().filter(belongs).collect();
     let series = rows.iter().flat_map(|row| {
         let ends = [row.median_relative_error, row.worst_relative_error].map(|error| [row.time, error.max(DRAWN_AT_LEAST)]);
-        let name = short(&row.method);
+        let name = words.method(row.method);
         [Series::line(name.clone(), ends.to_vec()), Series::points(name, ends)]
     });
     let (title, label, unit) = match compared {
@@ -75,10 +77,10 @@ const OBJECTIVE: (usize, &str) = (1, "objective ΔE");
 const DISTANCE: (usize, &str) = (2, "distance to the truth");
 
 /// Ways of fits in one panel; the times of both panels of a figure are those of all steps.
-fn ways(ways: &[(String, Vec<[f64; 3]>)], (place, label): (usize, &str), legend: bool) -> Panel {
+fn ways(ways: &[(BenchmarkMethod, Vec<[f64; 3]>)], (place, label): (usize, &str), legend: bool, words: &dyn Wording) -> Panel {
     let series = ways.iter().map(|(method, steps)| {
         let points = steps.iter().map(|step| [step[0], step[place]]).filter(|[ms, y]| *ms > 0.0 && *y > 0.0);
-        Series::line(short(method), points.collect())
+        Series::line(words.method(*method), points.collect())
     });
     let times = || ways.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).filter(|ms| *ms > 0.0);
     let (first, last) = (times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
@@ -92,24 +94,24 @@ fn ways(ways: &[(String, Vec<[f64; 3]>)], (place, label): (usize, &str), legend:
 }
 
 /// Objective and distance to the truth along one fit.
-fn along_fits(curves: &[(String, Vec<[f64; 3]>)]) -> Figure {
-    let panels = vec![ways(curves, OBJECTIVE, true), ways(curves, DISTANCE, false)];
+fn along_fits(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn Wording) -> Figure {
+    let panels = vec![ways(curves, OBJECTIVE, true, words), ways(curves, DISTANCE, false, words)];
     let title = "Along one fit: noise-free Gauss data, dense angles, first from the defaults".to_owned();
     Figure { title, panels, height_mm: 200.0, ..Figure::default() }
 }
 
 /// Objective along a fit of each model.
-fn along_the_ladder(curves: &[(String, Vec<[f64; 3]>)]) -> Figure {
+fn along_the_ladder(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn Wording) -> Figure {
     let title = "Along one fit of each model: the same Cauchy data, noise 0.005, from the defaults".to_owned();
-    Figure { title, panels: vec![ways(curves, OBJECTIVE, true)], height_mm: 120.0, ..Figure::default() }
+    Figure { title, panels: vec![ways(curves, OBJECTIVE, true, words)], height_mm: 120.0, ..Figure::default() }
 }
 
 /// Dolan and Moré's performance profile.
-fn performance_profile(profiles: &[(String, Vec<[f64; 2]>)]) -> Figure {
+fn performance_profile(profiles: &[(BenchmarkMethod, Vec<[f64; 2]>)], words: &dyn Wording) -> Figure {
     let last = profiles.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).fold(1.0, f64::max);
     // Each goes on to the end at the share it has reached.
     let to_the_end = |steps: &[[f64; 2]]| steps.iter().copied().chain(steps.last().map(|step| [2.0 * last, step[1]])).collect();
-    let series = profiles.iter().map(|(method, steps)| Series::steps(short(method), to_the_end(steps))).collect();
+    let series = profiles.iter().map(|(method, steps)| Series::steps(words.method(*method), to_the_end(steps))).collect();
     let x = Axis::log("time over that of the fastest method", "");
     let y = Axis::linear("share of problems solved", "").between(0.0, 1.05);
     let panel = Panel { x, y, series, ..Panel::default() };
@@ -120,7 +122,7 @@ fn performance_profile(profiles: &[(String, Vec<[f64; 2]>)]) -> Figure {
 const BAR_POINTS: f64 = 9.0;
 
 /// A bar for each scene, the first on top.
-fn bars(rows: &[Cost]) -> Figure {
+fn bars(rows: &[Cost], words: &dyn Wording) -> Figure {
     let places = || (0_u32..).map(f64::from).zip(rows.iter().rev());
     let shortest = rows.iter().map(|row| row.time.median_ns).fold(f64::INFINITY, f64::min);
     let longest = rows.iter().map(|row| row.time.median_ns).fold(0.0, f64::max);
@@ -133,7 +135,7 @@ fn bars(rows: &[Cost]) -> Figure {
     let numbers = places().map(|(y, row)| ([row.time.median_ns, y], Cell::Number(row.time.median_ns).to_string())).collect();
     let name = |row: &Cost| match (row.kernel, row.threads) {
         ("scalar", _) => row.scene.to_owned(),
-        (kernel, _) => format!("{} ({kernel})", row.scene),
+        (kernel, _) => words.fill("{0} ({1})", &[&words.label(row.scene), &words.label(kernel)]),
     };
     let panel = Panel {
         x: Axis::log("time of a point", "ns").between(from, 3.0 * longest),

@@ -105,23 +105,6 @@ impl Document {
         out
     }
 
-    /// In another language: every text of ours put through that function.
-    #[must_use]
-    pub fn worded(&self, language: &'static str, word: &dyn Fn(&str) -> String) -> Self {
-        let all = |texts: &[String]| texts.iter().map(|text| word(text)).collect::<Vec<_>>();
-        let block = |block: &Block| match block {
-            Block::Heading(text) => Block::Heading(word(text)),
-            Block::Paragraph(text) => Block::Paragraph(word(text)),
-            Block::List(items) => Block::List(all(items)),
-            Block::Table { head, rows } => Block::Table { head: all(head), rows: rows.iter().map(|row| all(row)).collect() },
-            Block::Quoted(pairs) => Block::Quoted(pairs.clone()),
-            Block::Picture { name, caption, figure } => {
-                Block::Picture { name, caption: word(caption), figure: Box::new(figure.worded(word)) }
-            }
-        };
-        Self { title: word(&self.title), language: Some(language), blocks: self.blocks.iter().map(block).collect() }
-    }
-
     /// The figures with their names.
     pub fn figures(&self) -> impl Iterator<Item = (&'static str, &Figure)> {
         self.blocks.iter().filter_map(|block| match block {

@@ -4,6 +4,7 @@ use crate::figure::{Figure, Panel};
 use crate::report::document::{Block, Document};
 use crate::report::fit_figures::FitFigures;
 use crate::report::residual_table::dolp_divisor;
+use crate::report::wording::Wording;
 use pbrdf::fit::{BrdfResiduals, DolpFormula, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
 use pbrdf::measurement::{Measurement, Series};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
@@ -19,7 +20,7 @@ pub struct Source {
 }
 
 /// A fit with all that a reader of its report asks for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct FitDocument<'a> {
     /// The data.
     pub measurement: &'a Measurement,
@@ -33,16 +34,10 @@ pub struct FitDocument<'a> {
     pub program: &'a str,
     /// Day and time of the report, as ISO 8601; empty where nobody knows.
     pub date: &'a str,
+    /// Its language.
+    pub words: &'a dyn Wording,
 }
 
-/// Rows of a table with two columns.
-fn pairs(rows: Vec<(&str, String)>) -> Block {
-    Block::Table { head: Vec::new(), rows: rows.into_iter().map(|(key, value)| vec![key.to_owned(), value]).collect() }
-}
-
-fn heading(text: &str) -> Block {
-    Block::Heading(text.to_owned())
-}
 
 /// So many significant digits.
 fn significant(value: f64, digits: usize) -> String {
@@ -75,11 +70,39 @@ fn idle_zeros_off(text: &str) -> String {
     if text.contains('.') && !text.contains('e') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(|| "not defined".to_owned(), |value| significant(value, 6))
-}
-
 impl FitDocument<'_> {
+    /// A text in the language of the document.
+    fn text(&self, english: &str) -> String {
+        self.words.text(english)
+    }
+
+    fn heading(&self, english: &str) -> Block {
+        Block::Heading(self.text(english))
+    }
+
+    fn paragraph(&self, english: &str) -> Block {
+        Block::Paragraph(self.text(english))
+    }
+
+    /// Rows of a table with two columns, each with a name.
+    fn pairs(&self, rows: Vec<(&str, String)>) -> Block {
+        Block::Table { head: Vec::new(), rows: rows.into_iter().map(|(key, value)| vec![self.text(key), value]).collect() }
+    }
+
+    /// The head of a table.
+    fn head<const N: usize>(&self, names: [&str; N]) -> Vec<String> {
+        names.into_iter().map(|name| if name.is_empty() { String::new() } else { self.text(name) }).collect()
+    }
+
+    fn number(&self, value: Option<f64>) -> String {
+        value.map_or_else(|| self.text("not defined"), |value| significant(value, 6))
+    }
+
+    /// A figure with a caption.
+    fn picture(&self, name: &'static str, caption: String, figure: &Figure) -> Block {
+        Block::Picture { name, caption, figure: Box::new(figure.translate(&|text| self.words.label(text))) }
+    }
+
     /// The whole document.
     #[must_use]
     pub fn document(&self) -> Document {
@@ -92,10 +115,10 @@ impl FitDocument<'_> {
         blocks.extend(self.data());
         blocks.extend(self.model());
         blocks.extend(self.audit());
-        blocks.push(heading("Program"));
+        blocks.push(self.heading("Program"));
         let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
         blocks.push(Block::Paragraph(format!("{}{date}.", self.program)));
-        Document { title: format!("Fit of {}", self.source.name), language: None, blocks }
+        Document { title: self.words.fill("Fit of {0}", &[&self.source.name]), language: self.words.language(), blocks }
     }
 
     /// One figure of data, fit and residuals: DoLP and, where it was measured and is predicted, the BRDF below it.
@@ -125,63 +148,60 @@ impl FitDocument<'_> {
     fn summary(&self) -> String {
         let FitResult { stop_reason, evaluations, elapsed_ms, objective, start_objective, minima, .. } = self.report;
         // A fit out of an old session does not know what it took.
-        let effort = if minima.is_empty() { String::new() } else { format!(" in {evaluations} evaluations and {elapsed_ms:.0} ms") };
-        format!(
-            "{} of {} rows. How it ended: {}. ΔE of Eq. (18) went from {} to {}{effort}.",
-            self.used(),
-            self.measurement.rows.len(),
-            stop_reason.text(),
-            number(*start_objective),
-            number(*objective),
-        )
+        let (rows, reason) = (self.measurement.rows.len(), self.words.stop_reason(*stop_reason));
+        let (before, after) = (self.number(*start_objective), self.number(*objective));
+        if minima.is_empty() {
+            let text = "{0} of {1} rows. How it ended: {2}. ΔE of Eq. (18) went from {3} to {4}.";
+            return self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after]);
+        }
+        let text = "{0} of {1} rows. How it ended: {2}. ΔE of Eq. (18) went from {3} to {4} in {5} evaluations and {6} ms.";
+        self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after, evaluations, &format!("{elapsed_ms:.0}")])
     }
 
     fn figures(&self) -> Vec<Block> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
         let series = Series::of(&self.measurement.rows);
         let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
-        let mut blocks = vec![heading("Figures")];
+        let mut blocks = vec![self.heading("Figures")];
         if let Some(figure) = figures.dolp("") {
-            let caption = "DoLP against the angle of view: points measured, curves fitted, dashed the Fresnel limit that no \
-                           diffuse or volume term can exceed; below, model less measured."
-                .to_owned();
-            blocks.push(Block::Picture { name: "dolp", caption, figure: Box::new(figure) });
+            let caption = self.text(
+                "DoLP against the angle of view: points measured, curves fitted, dashed the Fresnel limit that no diffuse or volume term \
+                 can exceed; below, model less measured.",
+            );
+            blocks.push(self.picture("dolp", caption, &figure));
         }
         let predicts_brdf = !self.choices().dolp_only;
         if let Some(figure) = figures.brdf("").filter(|_| predicts_brdf) {
             let caption = match series.first() {
                 Some(first) if !self.measurement.has_brdf() => {
-                    format!("Lobes of the BRDF at {} with the weights of the fit; no BRDF was measured.", first.name())
+                    let text = "Lobes of the BRDF at {0} with the weights of the fit; no BRDF was measured.";
+                    self.words.fill(text, &[&first.name()])
                 }
-                _ => "BRDF against the angle of view: points measured, curves fitted.".to_owned(),
+                _ => self.text("BRDF against the angle of view: points measured, curves fitted."),
             };
-            blocks.push(Block::Picture { name: "brdf", caption, figure: Box::new(figure) });
+            blocks.push(self.picture("brdf", caption, &figure));
         }
         blocks
     }
 
     fn parameters(&self) -> Vec<Block> {
-        let head = ["", "parameter", "value", "standard error", "start", "bounds", "unit"].map(str::to_owned).to_vec();
+        let head = self.head(["", "parameter", "value", "standard error", "start", "bounds", "unit"]);
         let row = |estimate: &Estimate| {
             let Estimate { parameter, start, value, free, .. } = *estimate;
             let standing = estimate.standing();
             let (value, error) = with_error(value, if let EstimateStatus::Determined(error) = standing { Some(error) } else { None });
             let error = match standing {
-                EstimateStatus::Fixed => "fixed".to_owned(),
-                EstimateStatus::AtBound(Edge::Lower) => "at lower bound".to_owned(),
-                EstimateStatus::AtBound(Edge::Upper) => "at upper bound".to_owned(),
+                EstimateStatus::Fixed => self.text("fixed"),
+                EstimateStatus::AtBound(Edge::Lower) => self.text("at lower bound"),
+                EstimateStatus::AtBound(Edge::Upper) => self.text("at upper bound"),
                 EstimateStatus::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
-                EstimateStatus::NoDegreesOfFreedom => "no degree of freedom left".to_owned(),
-                EstimateStatus::Open => "open".to_owned(),
+                EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
+                EstimateStatus::Open => self.text("open"),
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
             let start = idle_zeros_off(&significant(start, 6));
-            [parameter.symbol(), parameter.name()]
-                .map(str::to_owned)
-                .into_iter()
-                .chain([value, error, start, bounds, parameter.unit().to_owned()])
-                .collect()
+            vec![parameter.symbol().to_owned(), self.text(parameter.name()), value, error, start, bounds, parameter.unit().to_owned()]
         };
         let table = Block::Table { head, rows: self.report.estimates.iter().map(row).collect() };
         let errors = match self.choices().weights {
@@ -191,30 +211,27 @@ impl FitDocument<'_> {
                  they say nothing about a wrong model."
             }
         };
-        let mut blocks = vec![heading("Parameters"), table, Block::Paragraph(errors.to_owned())];
+        let mut blocks = vec![self.heading("Parameters"), table, self.paragraph(errors)];
         if self.report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
-            blocks.push(Block::Paragraph(
-                "A parameter at a bound has no standard error, and those of the others hold with it kept there.".to_owned(),
-            ));
+            blocks.push(self.paragraph("A parameter at a bound has no standard error, and those of the others hold with it kept there."));
         }
         blocks
     }
 
     fn open(&self) -> Vec<Block> {
         let open = self.report.describe_undetermined();
-        let mut blocks = vec![heading("What the data leave open")];
+        let mut blocks = vec![self.heading("What the data leave open")];
         if open.is_empty() {
             let text =
                 if self.report.determined.is_empty() { "No parameter was free." } else { "Nothing: every free parameter is determined." };
-            blocks.push(Block::Paragraph(text.to_owned()));
+            blocks.push(self.paragraph(text));
         } else {
-            blocks.push(Block::List(open));
+            blocks.push(Block::List(open.iter().map(|what| self.words.undetermined(what)).collect()));
         }
         if !self.report.undetermined.is_empty() {
-            blocks.push(Block::Paragraph(
+            blocks.push(self.paragraph(
                 "Along an open direction the parameters may change together without changing what was measured: their values above are \
-                 one choice among many and have no standard error."
-                    .to_owned(),
+                 one choice among many and have no standard error.",
             ));
         }
         blocks
@@ -232,30 +249,30 @@ impl FitDocument<'_> {
             [name.clone()].into_iter().chain(cells).collect()
         };
         let rows = names.iter().enumerate().map(row).collect();
-        vec![heading("Correlations of the determined parameters"), Block::Table { head, rows }]
+        vec![self.heading("Correlations of the determined parameters"), Block::Table { head, rows }]
     }
 
     fn goodness(&self) -> Vec<Block> {
         let report = self.report;
         let mut rows = vec![
-            ("ΔE, Eq. (18)", number(report.objective)),
+            ("ΔE, Eq. (18)", self.number(report.objective)),
             ("sum of squares", significant(report.sum_of_squares, 6)),
             ("degrees of freedom", report.dof.to_string()),
         ];
         if let Some(chi2) = report.chi2 {
             rows.push(("χ²", significant(chi2, 6)));
             #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-            rows.push(("χ² per degree of freedom", number((report.dof > 0).then(|| chi2 / report.dof as f64))));
+            rows.push(("χ² per degree of freedom", self.number((report.dof > 0).then(|| chi2 / report.dof as f64))));
         }
-        rows.push(("AICc", number(report.aicc)));
-        let mut blocks = vec![heading("Goodness of fit"), pairs(rows)];
+        rows.push(("AICc", self.number(report.aicc)));
+        let mut blocks = vec![self.heading("Goodness of fit"), self.pairs(rows)];
         if report.minima.len() > 1 {
             let row = |minimum: &pbrdf::fit::Minimum| {
-                vec![significant(minimum.objective, 6), minimum.reached.to_string(), minimum.stop_reason.text().to_owned()]
+                vec![significant(minimum.objective, 6), minimum.reached.to_string(), self.words.stop_reason(minimum.stop_reason)]
             };
-            blocks.push(Block::Paragraph("Where the starts ended, the best first:".to_owned()));
+            blocks.push(self.paragraph("Where the starts ended, the best first:"));
             blocks.push(Block::Table {
-                head: ["ΔE", "starts", "why there"].map(str::to_owned).to_vec(),
+                head: self.head(["ΔE", "starts", "why there"]),
                 rows: report.minima.iter().map(row).collect(),
             });
         }
@@ -269,17 +286,17 @@ impl FitDocument<'_> {
         if let Some(sha256) = &self.source.sha256 {
             rows.push(("SHA-256 of the file", sha256.clone()));
         }
-        rows.push(("rows", format!("{}, {masked} of them masked and not used", measurement.rows.len())));
-        let quantity = |there: bool, count: usize, name: &str| there.then(|| format!("{name} ({count} values)"));
+        rows.push(("rows", self.words.fill("{0}, {1} of them masked and not used", &[&measurement.rows.len(), &masked])));
+        let quantity = |there: bool, count: usize, name: &str| there.then(|| self.words.fill(name, &[&count]));
         let count = |of: fn(&pbrdf::measurement::Row) -> bool| measurement.rows.iter().filter(|row| of(row)).count();
         let measured = [
-            quantity(measurement.has_dolp(), count(|row| row.dolp.is_some()), "DoLP"),
-            quantity(measurement.has_brdf(), count(|row| row.brdf.is_some()), "BRDF in 1/sr"),
+            quantity(measurement.has_dolp(), count(|row| row.dolp.is_some()), "DoLP ({0} values)"),
+            quantity(measurement.has_brdf(), count(|row| row.brdf.is_some()), "BRDF in 1/sr ({0} values)"),
         ];
-        rows.push(("measured", measured.into_iter().flatten().collect::<Vec<_>>().join(", ")));
+        rows.push(("measured", self.words.list(&measured.into_iter().flatten().collect::<Vec<_>>())));
         let angles: Vec<String> = measurement.incidence_angles().iter().take(20).map(|angle| format!("{angle}°")).collect();
         rows.push(("angles of incidence", angles.join(", ")));
-        let mut blocks = vec![heading("Data"), pairs(rows)];
+        let mut blocks = vec![self.heading("Data"), self.pairs(rows)];
         if !measurement.metadata.is_empty() {
             blocks.push(Block::Quoted(measurement.metadata.clone()));
         }
@@ -290,12 +307,12 @@ impl FitDocument<'_> {
         let model = self.report.model;
         let preset = Preset::of(model);
         let mut rows = vec![
-            ("model", preset.map_or_else(|| "own choice of terms".to_owned(), |preset| preset.name.to_owned())),
-            ("source", preset.map_or_else(String::new, |preset| preset.citation.to_owned())),
-            ("terms", terms(model)),
+            ("model", self.text(preset.map_or("own choice of terms", |preset| preset.name))),
+            ("source", preset.map_or_else(String::new, |preset| self.text(preset.citation))),
+            ("terms", self.terms(model)),
         ];
         rows.extend(self.choice_rows());
-        vec![heading("Model and choices"), pairs(rows)]
+        vec![self.heading("Model and choices"), self.pairs(rows)]
     }
 
     /// What the physics says of the fitted surface.
@@ -306,11 +323,11 @@ impl FitDocument<'_> {
             let place =
                 at.map_or_else(String::new, |at| format!("θi = {}°, θr = {}°, Δφ = {}°", at.theta_i().0, at.theta_r().0, at.dphi().0));
             let verdict = if pass { "pass" } else { "fail" };
-            let cells = [name_of(check).to_owned(), significant(value, 4), significant(bar, 2), verdict.to_owned(), place];
-            cells.into_iter().chain([finding.why().to_owned()]).collect()
+            let (name, verdict, why) = (self.text(name_of(check)), self.text(verdict), self.words.finding(finding));
+            vec![name, significant(value, 4), significant(bar, 2), verdict, place, why]
         };
-        let head = ["check", "number", "limit", "verdict", "direction", "why"].map(str::to_owned).to_vec();
-        vec![heading("Audit"), Block::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
+        let head = self.head(["check", "number", "limit", "verdict", "direction", "why"]);
+        vec![self.heading("Audit"), Block::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
     }
 
     fn choice_rows(&self) -> Vec<(&'static str, String)> {
@@ -320,28 +337,50 @@ impl FitDocument<'_> {
             Weights::Sigma => "each residual divided by the stated standard deviation",
         };
         let brdf = match brdf_residuals {
-            BrdfResiduals::Absolute => "X − Xm",
-            BrdfResiduals::Relative => "(X − Xm)/Xm",
-            BrdfResiduals::Log => "ln X − ln Xm",
+            BrdfResiduals::Absolute => "X − Xm".to_owned(),
+            BrdfResiduals::Relative => "(X − Xm)/Xm".to_owned(),
+            BrdfResiduals::Log => "ln X − ln Xm".to_owned(),
         };
-        let scale = loss_scale.map_or_else(|| "scale from the residuals of a linear fit".to_owned(), |scale| format!("scale {scale}"));
+        let scale = || match loss_scale {
+            None => self.text("scale from the residuals of a linear fit"),
+            Some(scale) => self.words.fill("scale {0}", &[scale]),
+        };
         let loss = match loss {
-            Loss::Squared => "squares".to_owned(),
-            Loss::Huber => format!("Huber, {scale}"),
-            Loss::SoftL1 => format!("soft L1, {scale}"),
+            Loss::Squared => self.text("squares"),
+            Loss::Huber => self.words.fill("Huber, {0}", &[&scale()]),
+            Loss::SoftL1 => self.words.fill("soft L1, {0}", &[&scale()]),
         };
         let reading = match eq17 {
             DolpFormula::Consistent => "consistent: k_s in the numerator",
             DolpFormula::AsPrinted => "as printed: k_s missing from the numerator",
         };
         let free: Vec<&str> = self.problem.free().iter().map(|parameter| parameter.symbol()).collect();
-        let mut rows = vec![("free parameters", free.join(", ")), ("weights", weights.to_owned())];
+        let mut rows = vec![("free parameters", free.join(", ")), ("weights", self.text(weights))];
         if self.measurement.has_brdf() {
-            let brdf = if *dolp_only { "not used: the model predicts DoLP only" } else { brdf };
-            rows.push(("residuals of BRDF", brdf.to_owned()));
+            let brdf = if *dolp_only { self.text("not used: the model predicts DoLP only") } else { brdf };
+            rows.push(("residuals of BRDF", brdf));
         }
-        rows.extend([("loss", loss), ("reading of Eq. (17)", reading.to_owned())]);
+        rows.extend([("loss", loss), ("reading of Eq. (17)", self.text(reading))]);
         rows
+    }
+
+    /// The terms of a model.
+    fn terms(&self, model: Model) -> String {
+        let distribution = match model.distribution {
+            SlopeDistribution::Gauss => "Gauss facets",
+            SlopeDistribution::Cauchy => "Cauchy facets",
+        };
+        let masking = if model.masking { "masking and shadowing of V grooves" } else { "no masking" };
+        let diffuse = match model.diffuse {
+            Diffuse::Absent => None,
+            Diffuse::Lambert => Some("a Lambertian term"),
+            Diffuse::Minnaert => Some("a Minnaert term"),
+            Diffuse::Hyde => Some("a Lambertian term from the energy balance"),
+        };
+        let specular =
+            model.specular.then(|| self.words.fill("a specular lobe of {0} with {1}", &[&self.text(distribution), &self.text(masking)]));
+        let others = diffuse.into_iter().chain(model.volume.then_some("a volume term")).map(|term| self.text(term));
+        self.words.list(&specular.into_iter().chain(others).collect::<Vec<_>>())
     }
 }
 
@@ -356,24 +395,6 @@ fn name_of(check: Check) -> &'static str {
         Check::Admissibility => "eigenvalue of the coherency matrix over m00, smallest",
         Check::Normalisation => "projected area of the facets, distance from 1",
     }
-}
-
-/// The terms of a model in words.
-fn terms(model: Model) -> String {
-    let distribution = match model.distribution {
-        SlopeDistribution::Gauss => "Gauss facets",
-        SlopeDistribution::Cauchy => "Cauchy facets",
-    };
-    let masking = if model.masking { "masking and shadowing of V grooves" } else { "no masking" };
-    let diffuse = match model.diffuse {
-        Diffuse::Absent => None,
-        Diffuse::Lambert => Some("a Lambertian term"),
-        Diffuse::Minnaert => Some("a Minnaert term"),
-        Diffuse::Hyde => Some("a Lambertian term from the energy balance"),
-    };
-    let specular = model.specular.then(|| format!("a specular lobe of {distribution} with {masking}"));
-    let terms = specular.into_iter().chain(diffuse.map(str::to_owned)).chain(model.volume.then(|| "a volume term".to_owned()));
-    terms.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod fit_document;
 mod fit_figures;
 mod fit_json;
 mod residual_table;
+mod wording;
 
 pub use benchmark_figures::BenchmarkFigures;
 pub use curves::{CurvePoint, curve, directions, write_curves};
@@ -14,4 +15,5 @@ pub use document::{Block, Document};
 pub use fit_document::{FitDocument, Source};
 pub use fit_figures::FitFigures;
 pub use fit_json::fit_json;
+pub use wording::{English, Wording};
 pub use residual_table::{FITTED_COLUMNS, dolp_divisor, fitted_cells, write_fitted};

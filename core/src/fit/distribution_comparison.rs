@@ -12,6 +12,7 @@ use crate::fit::objective::Problem;
 use crate::fit::result::{FitResult, fit};
 use crate::model::{Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;
+use std::fmt;
 
 /// Both fits side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,40 +74,97 @@ impl DistributionComparison {
 
     /// What the difference of AICc is worth.
     #[must_use]
-    pub fn evidence(&self) -> &'static str {
+    pub fn evidence(&self) -> Evidence {
         match self.aicc_gain.map(f64::abs) {
-            None => "AICc is not defined for so few or so exact data",
-            Some(gain) if gain < 2.0 => "the data do not tell them apart",
-            Some(gain) if gain < 4.0 => "weak evidence",
-            Some(gain) if gain < 10.0 => "considerable evidence",
-            Some(_) => "essentially no support for the other",
+            None => Evidence::Undefined,
+            Some(gain) if gain < 2.0 => Evidence::None,
+            Some(gain) if gain < 4.0 => Evidence::Weak,
+            Some(gain) if gain < 10.0 => Evidence::Considerable,
+            Some(_) => Evidence::Decisive,
         }
     }
 
-    /// Who wins and by how much, in a sentence.
+    /// Which of both describes the data better.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub fn verdict(&self) -> Verdict {
+        match self.winner() {
+            None => Verdict::Alike { gauss_preferred: self.aicc_gain.is_some_and(|gain| gain < 0.0) },
+            // A smaller sum that AICc does not think worth its parameter is no victory.
+            Some(winner) => Verdict::Closer {
+                winner,
+                confirmed: self.aicc_gain.is_none_or(|gain| (gain > 0.0) == (winner == SlopeDistribution::Cauchy)),
+            },
+        }
+    }
+}
+
+/// What a difference of AICc between two models of the same data is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// AICc is not defined for one of them.
+    Undefined,
+    /// Below 2: none.
+    None,
+    /// From 2 to 4.
+    Weak,
+    /// From 4 to 10.
+    Considerable,
+    /// From 10 on.
+    Decisive,
+}
+
+/// Which of two distributions describes the data better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Both sums of squares are the same.
+    Alike {
+        /// Whether AICc is lower for Gauss, which has one parameter less.
+        gauss_preferred: bool,
+    },
+    /// One sum of squares is smaller.
+    Closer {
+        /// Whose.
+        winner: SlopeDistribution,
+        /// Whether AICc is lower for the same distribution, or not defined.
+        confirmed: bool,
+    },
+}
+
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Undefined => "AICc is not defined for so few or so exact data",
+            Self::None => "the data do not tell them apart",
+            Self::Weak => "weak evidence",
+            Self::Considerable => "considerable evidence",
+            Self::Decisive => "essentially no support for the other",
+        })
+    }
+}
+
+/// Who wins and by how much, in a sentence.
+impl fmt::Display for DistributionComparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let measure = if self.is_delta_e { "ΔE" } else { "sum of squares" };
-        let Some(winner) = self.winner() else {
-            let fewer = if self.aicc_gain.is_some_and(|gain| gain < 0.0) { ": Cauchy's tail exponent buys nothing here" } else { "" };
-            return format!("Gauss and Cauchy describe these data alike ({measure} {:.4e}){fewer}.", self.gauss);
+        let (winner, confirmed) = match self.verdict() {
+            Verdict::Alike { gauss_preferred } => {
+                let fewer = if gauss_preferred { ": Cauchy's tail exponent buys nothing here" } else { "" };
+                return write!(f, "Gauss and Cauchy describe these data alike ({measure} {:.4e}){fewer}.", self.gauss);
+            }
+            Verdict::Closer { winner, confirmed } => (winner, confirmed),
         };
         let (name, other) = match winner {
             SlopeDistribution::Gauss => ("Gauss", "Cauchy"),
             SlopeDistribution::Cauchy => ("Cauchy", "Gauss"),
         };
-        let by = match self.aicc_gain {
-            None => String::new(),
-            Some(gain) => {
-                let (lower, gain) = if gain > 0.0 { ("Cauchy", gain) } else { ("Gauss", -gain) };
-                format!("AICc lower by {gain:.1} for {lower}: ")
-            }
-        };
+        let verb = if confirmed { "wins over" } else { "comes nearer than" };
         let ratio = if self.ratio().is_finite() { format!("{:.4} times smaller", self.ratio()) } else { "0".to_owned() };
-        // A smaller sum that AICc does not think worth its parameter is no victory.
-        let is_confirmed = self.aicc_gain.is_none_or(|gain| (gain > 0.0) == (winner == SlopeDistribution::Cauchy));
-        let verb = if is_confirmed { "wins over" } else { "comes nearer than" };
-        format!("{name} {verb} {other}: {measure} {ratio}; {by}{}.", self.evidence())
+        write!(f, "{name} {verb} {other}: {measure} {ratio}; ")?;
+        if let Some(gain) = self.aicc_gain {
+            let lower = if gain > 0.0 { "Cauchy" } else { "Gauss" };
+            write!(f, "AICc lower by {:.1} for {lower}: ", gain.abs())?;
+        }
+        write!(f, "{}.", self.evidence())
     }
 }
 

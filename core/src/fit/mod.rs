@@ -17,10 +17,10 @@ mod result;
 
 pub use bounds::{Bounds, BoundsError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
-pub use distribution_comparison::{DistributionComparison, GaussAtFixedSigma};
+pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
-pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection};
+pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
@@ -29,5 +29,5 @@ pub use multistart::search::{Basin, MultistartResult, Starts, search};
 pub use objective::{Problem, ProblemError, free_by_default};
 pub use options::{BrdfResiduals, DolpFormula, FitOptions, Loss, Weights};
 pub use result::{
-    Edge, Estimate, EstimateStatus, FitResult, Minimum, describe_poorly_determined, fit, is_poorly_determined, relative_error_base,
+    Edge, Estimate, EstimateStatus, FitResult, Minimum, Undetermined, fit, is_poorly_determined, relative_error_base, symbols,
 };

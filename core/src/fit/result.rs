@@ -8,6 +8,7 @@ use crate::fit::objective::Problem;
 use crate::fit::options::{Loss, Weights};
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
 use nalgebra::DMatrix;
+use std::fmt;
 
 /// Which bound a parameter rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,11 +84,37 @@ pub fn relative_error_base(parameter: Parameter, value: f64) -> f64 {
     }
 }
 
-/// Parameters with errors above half of their size in words, if there are any.
+/// Something that the data leave open.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Undetermined {
+    /// A direction that they do not determine at all.
+    Direction(UndeterminedDirection),
+    /// Parameters that they determine with a standard error above half of the value.
+    Poorly(Vec<Parameter>),
+}
+
+impl Undetermined {
+    /// The poorly determined parameters, if there are any.
+    #[must_use]
+    pub fn poorly(parameters: impl Iterator<Item = Parameter>) -> Option<Self> {
+        let parameters: Vec<Parameter> = parameters.collect();
+        (!parameters.is_empty()).then_some(Self::Poorly(parameters))
+    }
+}
+
+impl fmt::Display for Undetermined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Direction(direction) => direction.fmt(f),
+            Self::Poorly(parameters) => write!(f, "a standard error above half of the value: {}", symbols(parameters)),
+        }
+    }
+}
+
+/// Symbols of parameters, with commas between them.
 #[must_use]
-pub fn describe_poorly_determined(parameters: impl Iterator<Item = Parameter>) -> Option<String> {
-    let symbols: Vec<&str> = parameters.map(Parameter::symbol).collect();
-    (!symbols.is_empty()).then(|| format!("a standard error above half of the value: {}", symbols.join(", ")))
+pub fn symbols(parameters: &[Parameter]) -> String {
+    parameters.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether an error is above half of that size: then the value says next to nothing.
@@ -182,11 +209,11 @@ pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Observer<'_>) ->
 }
 
 impl FitResult {
-    /// What the data leave open, each in words: directions, and the parameters that are determined but hardly known.
+    /// What the data leave open: directions, and the parameters that are poorly determined.
     #[must_use]
-    pub fn describe_undetermined(&self) -> Vec<String> {
-        let loose = self.estimates.iter().filter(|estimate| estimate.is_poorly_determined()).map(|estimate| estimate.parameter);
-        self.undetermined.iter().map(|direction| direction.text.clone()).chain(describe_poorly_determined(loose)).collect()
+    pub fn describe_undetermined(&self) -> Vec<Undetermined> {
+        let poor = self.estimates.iter().filter(|estimate| estimate.is_poorly_determined()).map(|estimate| estimate.parameter);
+        self.undetermined.iter().cloned().map(Undetermined::Direction).chain(Undetermined::poorly(poor)).collect()
     }
 
     /// The report of a search that was made before, on a problem with the loss scales that it had then; none where it found nothing.

@@ -2,7 +2,8 @@
 
 use crate::model::{Batch, GeometrySet, Model, Parameters, Pbrdf, Radiances};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
-use crate::selftest::model_benchmark::LADDER;
+use crate::selftest::method::BenchmarkMethod;
+use crate::selftest::note::Note;
 use crate::selftest::reference::{Reference, golden, relative_error};
 use crate::selftest::solver_benchmark::{BenchmarkSize, SolverBenchmark, TraceStep};
 use crate::selftest::table::Curves;
@@ -38,7 +39,7 @@ pub struct ErrorVsTime {
     /// What was done.
     pub task: TaskKind,
     /// By which method.
-    pub method: String,
+    pub method: BenchmarkMethod,
     /// Median time: nanoseconds of an evaluated point, milliseconds of a fit.
     pub time: f64,
     /// Half the distance between the quartiles of the time over its median; NaN where there is one time alone.
@@ -59,7 +60,7 @@ impl Row for ErrorVsTime {
         let time_of = |task: TaskKind| if self.task == task { Cell::Number(self.time) } else { Cell::Absent };
         vec![
             Cell::Text(self.task.key().to_owned()),
-            Cell::Text(self.method.clone()),
+            Cell::Text(self.method.to_string()),
             time_of(TaskKind::Evaluate),
             time_of(TaskKind::Fit),
             Cell::Number(self.worst_relative_error),
@@ -92,37 +93,25 @@ impl ErrorVsTime {
     }
 }
 
-fn notes(golden: usize, extent: BenchmarkSize, rows: &[ErrorVsTime]) -> Vec<String> {
+fn notes(golden: usize, extent: BenchmarkSize, rows: &[ErrorVsTime]) -> Vec<Note> {
     let BenchmarkSize { starts, repetitions, repetitions_of_many } = extent;
-    let spreads = rows.iter().filter(|row| row.spread.is_finite());
-    let spreads: Vec<String> = spreads.map(|row| format!("{} {:.1} %", row.method, 100.0 * row.spread)).collect();
+    let spreads = rows.iter().filter(|row| row.spread.is_finite()).map(|row| (row.method, row.spread));
     vec![
-        format!(
-            "Evaluation: BRDF and DoLP of the nine-parameter model on the {golden} rows of the 60-digit table; times with one Cauchy surface under all \
-             its geometries, on one thread: median of 11 repetitions after a warm-up. An error of 1 means not a single digit."
-        ),
-        format!(
-            "Fits: eight simulated DoLP data sets of steel (Gauss and Cauchy; 144 dense angles or the paper's 27; noise 0 or 0.005) from {starts} \
-             starts each, which \"{starts} starts\" takes one after the other. Times are medians of {repetitions} repetitions after a warm-up, of \
-             {repetitions_of_many} for many starts (all threads); elapsed_ms is the median over the fits; success is the best objective known \
-             within a factor 1 + 1e-6, or 1e-20; the errors are the largest relative distance of a parameter from the truth where dense angles \
-             without noise tell it."
-        ),
-        "Models: each of the ladder fitted with many starts to the dense Cauchy data with noise 0.005; the errors are those of its DoLP against the \
-         noise-free one where that is above 0.001."
-            .to_owned(),
-        format!("Spread of the repetitions, half the distance between the quartiles over the median: {}.", spreads.join("; ")),
+        Note::AccuracyEvaluations { rows: golden },
+        Note::AccuracyFits { starts, repetitions, repetitions_of_many },
+        Note::AccuracyModels,
+        Note::Spreads(spreads.collect()),
     ]
 }
 
 /// Times with their spread, curves and profiles, for the file.
 fn curves(rows: &[ErrorVsTime], race: &SolverBenchmark) -> Map<String, Value> {
     let column = |steps: &[TraceStep], i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
-    let timing = |row: &ErrorVsTime| json!({ "task": row.task.key(), "method": row.method, "spread": row.spread });
-    let curve = |(method, steps): &(String, Vec<TraceStep>)| json!({ "method": method, "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
-    let profile = |(method, steps): &(String, Vec<[f64; 2]>)| {
+    let timing = |row: &ErrorVsTime| json!({ "task": row.task.key(), "method": row.method.to_string(), "spread": row.spread });
+    let curve = |(method, steps): &(BenchmarkMethod, Vec<TraceStep>)| json!({ "method": method.to_string(), "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
+    let profile = |(method, steps): &(BenchmarkMethod, Vec<[f64; 2]>)| {
         let of = |i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
-        json!({ "method": method, "time_over_fastest": of(0), "share_solved": of(1) })
+        json!({ "method": method.to_string(), "time_over_fastest": of(0), "share_solved": of(1) })
     };
     let mut map = Map::new();
     map.insert("spreads".to_owned(), rows.iter().map(timing).collect());
@@ -132,31 +121,19 @@ fn curves(rows: &[ErrorVsTime], race: &SolverBenchmark) -> Map<String, Value> {
 }
 
 impl ErrorVsTime {
-    /// The method's name where there is little room.
-    #[must_use]
-    pub fn short_method(&self) -> String {
-        short_method(&self.method)
-    }
-
     /// Whether it compares models, not methods.
     #[must_use]
     pub fn is_model(&self) -> bool {
-        self.task == TaskKind::Fit && self.method.starts_with(LADDER)
+        matches!(self.method, BenchmarkMethod::Model(_))
     }
-}
-
-/// A method's name as a legend has room for it.
-#[must_use]
-pub fn short_method(method: &str) -> String {
-    method.replace("Levenberg–Marquardt", "LM").replace("finite-difference", "differences").replace(" Jacobian", "")
 }
 
 /// BRDF and DoLP.
 type Values = (f64, f64);
 
 /// A way to evaluate the model.
-struct Method<'a> {
-    name: &'static str,
+struct Evaluator<'a> {
+    method: BenchmarkMethod,
     /// At a row of the table.
     values: &'a dyn Fn(&Reference) -> Values,
     /// Under all geometries, for its time.
@@ -200,14 +177,14 @@ fn evaluations(golden: &[Reference], surroundings: Host<'_>) -> Vec<ErrorVsTime>
         (first(&one.brdf), first(&one.dolp))
     };
     let methods = [
-        Method { name: "textbook, f32", values: &single, all: &single_all },
-        Method { name: "textbook, f64", values: &double, all: &double_all },
-        Method { name: "cancellation-free, from angles", values: &scalar, all: &scalar_all },
-        Method { name: "cancellation-free, prepared scene", values: &scalar, all: &prepared_all },
-        Method { name: "batch kernel, prepared scene", values: &batched, all: &batch_all },
+        Evaluator { method: BenchmarkMethod::TextbookF32, values: &single, all: &single_all },
+        Evaluator { method: BenchmarkMethod::TextbookF64, values: &double, all: &double_all },
+        Evaluator { method: BenchmarkMethod::FromAngles, values: &scalar, all: &scalar_all },
+        Evaluator { method: BenchmarkMethod::Prepared, values: &scalar, all: &prepared_all },
+        Evaluator { method: BenchmarkMethod::Batch, values: &batched, all: &batch_all },
     ];
     let mut rows = Vec::new();
-    for Method { name, values, all } in methods {
+    for Evaluator { method, values, all } in methods {
         if (surroundings.cancelled)() {
             break;
         }
@@ -218,7 +195,7 @@ fn evaluations(golden: &[Reference], surroundings: Host<'_>) -> Vec<ErrorVsTime>
         let time = Timing::of(surroundings.clock, all);
         rows.push(ErrorVsTime {
             task: TaskKind::Evaluate,
-            method: name.to_owned(),
+            method,
             time: time.median_ns / points,
             spread: time.spread,
             worst_relative_error: quantile(&errors, 1.0),

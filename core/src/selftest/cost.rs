@@ -10,7 +10,7 @@ use crate::model::{
     Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances,
 };
 use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
-use crate::selftest::{Cell, Host, Machine, Report, Row, Timing, gradient_error, relative_error};
+use crate::selftest::{Cell, Host, Machine, Note, Report, Row, Timing, gradient_error, relative_error};
 use std::hint::black_box;
 
 /// Points of the scalar rows.
@@ -205,6 +205,12 @@ fn scenes() -> Vec<CostScene> {
 }
 
 impl Cost {
+    /// The name of each scene, and what it leaves out.
+    #[must_use]
+    pub fn scenes() -> Vec<(&'static str, &'static str)> {
+        scenes().iter().map(|scene| (scene.name, scene.left_out)).collect()
+    }
+
     /// Makes the report; fewer rows if it is cancelled.
     #[must_use]
     pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
@@ -218,13 +224,7 @@ impl Cost {
             (surroundings.progress)(done as f64 / scenes.len() as f64);
             rows.extend(scene.cost(&machine, surroundings));
         }
-        let notes = vec![
-            "Geometries are prepared once and not part of the time, but for the Mueller matrix, which starts from the angles. Differences are to the \
-             full scalar evaluation, over a dozen surfaces: in units of the last place where terms or derivatives are only left out, relative \
-             for the batch kernel, whose exponential and logarithm are its own (gradients: an error relative to the largest component counts too)."
-                .to_owned(),
-            "Instructions per point are counted by valgrind's callgrind; the commands are at the top of benches/cost.rs.".to_owned(),
-        ];
+        let notes = vec![Note::CostReference, Note::CostInstructions];
         Report::new("What a scene costs", machine, date, rows, notes)
     }
 }

@@ -6,7 +6,9 @@
 mod accuracy_vs_time;
 mod cost;
 mod machine;
+mod method;
 mod model_benchmark;
+mod note;
 mod reference;
 mod reference_lm;
 mod solver_benchmark;
@@ -16,11 +18,13 @@ mod table;
 mod textbook;
 mod timing;
 
-pub use accuracy_vs_time::{ErrorVsTime, TaskKind, short_method};
+pub use accuracy_vs_time::{ErrorVsTime, TaskKind};
 pub use cost::Cost;
 pub use machine::Machine;
+pub use method::BenchmarkMethod;
+pub use note::Note;
 pub use reference::{Reference, critical_angle_factor, golden, gradient_error, relative_error};
-pub use stability::{GRADIENT_BAR, Setting, Stability, VALUE_BAR, digits};
+pub use stability::{GRADIENT_BAR, Setting, Stability, StabilityCase, StabilityOutcome, VALUE_BAR, digits};
 pub use table::{Cell, Curves, Report, Row};
 pub use textbook::{textbook_f32, textbook_f64};
 pub use timing::{Host, Timing, quantile};

@@ -4,13 +4,11 @@ use crate::fit::{Observer, Problem, Starts, fit};
 use crate::measurement::Measurement;
 use crate::model::{GeometrySet, PRESETS, Parameters, Pbrdf, Preset};
 use crate::selftest::accuracy_vs_time::{ErrorVsTime, TaskKind};
+use crate::selftest::method::BenchmarkMethod;
 use crate::selftest::solver_benchmark::{
     BenchmarkSize, Method, Run, SEED, SMALLEST_SIZE, Task, TraceStep, problem, simulate, truth, typical,
 };
 use crate::selftest::{Host, quantile};
-
-/// What the names of its rows begin with.
-pub(crate) const LADDER: &str = "model ";
 
 /// Steel under dense angles with noise, and the same without.
 struct Data {
@@ -20,7 +18,7 @@ struct Data {
 }
 
 /// A row for each model, from many starts; its errors are those of its DoLP against the noise-free one. And the way of each from the defaults.
-pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVsTime>, Vec<(String, Vec<TraceStep>)>) {
+pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVsTime>, Vec<(BenchmarkMethod, Vec<TraceStep>)>) {
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
     let Some(full) = Preset::from_key("cauchy") else { return (rows, curves) };
     let (measured, exact) = (simulate(full, true, 0.005), simulate(full, true, 0.0));
@@ -35,7 +33,7 @@ pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVs
         rows.extend(row(preset, &problem, &data, extent, surroundings));
         let task = Task { problem: &problem, truth: Some(&truth).filter(|_| preset.model == full.model) };
         let ways: Vec<Run> = (0..extent.repetitions).map(|_| Method::One.run(&task, surroundings)).collect();
-        curves.push((format!("{LADDER}{}", preset.key), typical(&ways).steps));
+        curves.push((BenchmarkMethod::Model(preset.key), typical(&ways).steps));
         (surroundings.progress)(0.7 + 0.03 * f64::from(done));
     }
     (rows, curves)
@@ -57,7 +55,7 @@ fn row(preset: &Preset, problem: &Problem, data: &Data, extent: BenchmarkSize, s
     errors.sort_by(f64::total_cmp);
     Some(ErrorVsTime {
         task: TaskKind::Fit,
-        method: format!("{LADDER}{}", preset.key),
+        method: BenchmarkMethod::Model(preset.key),
         time: run.elapsed_ms,
         spread: run.spread,
         worst_relative_error: quantile(&errors, 1.0),

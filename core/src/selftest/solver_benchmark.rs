@@ -5,6 +5,7 @@ use crate::fit::{Bounds, Effort, FitOptions, LeastSquares, Observer, Problem, St
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model::{Parameters, Pbrdf, Preset};
 use crate::selftest::accuracy_vs_time::{ErrorVsTime, TaskKind};
+use crate::selftest::method::BenchmarkMethod;
 use crate::selftest::reference_lm::levenberg_marquardt;
 use crate::selftest::{Host, Timing, model_benchmark, quantile};
 use nalgebra::{DMatrix, DVector};
@@ -18,12 +19,12 @@ pub(crate) type TraceStep = [f64; 3];
 pub(crate) struct SolverBenchmark {
     pub rows: Vec<ErrorVsTime>,
     /// Along one fit, by method.
-    pub curves: Vec<(String, Vec<TraceStep>)>,
+    pub curves: Vec<(BenchmarkMethod, Vec<TraceStep>)>,
     /// Along one fit from the defaults, by model of the ladder.
-    pub ladder: Vec<(String, Vec<TraceStep>)>,
+    pub ladder: Vec<(BenchmarkMethod, Vec<TraceStep>)>,
     /// Dolan and Moré's profiles, Math. Program. 91, 201 (2002): by method, the share of problems solved within a multiple of the
     /// fastest method's time.
-    pub profiles: Vec<(String, Vec<[f64; 2]>)>,
+    pub profiles: Vec<(BenchmarkMethod, Vec<[f64; 2]>)>,
 }
 
 /// How a problem is solved.
@@ -74,21 +75,13 @@ const EXACT: f64 = 1e-20;
 pub(crate) const SMALLEST_SIZE: f64 = 1e-3;
 
 impl Method {
-    fn name(self) -> String {
+    /// Its name in the report, where so many starts are taken one after the other.
+    fn named(self, starts: u32) -> BenchmarkMethod {
         match self {
-            Self::Marquardt { analytic, scaled } => format!(
-                "Levenberg–Marquardt, {} Jacobian, {}, one start",
-                if analytic { "analytic" } else { "finite-difference" },
-                if scaled { "scaled" } else { "unscaled" }
-            ),
-            Self::One => "this program, one start".to_owned(),
-            Self::Many => "this program, many starts".to_owned(),
+            Self::Marquardt { analytic, scaled } => BenchmarkMethod::LevenbergMarquardt { analytic, scaled, starts },
+            Self::One => BenchmarkMethod::OneStart,
+            Self::Many => BenchmarkMethod::ManyStarts,
         }
-    }
-
-    /// The name of all starts of a problem, one after the other.
-    fn name_of_all(self, starts: u32) -> String {
-        self.name().replace("one start", &format!("{starts} starts"))
     }
 
     fn repetitions(self, extent: BenchmarkSize) -> usize {
@@ -327,7 +320,7 @@ impl SolverBenchmark {
         let truth = truth();
         let mut instances = instances(extent.starts);
         // By method, and by instance; the starts of a problem follow each other.
-        let mut all: Vec<(String, Vec<Run>)> = Vec::new();
+        let mut all: Vec<(BenchmarkMethod, Vec<Run>)> = Vec::new();
         for (done, method) in (0_u32..).zip(METHODS) {
             let mut runs = Vec::new();
             for instance in &mut instances {
@@ -340,14 +333,14 @@ impl SolverBenchmark {
                 runs.push(run);
             }
             let pooled =
-                matches!(method, Method::Marquardt { .. }).then(|| (method.name_of_all(extent.starts), together(&runs, extent.starts)));
-            all.push((method.name(), runs));
+                matches!(method, Method::Marquardt { .. }).then(|| (method.named(extent.starts), together(&runs, extent.starts)));
+            all.push((method.named(1), runs));
             all.extend(pooled);
             (surroundings.progress)(0.1 + 0.1 * f64::from(done));
         }
-        race.rows = all.iter().map(|(name, runs)| row(name, runs, &instances, &truth)).collect();
+        race.rows = all.iter().map(|(name, runs)| row(*name, runs, &instances, &truth)).collect();
         let times: Vec<Vec<f64>> = all.iter().map(|(_, runs)| times_of_success(runs, &instances)).collect();
-        race.profiles = all.iter().zip(profiles(&times)).map(|((name, _), profile)| (name.clone(), profile)).collect();
+        race.profiles = all.iter().zip(profiles(&times)).map(|((name, _), profile)| (*name, profile)).collect();
         race.curves = all.into_iter().filter_map(|(name, mut runs)| Some((name, runs.drain(..).next()?.steps))).collect();
         let (rows, curves) = model_benchmark::run(extent, surroundings);
         race.rows.extend(rows);
@@ -397,7 +390,7 @@ fn times_of_success(runs: &[Run], instances: &[Instance]) -> Vec<f64> {
     runs.iter().zip(instances).map(time).collect()
 }
 
-fn row(method: &str, runs: &[Run], instances: &[Instance], truth: &Parameters) -> ErrorVsTime {
+fn row(method: BenchmarkMethod, runs: &[Run], instances: &[Instance], truth: &Parameters) -> ErrorVsTime {
     let told = runs.iter().zip(instances).filter(|(_, instance)| instance.tells_the_truth);
     let mut distances: Vec<f64> = told.map(|(run, instance)| distance(&instance.problem, &run.parameters, truth)).collect();
     distances.sort_by(f64::total_cmp);
@@ -406,7 +399,7 @@ fn row(method: &str, runs: &[Run], instances: &[Instance], truth: &Parameters) -
     let rate = succeeded as f64 / runs.len() as f64;
     ErrorVsTime {
         task: TaskKind::Fit,
-        method: method.to_owned(),
+        method,
         time: median(runs.iter().map(|run| run.elapsed_ms).collect()),
         spread: median(runs.iter().map(|run| run.spread).collect()),
         worst_relative_error: quantile(&distances, 1.0),
@@ -471,8 +464,8 @@ mod tests {
         for method in METHODS {
             let run = method.run(&task, NONE);
             let first = run.steps.first().expect("a first evaluation")[1];
-            assert!(run.objective < 0.01 * first, "{}: {first} to {}", method.name(), run.objective);
-            assert!(run.steps.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{}", method.name());
+            assert!(run.objective < 0.01 * first, "{}: {first} to {}", method.named(1), run.objective);
+            assert!(run.steps.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{}", method.named(1));
         }
         let run = Method::One.run(&task, NONE);
         assert!(run.objective <= 1e-20, "{}", run.objective);
@@ -489,9 +482,9 @@ mod tests {
             assert!(
                 (last / delta_e - 1.0).abs() < 1e-9 && run.objective == last || method == Method::Many,
                 "{}: {last} {delta_e}",
-                method.name()
+                method.named(1)
             );
-            assert!((run.objective / delta_e - 1.0).abs() < 1e-9, "{}: {} {delta_e}", method.name(), run.objective);
+            assert!((run.objective / delta_e - 1.0).abs() < 1e-9, "{}: {} {delta_e}", method.named(1), run.objective);
         }
     }
 }

@@ -2,14 +2,15 @@
 //!
 //! Evaluation cases come from `assets/reference/stability_gallery.csv`, values and derivatives to 60 digits; fits from [`crate::selftest::stability_fits`].
 
-use crate::fit::Observer;
+use crate::fit::{Observer, StopReason};
 use crate::measurement::Measurement;
 use crate::model::{Gradient, GradientRequest, Model, Parameters, Reflection};
-use crate::optics::{Facet, Geometry};
+use crate::optics::{Facet, Geometry, SlopeDistribution};
 use crate::selftest::reference::{Reference, critical_angle_factor, gradient_error, references, relative_error};
 use crate::selftest::stability_fits::StiffFit;
 use crate::selftest::textbook::textbook_f64;
-use crate::selftest::{Cell, Host, Machine, Report, Row};
+use crate::selftest::{Cell, Host, Machine, Note, Report, Row};
+use std::fmt;
 
 /// The evaluation cases.
 const GALLERY: &str = include_str!("../../assets/reference/stability_gallery.csv");
@@ -46,7 +47,7 @@ pub enum Setting {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stability {
     /// Its name.
-    pub case: String,
+    pub case: StabilityCase,
     /// How to see it.
     pub setting: Setting,
     /// Relative error of the BRDF; evaluation cases only, as the three below.
@@ -59,10 +60,80 @@ pub struct Stability {
     pub textbook_error: Option<f64>,
     /// Of an evaluation: the largest |∂ln f/∂ln p|. Of a fit: largest over smallest singular value of the scaled Jacobian.
     pub condition: f64,
-    /// Decimal digits held by values, by the gradient and by the textbook form, 16 at most; or how a fit ended.
-    pub outcome: String,
+    /// What came out.
+    pub outcome: StabilityOutcome,
     /// Whether that meets the bar.
     pub pass: bool,
+}
+
+/// The name of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StabilityCase {
+    /// An evaluation.
+    Evaluation {
+        /// What is extreme in it.
+        name: String,
+        /// Distribution of the slopes.
+        distribution: SlopeDistribution,
+    },
+    /// A fit, by what is stiff in it.
+    Fit(&'static str),
+}
+
+impl fmt::Display for StabilityCase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Evaluation { name, distribution } => write!(f, "{name} ({})", distribution.key()),
+            Self::Fit(name) => write!(f, "fit: {name}"),
+        }
+    }
+}
+
+/// What became of a case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StabilityOutcome {
+    /// Decimal digits that an evaluation holds, 16 at most.
+    Digits {
+        /// Of BRDF and DoLP, the worse.
+        values: f64,
+        /// Of their derivatives.
+        gradient: f64,
+        /// Of BRDF and DoLP by the textbook form.
+        textbook: f64,
+    },
+    /// How a fit ended.
+    Fit {
+        /// Why it ended.
+        stop_reason: StopReason,
+        /// ΔE of Eq. (18), where it is defined.
+        objective: Option<f64>,
+        /// Number of directions that the data leave open.
+        undetermined: usize,
+    },
+    /// There was no problem to fit.
+    NoProblem,
+}
+
+impl fmt::Display for StabilityOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Digits { values, gradient, textbook } => {
+                write!(f, "{values:.1} digits, gradient {gradient:.1}, textbook {textbook:.1}")
+            }
+            Self::Fit { stop_reason, objective, undetermined } => {
+                f.write_str(stop_reason.text())?;
+                if let Some(objective) = objective {
+                    write!(f, ", ΔE {objective:.1e}")?;
+                }
+                match undetermined {
+                    0 => Ok(()),
+                    1 => f.write_str(", 1 direction open"),
+                    count => write!(f, ", {count} directions open"),
+                }
+            }
+            Self::NoProblem => f.write_str("no problem to fit"),
+        }
+    }
 }
 
 impl Row for Stability {
@@ -71,19 +142,28 @@ impl Row for Stability {
 
     fn cells(&self) -> Vec<Cell> {
         vec![
-            Cell::Text(self.case.clone()),
+            Cell::Text(self.case.to_string()),
             Cell::maybe(self.brdf_error),
             Cell::maybe(self.dolp_error),
             Cell::maybe(self.gradient_error),
             Cell::maybe(self.textbook_error),
             Cell::Number(self.condition),
-            Cell::Text(self.outcome.clone()),
+            Cell::Text(self.outcome.to_string()),
             Cell::Flag(self.pass),
         ]
     }
 }
 
 impl Stability {
+    /// The cases in the order of the report.
+    #[must_use]
+    pub fn cases() -> Vec<StabilityCase> {
+        let evaluations = references(GALLERY).into_iter();
+        let evaluations = evaluations
+            .map(|reference| StabilityCase::Evaluation { name: reference.case, distribution: reference.surface.model().distribution });
+        evaluations.chain(StiffFit::all().iter().map(|fit| StabilityCase::Fit(fit.case))).collect()
+    }
+
     /// Makes the report.
     #[must_use]
     pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
@@ -101,18 +181,7 @@ impl Stability {
             let done = (done + 1) as f64;
             (surroundings.progress)(done / whole);
         }
-        let notes = vec![
-            format!(
-                "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {VALUE_BAR:.0e}; error of the nine derivatives by the \
-                 smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {GRADIENT_BAR:.0e}; both limits times sin²β/|N² − sin²β| where that is \
-                 above 1, near the critical angle. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. \
-                 condition: the largest |∂ln f/∂ln p| of BRDF and DoLP."
-            ),
-            "Fits: condition is the largest over the smallest singular value of the Jacobian scaled by max(|p|, 1e-3); a fit passes if it does what its name \
-             asks for: reach the exact minimum, name what the data leave open, mark a bound, keep the truth within four standard errors, or \
-             end with a typed reason."
-                .to_owned(),
-        ];
+        let notes = vec![Note::StabilityEvaluations, Note::StabilityFits];
         Report::new("Stability in stiff and extreme cases", machine, date, rows, notes)
     }
 
@@ -132,19 +201,18 @@ impl Stability {
         let factor = critical_angle_factor(&parameters, *geometry);
         let worst = brdf_error.max(dolp_error);
         Self {
-            case: format!("{case} ({})", model.distribution.key()),
+            case: StabilityCase::Evaluation { name: case.clone(), distribution: model.distribution },
             setting: Setting::Evaluation { model, parameters, geometry: *geometry },
             brdf_error: Some(brdf_error),
             dolp_error: Some(dolp_error),
             gradient_error,
             textbook_error: Some(textbook),
             condition: condition(&reflection, &gradient, &parameters),
-            outcome: format!(
-                "{:.1} digits, gradient {:.1}, textbook {:.1}",
-                digits(worst),
-                digits(gradient_error.unwrap_or(1.0)),
-                digits(textbook)
-            ),
+            outcome: StabilityOutcome::Digits {
+                values: digits(worst),
+                gradient: digits(gradient_error.unwrap_or(1.0)),
+                textbook: digits(textbook),
+            },
             pass: worst <= VALUE_BAR * factor && gradient_error.is_some_and(|error| error <= GRADIENT_BAR * factor),
         }
     }

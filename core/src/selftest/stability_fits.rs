@@ -3,7 +3,7 @@
 use crate::fit::{Bounds, Edge, FitOptions, FitResult, Loss, Observer, Problem, Starts, StopReason, fit, free_by_default};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model::{Parameter, ParameterSet, Parameters, Pbrdf, Preset};
-use crate::selftest::stability::{Setting, Stability};
+use crate::selftest::stability::{Setting, Stability, StabilityCase, StabilityOutcome};
 
 /// What a fit has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ enum Bar {
 
 /// A fit of the gallery.
 pub(crate) struct StiffFit {
-    case: &'static str,
+    pub(crate) case: &'static str,
     preset: &'static str,
     truth: Parameters,
     start: Parameters,
@@ -171,11 +171,11 @@ impl StiffFit {
         let report = self.problem().map(|problem| (fit(&problem, self.starts, SEED, watch), problem));
         let (condition, outcome, pass) = match &report {
             Some((report, problem)) => (condition(problem, report), outcome(report), self.bar.is_met(problem, report, &self.truth)),
-            None => (f64::NAN, "no problem to fit".to_owned(), false),
+            None => (f64::NAN, StabilityOutcome::NoProblem, false),
         };
         let model = report.as_ref().map(|(_, problem)| problem.model());
         Stability {
-            case: format!("fit: {}", self.case),
+            case: StabilityCase::Fit(self.case),
             setting: Setting::Fit {
                 model: model.unwrap_or_else(|| crate::model::Model::full(crate::optics::SlopeDistribution::Cauchy)),
                 start: self.start,
@@ -235,15 +235,10 @@ impl Bar {
     }
 }
 
-/// How a fit ended, in a few words.
-fn outcome(report: &FitResult) -> String {
-    let objective = report.objective.map_or_else(String::new, |objective| format!(", ΔE {objective:.1e}"));
-    let open = match report.undetermined.len() {
-        0 => String::new(),
-        1 => ", 1 direction open".to_owned(),
-        count => format!(", {count} directions open"),
-    };
-    format!("{}{objective}{open}", report.stop_reason.text())
+/// How a fit ended.
+fn outcome(report: &FitResult) -> StabilityOutcome {
+    let FitResult { stop_reason, objective, ref undetermined, .. } = *report;
+    StabilityOutcome::Fit { stop_reason, objective, undetermined: undetermined.len() }
 }
 
 /// Largest over smallest singular value of the Jacobian scaled by max(|p|, 1e-3), at the end of a fit.

@@ -1,5 +1,7 @@
 //! A report as a value: rows with named columns, which Markdown, JSON and the window show each in their way.
 
+use crate::selftest::method::BenchmarkMethod;
+use crate::selftest::note::Note;
 use crate::selftest::Machine;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -71,11 +73,11 @@ pub trait Row {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Curves {
     /// Elapsed ms, objective ΔE and distance to the truth along one fit.
-    pub fits: Vec<(String, Vec<[f64; 3]>)>,
+    pub fits: Vec<(BenchmarkMethod, Vec<[f64; 3]>)>,
     /// The same along one fit of each model.
-    pub models: Vec<(String, Vec<[f64; 3]>)>,
+    pub models: Vec<(BenchmarkMethod, Vec<[f64; 3]>)>,
     /// Dolan and Moré's performance profiles: time over that of the fastest method, share of problems solved.
-    pub profiles: Vec<(String, Vec<[f64; 2]>)>,
+    pub profiles: Vec<(BenchmarkMethod, Vec<[f64; 2]>)>,
 }
 
 /// What was found out, where, and when.
@@ -90,7 +92,7 @@ pub struct Report<R> {
     /// What was found out.
     pub rows: Vec<R>,
     /// How to read it: paragraphs under the table.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// Courses of the fits that were compared; empty where none were.
     pub curves: Curves,
     /// What else belongs into the file beside the rows, such as curves.
@@ -100,7 +102,7 @@ pub struct Report<R> {
 impl<R> Report<R> {
     /// A report without curves.
     #[must_use]
-    pub fn new(title: &'static str, machine: Machine, date: String, rows: Vec<R>, notes: Vec<String>) -> Self {
+    pub fn new(title: &'static str, machine: Machine, date: String, rows: Vec<R>, notes: Vec<Note>) -> Self {
         Self { title, machine, date, rows, notes, curves: Curves::default(), further: Map::new() }
     }
 }
@@ -152,8 +154,8 @@ impl<R: Row> Report<R> {
         }
         for note in &self.notes {
             text.push('\n');
-            text.push_str(note);
-            text.push('\n');
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{note}");
         }
         text
     }
@@ -161,7 +163,7 @@ impl<R: Row> Report<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Machine, Report, Row};
+    use super::{Cell, Machine, Note, Report, Row};
 
     struct Pair(f64, bool);
 
@@ -174,7 +176,7 @@ mod tests {
     }
 
     fn report(rows: Vec<Pair>) -> Report<Pair> {
-        Report::new("Pairs", Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), rows, vec!["So.".to_owned()])
+        Report::new("Pairs", Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), rows, vec![Note::CostInstructions])
     }
 
     #[test]
@@ -190,7 +192,7 @@ mod tests {
         let table: Vec<usize> = text.lines().filter(|line| line.starts_with('|')).map(|line| line.chars().count()).collect();
         assert_eq!(table.len(), 4, "{text}");
         assert!(table.iter().all(|&width| width == table[0]), "{text}");
-        assert!(text.ends_with("\nSo.\n"), "{text}");
+        assert!(text.ends_with("at the top of benches/cost.rs.\n"), "{text}");
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::app::storage::import;
 use crate::app::storage::import::{Hashing, ImportOptions, ImportResult, ImportSource, Loaded};
 use crate::app::storage::session::{RestoredFit, SavedFit, Session};
 use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::document::{Document, Mask};
 use crate::app::work::model_fit::ModelFit;
 use crate::open_file::open_file;
@@ -89,8 +90,8 @@ impl OpenedSession {
     pub fn read(path: &Path) -> Result<Self, String> {
         let mut text = String::new();
         let said = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", path.display(), phrase(reason));
-        let mut file = open_file(path).map_err(|reason| said(&reason))?;
-        file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", phrase(&error))))?;
+        let mut file = open_file(path).map_err(|reason| said(&reason.localized()))?;
+        file.read_to_string(&mut text).map_err(|error| said(&tr!("the file cannot be read: {}", error.localized())))?;
         let session = Session::read(&text).map_err(|error| said(&error))?;
         Ok(Self::new(session))
     }
@@ -227,7 +228,7 @@ impl Worker {
         };
         match std::thread::Builder::new().name(task.name().to_owned()).spawn(run) {
             Ok(_) => Ok(job),
-            Err(error) => Err(tr!("The job cannot be started: {}.", phrase(&error))),
+            Err(error) => Err(tr!("The job cannot be started: {}.", error.localized())),
         }
     }
 
@@ -283,7 +284,7 @@ impl Worker {
             let written = write_file(&path, |out| measurement::write(&measurement, out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
-                Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), phrase(&error))),
+                Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), error.localized())),
             })
         })?;
         self.save = Some(job);
@@ -294,7 +295,7 @@ impl Worker {
     pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         self.read(name, Some(path.clone()), move || {
-            let file = open_file(&path).map_err(|reason| tr!("{0}: {1}.", path.display(), phrase(&reason)))?;
+            let file = open_file(&path).map_err(|reason| tr!("{0}: {1}.", path.display(), reason.localized()))?;
             let length = file.metadata().ok().map(|data| data.len());
             Ok((path, file, length))
         })
@@ -537,7 +538,7 @@ impl Worker {
 pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
-    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), phrase(&error)))
+    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), error.localized()))
 }
 
 /// Tells how much is read, and stops when asked to.

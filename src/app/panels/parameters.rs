@@ -6,7 +6,8 @@ use crate::app::shell::app::App;
 use crate::app::shell::lessons::Lessons;
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
 use crate::app::work::workspace::Workspace;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
@@ -323,7 +324,7 @@ fn bounds_ui(settings: &mut Settings, notices: &mut Notices, ui: &mut Ui, parame
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
     {
-        notices.say(tr!("The bounds stay as they are: {}.", phrase(&error)));
+        notices.say(tr!("The bounds stay as they are: {}.", error.localized()));
     }
     if let Some(sentence) = refused.into_inner() {
         notices.say(sentence);

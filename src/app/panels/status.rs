@@ -5,7 +5,7 @@ use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::text::glossary;
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::workspace::Workspace;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
@@ -62,7 +62,7 @@ pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
     if let Some(seconds) = notices.rest(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
     }
-    let fault = derived.fault().map(|fault| tr!("There is no curve: {}.", phrase(fault)));
+    let fault = derived.fault().map(|fault| tr!("There is no curve: {}.", fault.localized()));
     if notices.is_empty() && fault.is_none() {
         return;
     }

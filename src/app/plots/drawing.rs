@@ -4,7 +4,6 @@ use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
 use crate::app::shell::theme;
-use crate::app::text::i18n::{phrase, translated};
 use crate::app::views::curves::{Polyline, pieces};
 use crate::figure;
 use crate::figure::{Dash, Drawn, Figure, Panel, Scale};
@@ -81,8 +80,7 @@ impl DrawnAxis {
     }
 
     fn label(&self) -> String {
-        let title = self.title.as_str();
-        translated(title)
+        self.title.clone()
     }
 
     fn title(&self) -> String {
@@ -161,11 +159,10 @@ impl DrawnPanel {
                 if name.is_empty() || self.items[..i].iter().any(|before| before.name == *name) {
                     continue;
                 }
-                let name = name.as_str();
                 let mut text = LayoutJob::default();
                 let font = TextStyle::Small.resolve(ui.style());
                 text.append("● ", 0.0, TextFormat::simple(font.clone(), theme::series(*color, dark)));
-                text.append(&phrase(name), 0.0, TextFormat::simple(font, ui.visuals().text_color()));
+                text.append(name, 0.0, TextFormat::simple(font, ui.visuals().text_color()));
                 // A name is not torn at the end of a line.
                 ui.add(egui::Label::new(text).extend());
             }
@@ -199,17 +196,16 @@ impl DrawnPanel {
 impl Item {
     fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool) {
         let color = theme::series(self.color, dark);
-        let name = self.name.as_str();
-        let name = phrase(name);
+        let name = &self.name;
         match &self.kind {
-            Kind::Line(pieces, style) => curve(plot, pieces, &name, color, *style, 1.5),
+            Kind::Line(pieces, style) => curve(plot, pieces, name, color, *style, 1.5),
             Kind::Points(pieces) => {
                 for piece in pieces {
                     plot.points(Points::new(name.clone(), PlotPoints::Borrowed(piece)).color(color).radius(3.0));
                 }
             }
-            Kind::Level(at) => plot.hline(HLine::new(name, *at).color(color).style(LineStyle::dashed_dense())),
-            Kind::Upright(at) => plot.vline(VLine::new(name, *at).color(color).style(LineStyle::dashed_dense())),
+            Kind::Level(at) => plot.hline(HLine::new(name.clone(), *at).color(color).style(LineStyle::dashed_dense())),
+            Kind::Upright(at) => plot.vline(VLine::new(name.clone(), *at).color(color).style(LineStyle::dashed_dense())),
         }
     }
 }

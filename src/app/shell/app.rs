@@ -24,6 +24,7 @@ use crate::app::storage::export::ExportKind;
 use crate::app::storage::import::Loaded;
 use crate::app::storage::{export, settings_file};
 use crate::app::text::i18n;
+use crate::app::text::messages::Localized as _;
 use crate::app::text::i18n::phrase;
 use crate::app::views::Views;
 use crate::app::views::derived::Derived;
@@ -560,7 +561,7 @@ impl App {
             Setting::Fit { model, start, measurement } => {
                 self.work.settings.model = model;
                 self.work.settings.parameters = start;
-                self.take(case, measurement);
+                self.take(case.to_string(), measurement);
                 self.work.session_file = None;
             }
         }
@@ -577,7 +578,7 @@ impl App {
 
     fn start_fit(&mut self) -> Result<(), String> {
         let Settings { model, parameters, choices, starts, seed, .. } = self.work.settings;
-        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", phrase(&error)))?;
+        parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
         let measurement = &self.work.document.measurement;
         match problem(&self.work.settings, measurement, model, self.free(), choices) {
             Ok(problem) => self.worker.start_fit(problem, &self.work.document, starts, seed),
@@ -621,7 +622,7 @@ impl App {
         if let Some(path) = &self.settings_file
             && let Err(error) = settings_file::save(path, &self.saved)
         {
-            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), phrase(&error));
+            let sentence = tr!("The settings cannot be saved to {0}: {1}.", path.display(), error.localized());
             self.settings_file = None;
             self.say(sentence);
         }

@@ -5,6 +5,8 @@ use crate::app::plots::Drawing;
 use crate::app::shell::docking::PaneId;
 use crate::export::{machine, now};
 use crate::figure::Figure;
+use crate::app::text::i18n::{self, Language};
+use crate::app::text::messages::WindowWording;
 use crate::report::BenchmarkFigures;
 use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
 
@@ -55,6 +57,8 @@ pub struct BenchmarkView<R> {
     pub report: Report<R>,
     /// Whether it was stopped before its end.
     pub is_part: bool,
+    /// The language of its figures.
+    language: Language,
     /// The table, row by row.
     pub cells: Vec<Vec<String>>,
     /// Its figures.
@@ -71,10 +75,24 @@ where
 {
     fn new(report: Report<R>, is_part: bool, page: usize) -> Self {
         let cells = report.rows.iter().map(|row| row.cells().iter().map(ToString::to_string).collect()).collect();
-        let figures: Vec<Figure> = report.figures().into_iter().map(|(_, figure)| figure).collect();
-        let drawings: Vec<Drawing> = figures.iter().map(Drawing::new).collect();
-        let page = page.min(drawings.len());
-        Self { report, is_part, cells, figures, drawings, page }
+        let mut view =
+            Self { report, is_part, language: i18n::current(), cells, figures: Vec::new(), drawings: Vec::new(), page };
+        view.draw();
+        view.page = page.min(view.drawings.len());
+        view
+    }
+
+    fn draw(&mut self) {
+        self.language = i18n::current();
+        self.figures = self.report.figures(&WindowWording).into_iter().map(|(_, figure)| figure).collect();
+        self.drawings = self.figures.iter().map(Drawing::new).collect();
+    }
+
+    /// Draws the figures again where the language of the window has changed.
+    pub fn refresh(&mut self) {
+        if self.language != i18n::current() {
+            self.draw();
+        }
     }
 
     /// The figure that is in front.

@@ -8,6 +8,7 @@ use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::RestoredFit;
 use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::messages::Localized as _;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
@@ -122,7 +123,7 @@ impl App {
                 // The next autosave would write over it.
                 let aside = path.with_extension("damaged.json");
                 let kept = std::fs::rename(path, &aside).map_or_else(
-                    |error| tr!("it could not be set aside ({})", phrase(&error)),
+                    |error| tr!("it could not be set aside ({})", error.localized()),
                     |()| tr!("it is kept as {}", aside.display()),
                 );
                 self.say(tr!("The state of the last time cannot be restored; {0}. {1}", kept, sentence));

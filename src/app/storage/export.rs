@@ -6,8 +6,8 @@ use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::docking::PaneId;
 use crate::app::storage::session::{SavedFit, Session};
-use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, phrase, translated};
+use crate::app::text::i18n::{label, translated};
+use crate::app::text::messages::{Localized as _, WindowWording};
 use crate::app::views;
 use crate::app::views::curves::{Curves, Marks};
 use crate::app::work::document::Document;
@@ -112,7 +112,7 @@ impl ExportKind {
             Self::Report => export::report_kind(path).map(drop),
             Self::Session => export::expect_ending(path, "json"),
         };
-        fits.map_err(|reason| tr!("{}.", phrase(&reason)))
+        fits.map_err(|reason| tr!("{}.", reason.localized()))
     }
 
     /// What is needed to write it, taken from the window as it is now; the error is a sentence.
@@ -121,7 +121,7 @@ impl ExportKind {
             Self::Plot(pane) => {
                 let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to export."))?;
                 Ok(Box::new(move |path| {
-                    let kind = export::picture_kind(path).map_err(|reason| tr!("{}.", phrase(&reason)))?;
+                    let kind = export::picture_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
                     export::write_picture(path, kind, &figure).map_err(|error| failure(path, &error))
                 }))
             }
@@ -133,7 +133,7 @@ impl ExportKind {
             }
             Self::Fitted => {
                 let fit = explorer.work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
-                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", phrase(&error)))?;
+                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
                 let (choices, measurement) = (*fit.problem.choices(), explorer.work.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.eq17, choices.dolp_only, out)))
             }
@@ -149,7 +149,7 @@ impl ExportKind {
 const NO_FIT: &str = "There is no fit yet.";
 
 fn failure(path: &Path, error: &std::io::Error) -> String {
-    tr!("{0} cannot be written: {1}.", path.display(), phrase(error))
+    tr!("{0} cannot be written: {1}.", path.display(), error.localized())
 }
 
 fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + Send + 'static) -> Write {
@@ -158,7 +158,7 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
 
 fn surface(explorer: &App) -> Result<Pbrdf, String> {
     Pbrdf::new(explorer.work.settings.model, explorer.work.settings.parameters)
-        .map_err(|error| tr!("There are no curves: {}.", phrase(&error)))
+        .map_err(|error| tr!("There are no curves: {}.", error.localized()))
 }
 
 fn report(explorer: &App) -> Result<Write, String> {
@@ -167,15 +167,18 @@ fn report(explorer: &App) -> Result<Write, String> {
     let (measurement, document) = (explorer.work.document.measurement.clone(), &explorer.work.document);
     let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
-        let kind = export::report_kind(path).map_err(|reason| tr!("{}.", phrase(&reason)))?;
+        let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let (program, date) = (export::program(), export::now());
-        let document =
-            FitDocument { measurement: &measurement, source: &source, problem: &problem, report: &report, program: &program, date: &date };
-        let document = match i18n::current() {
-            Language::English => document.document(),
-            Language::Chinese => document.document().worded("zh-CN", &|text| phrase(text)),
+        let fit = FitDocument {
+            measurement: &measurement,
+            source: &source,
+            problem: &problem,
+            report: &report,
+            program: &program,
+            date: &date,
+            words: &WindowWording,
         };
-        export::write_report(path, kind, &document).map_err(|error| failure(path, &error))
+        export::write_report(path, kind, &fit.document()).map_err(|error| failure(path, &error))
     }))
 }
 
@@ -209,13 +212,13 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &F
 /// The plot of a pane as an image for the clipboard.
 pub fn image(explorer: &App, pane: PaneId) -> Result<egui::ColorImage, String> {
     let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to copy."))?;
-    let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", phrase(&error)))?;
+    let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", error.localized()))?;
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
 }
 
 /// The figure of a pane, of the same curves and points that are drawn, in the language of the window.
 pub fn figure(explorer: &App, pane: PaneId) -> Option<Figure> {
-    Some(plain_figure(explorer, pane)?.worded(&|text| phrase(text)))
+    Some(plain_figure(explorer, pane)?.translate(&label))
 }
 
 fn plain_figure(explorer: &App, pane: PaneId) -> Option<Figure> {
@@ -279,7 +282,7 @@ fn dolp(explorer: &App) -> Option<Figure> {
         if settings.shown.share {
             series.push(share(&curves.own, FOREGROUND));
         }
-        let name = format!("θi = {}° (slider)", settings.theta_i);
+        let name = tr!("θi = {}° (slider)", settings.theta_i);
         series.push(Series::line(name, points(&curves.own.dolp, plain)).colored(FOREGROUND));
     }
     let range = views.dolp.range()?;

@@ -1,6 +1,7 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
-use crate::app::text::i18n::{Language, phrase};
+use crate::app::text::i18n::Language;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::{SettingsFile, WindowSettings};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
         Err(error) => {
             return (
                 SettingsFile::default(),
-                Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", phrase(&error))),
+                Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", error.localized())),
             );
         }
         Ok(bytes) => match serde_json::from_slice::<SettingsFile>(&bytes) {
@@ -41,17 +42,17 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
                 None => return (settings, None),
                 Some(fault) => fault,
             },
-            Err(error) => error.to_string(),
+            Err(error) => error.localized(),
         },
     };
     let aside = path.with_extension("damaged.json");
     let kept = match std::fs::rename(path, &aside) {
         Ok(()) => tr!("it is kept as {}", aside.display()),
-        Err(error) => tr!("it could not be set aside ({})", phrase(&error)),
+        Err(error) => tr!("it could not be set aside ({})", error.localized()),
     };
     (
         SettingsFile::default(),
-        Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), phrase(&reason), kept)),
+        Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), reason, kept)),
     )
 }
 

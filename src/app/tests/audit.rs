@@ -77,25 +77,3 @@ fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
     wait(&mut harness);
     assert!(explorer(&mut harness).views.audit.audit().is_none());
 }
-
-#[test]
-fn every_reason_is_said_in_chinese() {
-    use pbrdf::model::Finding;
-    crate::app::text::i18n::install();
-    crate::app::text::i18n::set(Language::Chinese);
-    for check in [
-        Check::SpecularReciprocity,
-        Check::DiffuseReciprocity,
-        Check::VolumeReciprocity,
-        Check::Reflectance,
-        Check::FresnelLimit,
-        Check::Admissibility,
-        Check::Normalisation,
-    ] {
-        for pass in [true, false] {
-            let why = Finding { check, value: 0.0, bar: 0.0, pass, at: None }.why();
-            assert_ne!(tr::tr!(why), why);
-        }
-    }
-    crate::app::text::i18n::set(Language::English);
-}

@@ -23,7 +23,7 @@ mod mueller;
 mod notices;
 mod options;
 mod panes;
-mod phrases;
+mod messages;
 mod places;
 mod planning;
 mod reports;

@@ -40,7 +40,7 @@ fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
     let before = explorer(&mut harness).work.settings.clone();
     let row = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows[2].clone();
     let Setting::Evaluation { model, parameters, geometry } = row.setting else { panic!("evaluations come first") };
-    harness.get_by_label(&row.case).click();
+    harness.get_by_label(&row.case.to_string()).click();
     wait(&mut harness);
     let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.model, settings.parameters), (model, parameters));

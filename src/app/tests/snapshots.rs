@@ -9,7 +9,7 @@ use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
 use crate::app::shell::docking::PaneId;
 use crate::app::storage::export::{PLOTS, figure};
-use crate::app::tests::phrases::english;
+use crate::app::tests::messages::english;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
 use crate::figure::{Figure, Image};

@@ -112,6 +112,14 @@ pub fn translated(text: &str) -> String {
     if text.is_empty() { String::new() } else { tr!(text) }
 }
 
+/// A text that may stand in the catalogue, such as a label of a figure, or be data, such as the name of a file.
+pub fn label(text: &str) -> String {
+    match (current(), CATALOGUE.get()) {
+        (Language::Chinese, Some(catalogue)) if !text.is_empty() => catalogue.chinese.get(text).map_or(text, String::as_str).to_owned(),
+        _ => text.to_owned(),
+    }
+}
+
 /// A sentence of the core in the language of the window, in English where that does not know it. It is looked for among all forms of
 /// sentences, once: labels ask for the same in every frame.
 pub fn phrase(text: &(impl std::fmt::Display + ?Sized)) -> String {

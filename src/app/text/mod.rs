@@ -2,4 +2,5 @@
 
 pub mod glossary;
 pub mod i18n;
+pub mod messages;
 pub mod phrases;

@@ -12,7 +12,7 @@ use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
 use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::glossary::short;
-use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::views::curves::{Polyline, pieces};
 use crate::app::work::workspace::Workspace;
 use egui::{Label, ScrollArea, Ui};
@@ -181,8 +181,7 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
                 2 => _ = ui.monospace(bar(finding)),
                 _ => _ = ui.label(place(finding)),
             });
-            let why = finding.why();
-            ui.add(Label::new(translated(why)).wrap());
+            ui.add(Label::new(finding.localized()).wrap());
         });
     }
 }

@@ -6,7 +6,8 @@ use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::glossary;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
 use crate::app::work::model_fit::ModelFit;
@@ -118,7 +119,7 @@ fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
-    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(translated(report.stop_reason.text()));
+    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.localized());
     ui.monospace(number(reduced, |value| format!("{value:.3}")));
     ui.monospace(number(report.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
     let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
@@ -179,7 +180,7 @@ fn starts_ui(comparison: &[ModelFit], ui: &mut Ui) {
                 ui.label(if i == 0 { translated(rung.preset.name) } else { String::new() });
                 ui.monospace(format!("{:.6e}", minimum.objective));
                 ui.label(format!("{} ×", minimum.reached));
-                ui.label(translated(minimum.stop_reason.text()));
+                ui.label(minimum.stop_reason.localized());
                 ui.end_row();
             }
         }
@@ -194,7 +195,7 @@ fn verdicts(comparison: &[ModelFit]) -> Vec<String> {
     let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
         let contest = DistributionComparison::new(report(gauss)?, report(cauchy)?)?;
-        Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), phrase(&contest.text())))
+        Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), contest.localized()))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

@@ -10,7 +10,7 @@ use crate::app::plots::axis::{axis, decimal, logarithmic};
 use crate::app::plots::{Axes, Range, curve, plot};
 use crate::app::shell::app::App;
 use crate::app::shell::theme;
-use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::views::curves::{Polyline, pieces};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
@@ -114,7 +114,7 @@ pub fn convergence_ui(explorer: &mut App, ui: &mut Ui) {
     ui.weak(tr!(
         "Winning start of {0}; {1}",
         report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(),
-        translated(report.stop_reason.text())
+        report.stop_reason.localized()
     ));
     let dark = ui.visuals().dark_mode;
     let title = if settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };

@@ -3,7 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::theme;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::{label, translated};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::{Rect, Sense, Ui, vec2};
 use pbrdf::selftest::Cost;
@@ -41,11 +41,11 @@ pub fn cost_ui(explorer: &mut App, ui: &mut Ui) {
         let (row, cells) = (&rows[row], &shown.cells[row]);
         match PLAIN.iter().find(|(here, _)| *here == column) {
             Some((_, there)) => {
-                let text = phrase(&cells[*there]);
+                let text = label(&cells[*there]);
                 _ = ui.label(&text).on_hover_text(text);
             }
             None if column == 0 => {
-                _ = ui.label(phrase(row.scene)).on_hover_text(format!("{}, {}", row.distribution.key(), phrase(&row.terms)));
+                _ = ui.label(translated(row.scene)).on_hover_text(format!("{}, {}", row.distribution.key(), translated(&row.terms)));
             }
             None if column == 3 => bar_ui(row, ends, ui),
             None => {

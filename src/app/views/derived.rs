@@ -6,7 +6,7 @@ use crate::app::work::document::Document;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{DolpFormula, FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
@@ -19,7 +19,7 @@ pub struct Derived {
     delta_e: Memo<(Parameters, u64, Model, DolpFormula), Option<f64>>,
     /// Whether every value that counts comes with its standard deviation, by generation of the document.
     states_sigmas: Memo<u64, bool>,
-    fault: Memo<(Parameters, Model), Option<String>>,
+    fault: Memo<(Parameters, Model), Option<ParameterError>>,
     outlook: Memo<(Settings, ParameterSet, u64), Option<Identifiability>>,
 }
 
@@ -34,7 +34,7 @@ impl Derived {
     /// What is on screen whatever the panes are: ΔE, and why there is no curve.
     pub fn refresh_status(&mut self, settings: &Settings, document: &Document) {
         let Settings { parameters, model, .. } = *settings;
-        self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err().map(|error| error.to_string()));
+        self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err());
         // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
         let eq17 = settings.choices.eq17;
         self.problem.refresh((document.generation, model, eq17), |_| {
@@ -70,8 +70,8 @@ impl Derived {
     }
 
     /// Why there is no curve.
-    pub fn fault(&self) -> Option<&str> {
-        self.fault.get()?.as_deref()
+    pub fn fault(&self) -> Option<&ParameterError> {
+        self.fault.get()?.as_ref()
     }
 
     /// What the open data determine at the sliders, while that is on screen.

@@ -3,7 +3,8 @@
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::text::glossary::short;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::{Localized as _, short_method};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::Ui;
 use pbrdf::selftest::TaskKind;
@@ -36,7 +37,7 @@ pub fn error_vs_time_ui(explorer: &mut App, ui: &mut Ui) {
             let task = row.task.key();
             match column {
                 0 => ui.label(translated(task)),
-                1 => ui.label(phrase(&row.short_method())).on_hover_text(phrase(&row.method)),
+                1 => ui.label(short_method(row.method)).on_hover_text(row.method.localized()),
                 2 => ui.label(match row.task {
                     TaskKind::Evaluate => format!("{} ns", short(row.time)),
                     TaskKind::Fit => format!("{} ms", short(row.time)),
@@ -50,8 +51,7 @@ pub fn error_vs_time_ui(explorer: &mut App, ui: &mut Ui) {
         return;
     }
     let Some(drawing) = shown.drawings.get_mut(shown.page - 1) else { return };
-    let title = drawing.title.as_str();
-    ui.label(translated(title));
+    ui.label(&drawing.title);
     drawing.panels.iter().for_each(|panel| panel.legend_ui(ui));
     let height = ui.available_height();
     let count = drawing.panels.len().max(1);

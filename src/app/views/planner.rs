@@ -6,13 +6,14 @@ use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::text::glossary::{open_help, percent, short};
 use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, phrase, translated};
+use crate::app::text::messages::Localized as _;
+use crate::app::text::i18n::{Language, translated};
 use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
 use crate::app::work::document::Document;
 use crate::app::work::settings::Settings;
 use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::{DolpFormula, describe_poorly_determined, is_poorly_determined};
+use pbrdf::fit::{DolpFormula, Undetermined, is_poorly_determined};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
@@ -254,14 +255,15 @@ fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &
     let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
     let loose =
         loose.filter(|(parameter, error)| is_poorly_determined(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);
-    let open: Vec<String> = prediction.open.iter().cloned().chain(describe_poorly_determined(loose)).collect();
+    let directions = prediction.open.iter().cloned().map(Undetermined::Direction);
+    let open: Vec<Undetermined> = directions.chain(Undetermined::poorly(loose)).collect();
     if open.is_empty() {
         ui.add(egui::Label::new(tr!("{} nothing stays open.", translated(angles))).wrap());
         return;
     }
     ui.add_space(4.0);
     ui.strong(tr!("{} there stays open:", translated(angles)));
-    for text in &open {
-        ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
+    for what in &open {
+        ui.add(egui::Label::new(format!("• {}", what.localized())).wrap());
     }
 }

@@ -3,10 +3,12 @@
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkView};
 use crate::app::shell::commands::Command;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
-use pbrdf::selftest::Row;
+use crate::report::BenchmarkFigures;
+use pbrdf::selftest::{Report, Row};
 use tr::tr;
 
 /// The line with the button and what it does, and what has come out.
@@ -40,12 +42,16 @@ pub fn run_ui(explorer: &mut App, subject: BenchmarkId, (button, about): (&str, 
 }
 
 /// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
-pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
+pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool
+where
+    Report<R>: BenchmarkFigures,
+{
+    shown.refresh();
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
-    let text = RichText::new(format!("{part}{}, {}", phrase(&report.machine), report.date)).weak().small();
+    let text = RichText::new(format!("{part}{}, {}", report.machine.localized(), report.date)).weak().small();
     ui.add(egui::Label::new(text).truncate()).on_hover_ui(|ui| {
-        ui.label(report.notes.iter().map(phrase).collect::<Vec<_>>().join("\n\n"));
+        ui.label(report.notes.iter().map(Localized::localized).collect::<Vec<_>>().join("\n\n"));
     });
     if names.is_empty() {
         return true;

@@ -5,7 +5,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use egui::Ui;
 use egui_plot::PlotResponse;
@@ -68,7 +68,7 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
                 Setting::Evaluation { .. } => tr!("Parameters, terms and angles of this case to the sliders"),
                 Setting::Fit { .. } => tr!("Opens the data of this fit, with the sliders where it begins"),
             };
-            let response = ui.link(case_text(&row.case)).on_hover_text(help);
+            let response = ui.link(row.case.localized()).on_hover_text(help);
             if response.clicked() {
                 commands.push(Command::UseCase(index));
             }
@@ -84,17 +84,8 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
         5 => ui.label(&cells[column]),
         // The digits of an evaluation stand in columns of their own.
         _ if values.is_some() => ui.label(""),
-        _ => ui.label(phrase(&row.outcome)),
+        _ => ui.label(row.outcome.localized()),
     };
-}
-
-/// A case in the language of the window: evaluations name the distribution behind them, fits what they are in front.
-fn case_text(case: &str) -> String {
-    match (case.strip_prefix("fit: "), case.rsplit_once(" (")) {
-        (Some(fit), _) => tr!("fit: {}", phrase(fit)),
-        (None, Some((case, distribution))) => format!("{} ({distribution}", phrase(case)),
-        (None, None) => phrase(case),
-    }
 }
 
 /// Digits that the textbook form has lost before it is marked.

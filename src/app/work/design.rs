@@ -1,9 +1,9 @@
 //! Angles that might be measured, and what they would determine.
 
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
 use pbrdf::fit;
-use pbrdf::fit::NoiseModel;
+use pbrdf::fit::{NoiseModel, UndeterminedDirection};
 use pbrdf::measurement::{Columns, Measurement};
 use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::Geometry;
@@ -119,7 +119,7 @@ pub struct Prediction {
     /// Standard error of each free parameter; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
     /// What would stay open, in words.
-    pub open: Vec<String>,
+    pub open: Vec<UndeterminedDirection>,
 }
 
 impl Prediction {
@@ -153,8 +153,8 @@ impl Prediction {
             free,
             eq17: settings.choices.eq17,
         };
-        let fit::DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", phrase(&error)))?;
-        Ok(Self { errors, open: undetermined.into_iter().map(|open| open.text).collect() })
+        let fit::DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
+        Ok(Self { errors, open: undetermined })
     }
 
     /// Standard error of a parameter.

@@ -1,6 +1,6 @@
 //! What a fit from the window is about: a measurement, the sliders, their bounds, the choices.
 
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{Bounds, DolpFormula, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
@@ -41,10 +41,10 @@ pub fn start_in_bounds(settings: &Settings, free: ParameterSet) -> (Parameters, 
 pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
     match error {
         ProblemError::MissingSigma { row, .. } => match measurement.lines.get(*row) {
-            Some(line) => tr!("line {0}: {1}", line, phrase(error)),
-            None => tr!("row {0}: {1}", row + 1, phrase(error)),
+            Some(line) => tr!("line {0}: {1}", line, error.localized()),
+            None => tr!("row {0}: {1}", row + 1, error.localized()),
         },
-        _ => phrase(error),
+        _ => error.localized(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
 
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
 use tr::tr;
 
@@ -15,7 +15,7 @@ pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
         let start: String = text.trim().chars().take(40).collect();
         tr!("The pasted text {0} is no set of parameters such as n=2.07, k=2.9: {1}.", format!("{start:?}"), reason)
     };
-    let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&phrase(&error)))?;
+    let assignments = assignments_from_text(&plain(text)).map_err(|error| refuse(&error.localized()))?;
     if assignments.is_empty() {
         return Err(refuse(&tr!("it is empty")));
     }

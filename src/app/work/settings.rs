@@ -1,6 +1,7 @@
 //! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
 use crate::app::text::i18n::Language;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::design::Plan;
 use crate::app::work::document::Document;
 use crate::app::work::layout::Layout;
@@ -244,15 +245,15 @@ impl Settings {
     /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
     pub fn fault(&self) -> Option<String> {
         if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
-            return Some(format!("parameters: {error}"));
+            return Some(format!("parameters: {}", error.localized()));
         }
         for &(parameter, low, high) in &self.bounds {
             if let Err(error) = Bounds::default().set(parameter, low, high) {
-                return Some(format!("bounds: {error}"));
+                return Some(format!("bounds: {}", error.localized()));
             }
         }
         if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
-            return Some(format!("theta_i, dphi: {error}"));
+            return Some(format!("theta_i, dphi: {}", error.localized()));
         }
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
         let outside = |key| Some(format!("{key}: {}", tr!("a value is outside its range")));

@@ -8,7 +8,9 @@ use crate::fit::objective::Problem;
 use crate::fit::options::Weights;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use nalgebra::{DMatrix, DVector, SVD};
-use serde::Serialize;
+use serde::ser::SerializeStruct as _;
+use serde::{Serialize, Serializer};
+use std::fmt;
 
 /// Singular values below this fraction of the largest count as 0.
 pub const RANK_THRESHOLD: f64 = 1e-8;
@@ -17,18 +19,76 @@ const SMALLEST_SCALE: f64 = 1e-3;
 /// Share in an undetermined direction from which a parameter is undetermined.
 const UNDETERMINED_SHARE: f64 = 1e-3;
 
-/// A direction in parameter space that the data leave open.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Why the data do not determine a direction in parameter space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UndeterminedReason {
+    /// The direction is one parameter, and no residual depends on it.
+    NoEffect,
+    /// The direction scales the weights k_s, k_d, k_v together; DoLP depends on their ratios alone.
+    RatiosOnly,
+    /// The residuals depend on combinations of the parameters, not on each.
+    TradeOff,
+}
+
+/// A direction in parameter space that the data do not determine.
+///
+/// `Display` says it in English. As JSON it has the keys `text` and `direction`.
+#[derive(Debug, Clone, PartialEq)]
 pub struct UndeterminedDirection {
-    /// In words.
-    pub text: String,
-    /// Relative change of each parameter along it, largest 1, small ones left out.
-    #[serde(serialize_with = "by_key")]
+    /// Why.
+    pub reason: UndeterminedReason,
+    /// Relative change of each parameter along it, the largest 1, shares below 1e-3 left out.
     pub direction: Vec<(Parameter, f64)>,
 }
 
-fn by_key<S: serde::Serializer>(direction: &[(Parameter, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(direction.iter().map(|(parameter, coefficient)| (parameter.key(), coefficient)))
+impl UndeterminedDirection {
+    fn new(direction: Vec<(Parameter, f64)>, knows_only_ratios: bool) -> Self {
+        let weights = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
+        let reason = match direction[..] {
+            [_] => UndeterminedReason::NoEffect,
+            _ if knows_only_ratios && direction.iter().all(|(parameter, _)| weights.contains(parameter)) => UndeterminedReason::RatiosOnly,
+            _ => UndeterminedReason::TradeOff,
+        };
+        Self { reason, direction }
+    }
+
+    /// Symbols of the parameters along it, with commas between them.
+    #[must_use]
+    pub fn symbols(&self) -> String {
+        self.direction.iter().map(|(parameter, _)| parameter.symbol()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl fmt::Display for UndeterminedDirection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let symbols = self.symbols();
+        match (self.reason, &self.direction[..]) {
+            (UndeterminedReason::NoEffect, _) => write!(f, "{symbols} has no effect on these data"),
+            (UndeterminedReason::RatiosOnly, _) => write!(f, "{symbols} together: only their ratios enter DoLP"),
+            (UndeterminedReason::TradeOff, [(one, _), (other, _)]) => {
+                write!(f, "{} and {} trade off: these data fix a combination of them, not each", one.symbol(), other.symbol())
+            }
+            (UndeterminedReason::TradeOff, _) => write!(f, "{symbols} together: these data fix combinations of them, not each"),
+        }
+    }
+}
+
+impl Serialize for UndeterminedDirection {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("UndeterminedDirection", 2)?;
+        object.serialize_field("text", &self.to_string())?;
+        object.serialize_field("direction", &ByKey(&self.direction))?;
+        object.end()
+    }
+}
+
+/// Numbers of parameters as an object with the parameters' keys.
+struct ByKey<'a>(&'a [(Parameter, f64)]);
+
+impl Serialize for ByKey<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(parameter, number)| (parameter.key(), number)))
+    }
 }
 
 /// Standard errors, correlations and open directions at a point.
@@ -110,7 +170,7 @@ impl Uncertainty {
 
     /// Nothing is determined.
     fn nothing(free: &[Parameter]) -> Self {
-        let open = free.iter().map(|&parameter| UndeterminedDirection { text: no_effect(parameter), direction: vec![(parameter, 1.0)] });
+        let open = free.iter().map(|&parameter| UndeterminedDirection::new(vec![(parameter, 1.0)], false));
         let count = free.len();
         Self {
             rank: 0,
@@ -170,7 +230,7 @@ fn variance_of_unit_weight(problem: &Problem, sum_of_squares: f64, rank: usize) 
     }
 }
 
-/// The null space in its sparsest form (reduced by rows with pivots), each direction in words.
+/// The null space in its sparsest form: reduced by rows with pivots.
 fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios: bool) -> Vec<UndeterminedDirection> {
     let (rows, columns) = null_space.shape();
     for i in 0..rows {
@@ -190,27 +250,5 @@ fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios:
         let relative = (0..columns).map(|j| (free[j], null_space[(i, j)] / largest));
         relative.filter(|(_, coefficient)| coefficient.abs() > UNDETERMINED_SHARE).collect()
     };
-    (0..rows)
-        .map(|i| {
-            let direction = direction(i);
-            UndeterminedDirection { text: in_words(&direction, knows_only_ratios), direction }
-        })
-        .collect()
-}
-
-fn no_effect(parameter: Parameter) -> String {
-    format!("{} has no effect on these data", parameter.symbol())
-}
-
-fn in_words(direction: &[(Parameter, f64)], knows_only_ratios: bool) -> String {
-    let weights = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
-    let names: Vec<&str> = direction.iter().map(|(parameter, _)| parameter.symbol()).collect();
-    match direction {
-        [(parameter, _)] => no_effect(*parameter),
-        _ if knows_only_ratios && direction.iter().all(|(parameter, _)| weights.contains(parameter)) => {
-            format!("{} together: only their ratios enter DoLP", names.join(", "))
-        }
-        [_, _] => format!("{} and {} trade off: these data fix a combination of them, not each", names[0], names[1]),
-        _ => format!("{} together: these data fix combinations of them, not each", names.join(", ")),
-    }
+    (0..rows).map(|i| UndeterminedDirection::new(direction(i), knows_only_ratios)).collect()
 }

@@ -35,7 +35,7 @@ pub enum StopReason {
 }
 
 impl StopReason {
-    /// In words.
+    /// In English words, without a capital or a full stop.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl StopReason {
             Self::NoImprovement => "no further improvement is possible",
             Self::EvaluationLimit => "too many evaluations",
             Self::Cancelled => "cancelled; the best so far is shown",
-            Self::Underdetermined => "the data advance some parameters open",
+            Self::Underdetermined => "the data leave some parameters open",
             Self::NoData => "there are no data to fit",
             Self::Numerical => "a number beyond the range of f64 came up",
         }

@@ -2,7 +2,7 @@
 
 use crate::app::panels::parameters::significant;
 use crate::app::text::glossary::open_help;
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};
 use tr::tr;
@@ -30,6 +30,6 @@ pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
         }
     });
     for direction in &outlook.open {
-        ui.add(egui::Label::new(format!("• {}", phrase(&direction.text))).wrap());
+        ui.add(egui::Label::new(format!("• {}", direction.localized())).wrap());
     }
 }

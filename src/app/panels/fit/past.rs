@@ -2,7 +2,7 @@
 
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary::delta_e_help;
-use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
@@ -27,7 +27,7 @@ pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u6
                 let elsewhere =
                     if fit.number == number { String::new() } else { format!("\n{}", tr!("of another measurement than the open one")) };
                 let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
-                let help = format!("{}\n{}{elsewhere}", fit.document, translated(report.stop_reason.text()));
+                let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.localized());
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Command::ReturnTo(index));
                 }

@@ -5,7 +5,8 @@ use crate::app::panels::status::delta_e_text;
 use crate::app::shell::commands::Command;
 use crate::app::shell::theme;
 use crate::app::text::glossary;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::settings::Settings;
@@ -29,7 +30,7 @@ pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstr
         }
     });
     ui.add_space(4.0);
-    let text = translated(report.stop_reason.text());
+    let text = report.stop_reason.localized();
     let capital: String = text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect();
     if matches!(report.stop_reason, StopReason::Converged | StopReason::ResidualsZero) {
         ui.strong(capital);
@@ -73,8 +74,8 @@ fn open_ui(report: &FitResult, ui: &mut Ui) {
     }
     ui.add_space(6.0);
     ui.strong(tr!("The data leave open:")).on_hover_text(glossary::open_help());
-    for text in &open {
-        ui.add(egui::Label::new(format!("• {}", phrase(text))).wrap());
+    for what in &open {
+        ui.add(egui::Label::new(format!("• {}", what.localized())).wrap());
     }
 }
 
@@ -160,7 +161,7 @@ fn minima_ui(report: &FitResult, ui: &mut Ui) {
             for minimum in report.minima.iter().take(MOST_MINIMA) {
                 ui.monospace(format!("{:.5e}", minimum.objective));
                 ui.label(format!("{} ×", minimum.reached));
-                ui.add(egui::Label::new(translated(minimum.stop_reason.text())).truncate());
+                ui.add(egui::Label::new(minimum.stop_reason.localized()).truncate());
                 ui.end_row();
             }
         });

@@ -8,6 +8,7 @@ use crate::app::views::facets::name;
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
 use pbrdf::optics::SlopeDistribution;
+use tr::tr;
 
 pub fn facets_figure(explorer: &App) -> Option<Figure> {
     let App { work: Workspace { settings, .. }, views, .. } = explorer;
@@ -18,12 +19,12 @@ pub fn facets_figure(explorer: &App) -> Option<Figure> {
     let mut series = Vec::new();
     for ((distribution, density), color) in SlopeDistribution::ALL.into_iter().zip(densities).zip(SERIES) {
         let name = name(distribution);
-        series.push(Series::line(format!("{name}: P"), points(&density.p, value)).colored(color));
-        series.push(Series::dashed(format!("{name}: D = P / cos α"), points(&density.d, value), Dash::Dashed).colored(color));
+        series.push(Series::line(tr!("{}: P", name), points(&density.p, value)).colored(color));
+        series.push(Series::dashed(tr!("{}: D = P / cos α", name), points(&density.d, value), Dash::Dashed).colored(color));
         if let Some(half) = density.half_width {
-            series.push(upright(format!("half of P(0): {half:.2}°"), half, value, view.range.get(), Dash::Dotted).colored(color));
+            series.push(upright(tr!("half of P(0): {}°", format!("{half:.2}")), half, value, view.range.get(), Dash::Dotted).colored(color));
         }
-        series.push(Series::upright(format!("median: {:.2}°", density.median), density.median).colored(color));
+        series.push(Series::upright(tr!("median: {}°", format!("{:.2}", density.median)), density.median).colored(color));
     }
     let y = if log { Axis::log("density", "sr⁻¹") } else { Axis::linear("density", "sr⁻¹") };
     let range = view.range.get().map(|range| Range { low: value(range.low), high: value(range.high) });

@@ -6,6 +6,7 @@ use crate::app::views::hemisphere::{Made, SIZE, place, values};
 use crate::app::work::settings::Quantity;
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Series, Symbol};
+use tr::tr;
 
 pub fn hemisphere_figure(explorer: &App) -> Option<Figure> {
     let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
@@ -33,7 +34,7 @@ pub fn hemisphere_figure(explorer: &App) -> Option<Figure> {
     series.push(mark("mirror direction", vec![at(theta_i, 180.0)], Symbol::Cross));
     let axis = |label| Axis::linear(label, "°").between(-90.0, 90.0);
     let panel = Panel {
-        title: format!("θi = {theta_i}°; radius θr, Δφ = 180° to the right, 270° upwards"),
+        title: tr!("θi = {}°; radius θr, Δφ = 180° to the right, 270° upwards", theta_i),
         x: axis("−θr cos Δφ"),
         y: axis("−θr sin Δφ"),
         series,

@@ -6,6 +6,7 @@ use crate::app::shell::app::App;
 use crate::app::views::mueller::{REACH, normalised, number};
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
+use tr::tr;
 
 pub fn mueller_figure(explorer: &App) -> Option<Figure> {
     let App { work: Workspace { document, .. }, views, .. } = explorer;
@@ -26,7 +27,7 @@ pub fn mueller_figure(explorer: &App) -> Option<Figure> {
             let beside = if value > 0.0 { value - NUMBER } else { value + NUMBER };
             series.push(Series::labels(vec![([theta_r, beside], number(value))]));
             if element == 0 {
-                title = format!("numbers at θr = {theta_r:.1}°, m00 = {} sr⁻¹", significant(matrix.element(0, 0)));
+                title = tr!("numbers at θr = {0}°, m00 = {1} sr⁻¹", format!("{theta_r:.1}"), significant(matrix.element(0, 0)));
             }
         }
         Panel {
@@ -38,7 +39,7 @@ pub fn mueller_figure(explorer: &App) -> Option<Figure> {
             ..Panel::default()
         }
     });
-    let title = format!("{}: Mueller matrix at θi = {theta_i}°, Δφ = {plane}°", document.name);
+    let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", document.name, theta_i, plane);
     Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
 }
 

@@ -5,6 +5,7 @@ use crate::app::shell::app::App;
 use crate::app::views::polar::{RIM, direction};
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Drawn, Figure, Panel, SERIES, Series};
+use tr::tr;
 
 pub fn polar_figure(explorer: &App) -> Option<Figure> {
     let App { work: Workspace { document, .. }, views, .. } = explorer;
@@ -38,7 +39,7 @@ pub fn polar_figure(explorer: &App) -> Option<Figure> {
     };
     let axis = |sides: &[f64]| Axis { ticks: Some(marks(sides)), ..Axis::linear("BRDF", "sr⁻¹") };
     let panel = Panel {
-        title: format!("θi = {theta_i}°, Δφ = {plane}°; angles are θr, forward to the right"),
+        title: tr!("θi = {0}°, Δφ = {1}°; angles are θr, forward to the right", theta_i, plane),
         x: axis(&[-1.0, 1.0]).between(-RIM, RIM),
         y: axis(&[1.0]).between(0.0, RIM),
         series,

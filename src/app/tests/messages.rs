@@ -1,28 +1,32 @@
-//! What the core says in English is said in Chinese: its errors, its verdicts, the names in its reports.
+//! Messages of the core and the program in both languages.
 
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::{Session, SessionError};
-use crate::app::tests::sources::{literal, literals_after, sources};
+use crate::app::tests::sources::literals_after;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, phrase};
+use crate::app::text::i18n::{Language, MISSED, phrase, translated};
+use crate::app::text::messages::{Localized, short_method};
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
-use crate::export::{picture_kind, report_kind};
+use crate::export::{expect_ending, picture_kind, report_kind};
 use crate::figure::PngError;
-use crate::open_file::open_file;
-use pbrdf::fit::{BoundsError, DesignError, DistributionComparison, FitResult, ProblemError, StopReason};
+use crate::open_file::{OpenError, open_file};
+use pbrdf::fit::{
+    BoundsError, DesignError, DistributionComparison, FitResult, ProblemError, StopReason, Undetermined, UndeterminedDirection,
+    UndeterminedReason,
+};
 use pbrdf::measurement::{
     Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
     WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
 };
-use pbrdf::model::{AssignmentError, Domain, FINISHES, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
-use pbrdf::optics::{GeometryError, MetalsError, MetalsErrorKind, OutsideRange, RefractiveIndexError, metals};
-use pbrdf::selftest::Host;
+use pbrdf::model::{Check, FINISHES, Finding, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
+use pbrdf::optics::{GeometryError, metals};
+use pbrdf::selftest::{BenchmarkMethod, Cost, Host, Machine, Stability, StabilityOutcome};
 use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -171,24 +175,20 @@ fn says<E: Display>(errors: impl IntoIterator<Item = E>) -> Vec<String> {
     errors.into_iter().map(|error| error.to_string()).collect()
 }
 
-/// Two forms in one: with the place in a file's tree, and without.
-const BOTH_FORMS: [(&str, [&str; 2]); 1] = [(
-    "line {line}, column {column}{at}: {reason}",
-    ["line {line}, column {column}: {reason}", "line {line}, column {column}, {at}: {reason}"],
-)];
-
-#[test]
-fn every_form_of_an_error_is_in_the_catalogue() {
-    let all = sources("src");
-    let mut forms: Vec<String> = all.iter().flat_map(|(_, source)| literals_after(source, "#[error(")).collect();
-    assert!(forms.len() > 80, "{}", forms.len());
-    forms.retain(|form| form.replace(":?}", "}").split(['{', '}']).step_by(2).any(|own| !own.is_empty()));
-    for (both, single) in BOTH_FORMS {
-        forms.retain(|form| form != both);
-        forms.extend(single.map(str::to_owned));
+/// What the window says of the messages in Chinese: nothing in English, and no text that the catalogue lacks.
+fn assert_localized<M: Localized + std::fmt::Debug>(messages: impl IntoIterator<Item = M>) {
+    chinese();
+    for message in messages {
+        let text = message.localized();
+        assert!(english(&text).is_empty(), "{message:?}: {text}");
     }
-    let missing: Vec<String> = forms.into_iter().filter(|form| !i18n::has_phrase(&form.replace(":?}", "}"))).collect();
-    assert!(missing.is_empty(), "not in assets/locales/zh_CN.core.po: {missing:#?}");
+    assert_found();
+}
+
+/// No text was looked up in vain.
+fn assert_found() {
+    let missed = MISSED.with_borrow(Clone::clone);
+    assert!(missed.is_empty(), "not in assets/locales/zh_CN.po: {missed:#?}");
 }
 
 #[test]
@@ -321,28 +321,25 @@ fn errors_of_tensors_mappings_and_wavelengths_are_said_in_chinese() {
 fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
     let mut texts = Vec::new();
     for text in ["hello", "m=3", "n=abc", "k=-2", "q=1", "c=inf", "sigma=0", "n=1, n=2"] {
-        texts.push(assignments_from_text(text).expect_err(text).to_string());
+        assert_localized([assignments_from_text(text).expect_err(text)]);
         texts.push(Lesson::from_text(&format!("title: a\nstep: b\nset: {text}")).expect_err(text).to_string());
     }
     let (n, low, high) = (Parameter::N, 0.5, 1.5);
-    texts.extend(says([AssignmentError::Outside { parameter: n, value: -1.0, expected: Domain::Finite }]));
-    texts.extend(says([ParameterError::NoIndex, ParameterError::Outside { parameter: n, value: -1.0 }]));
-    texts.extend(says([BoundsError::Order { parameter: n, low, high }, BoundsError::Domain { parameter: n, value: -1.0 }]));
+    assert_localized([ParameterError::NoIndex, ParameterError::Outside { parameter: n, value: -1.0 }]);
+    assert_localized([BoundsError::Order { parameter: n, low, high }, BoundsError::Domain { parameter: n, value: -1.0 }]);
     let problems = [
         ProblemError::MissingSigma { row: 3, quantity: "dolp" },
         ProblemError::NothingToPredict,
         ProblemError::StartOutsideBounds { parameter: n, value: 3.0, low, high },
     ];
-    texts.extend(says(problems.iter()));
-    texts.push(DesignError::Parameters(ParameterError::NoIndex).to_string());
-    texts.push(DesignError::Problem(ProblemError::NothingToPredict).to_string());
-    texts.extend(says([RefractiveIndexError::N(-1.0), RefractiveIndexError::K(-1.0), RefractiveIndexError::Zero]));
-    texts.extend(says([
+    assert_localized(problems);
+    assert_localized([DesignError::Parameters(ParameterError::NoIndex), DesignError::Problem(ProblemError::NothingToPredict)]);
+    assert_localized([
         GeometryError::ThetaI(95.0),
         GeometryError::ThetaR(95.0),
         GeometryError::SignedThetaR(95.0),
         GeometryError::Dphi(f64::INFINITY),
-    ]));
+    ]);
     for text in [
         "hello",
         "  indented",
@@ -371,30 +368,21 @@ fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
 }
 
 #[test]
-fn errors_of_metals_and_pictures_are_said_in_chinese() {
-    let text = || "x".to_owned();
-    let mut texts = says([OutsideRange { wavelength_nm: 2000.0, range_nm: (200.0, 1000.0) }]);
-    let kinds = vec![
-        MetalsErrorKind::Header { found: text() },
-        MetalsErrorKind::Parts { found: 2, expected: 4 },
-        MetalsErrorKind::StrayHead { found: text() },
-        MetalsErrorKind::Repeated { found: text() },
-        MetalsErrorKind::Cells { found: 3 },
-        MetalsErrorKind::UnknownSource { found: text() },
-        MetalsErrorKind::Number { column: "wavelength_nm", found: text() },
-        MetalsErrorKind::Wavelength { found: 400.0, before: 500.0 },
-        MetalsErrorKind::NoSamples(text()),
-        MetalsErrorKind::Empty,
-    ];
-    texts.extend(kinds.into_iter().map(|kind| MetalsError { line: 3, kind }.to_string()));
-    texts.push(PngError::Size { width_mm: 1e9, height_mm: 10.0, dpi: 300.0 }.to_string());
-    texts
-        .extend(says([picture_kind(Path::new("1.bmp")).expect_err("no picture"), report_kind(Path::new("1.pdf")).expect_err("no report")]));
-    texts.push(open_file(Path::new("/")).expect_err("a directory"));
-    texts.push(open_file(Path::new("/there is none")).expect_err("no file"));
-    texts.extend(says([std::fs::read("/there is none").expect_err("no file")]));
-    let left = untranslated(texts.into_iter().map(|text| text.replace("1.bmp", "").replace("1.pdf", "")));
-    assert!(left.is_empty(), "{}", left.join("\n"));
+fn errors_of_files_and_pictures_are_said_in_chinese() {
+    assert_localized([PngError::Size { width_mm: 1e9, height_mm: 10.0, dpi: 300.0 }]);
+    let endings = [picture_kind(Path::new("1")).expect_err("no picture"), report_kind(Path::new("1")).expect_err("no report")];
+    assert_localized(endings.into_iter().chain([expect_ending(Path::new("1"), "csv").expect_err("no table")]));
+    let refused = std::io::Error::from(std::io::ErrorKind::StorageFull);
+    assert_localized([
+        open_file(Path::new("/")).expect_err("a directory"),
+        open_file(Path::new("/there is none")).expect_err("no file"),
+        OpenError::Denied,
+        OpenError::Other(refused),
+    ]);
+    use std::io::ErrorKind as K;
+    let kinds = [K::NotFound, K::PermissionDenied, K::IsADirectory, K::NotADirectory, K::ReadOnlyFilesystem, K::QuotaExceeded];
+    assert_localized(kinds.map(std::io::Error::from));
+    assert_localized([std::io::Error::other(PngError::Size { width_mm: 1e9, height_mm: 10.0, dpi: 300.0 })]);
 }
 
 #[test]
@@ -439,82 +427,163 @@ fn the_verdict_of_gauss_against_cauchy_is_said_in_chinese() {
     for aicc_gain in [None, Some(-20.0), Some(-5.0), Some(-3.0), Some(-1.0), Some(1.0), Some(3.0), Some(5.0), Some(20.0)] {
         for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0), (0.0, 1.0)] {
             for is_delta_e in [true, false] {
-                texts.push(DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e }.text());
+                texts.push(DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e });
             }
         }
     }
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
-    let contest = DistributionComparison { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
-    assert_eq!(phrase(&contest.text()), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
+    assert_localized(texts);
+    let comparison = DistributionComparison { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
+    assert_eq!(comparison.localized(), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
+    assert_eq!(
+        comparison.to_string(),
+        "Cauchy wins over Gauss: ΔE 2.0000 times smaller; AICc lower by 20.0 for Cauchy: essentially no support for the other."
+    );
+}
+
+#[test]
+fn english_is_what_the_core_says() {
+    i18n::install();
+    for aicc_gain in [None, Some(-5.0), Some(1.0)] {
+        for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0)] {
+            let comparison = DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e: true };
+            assert_eq!(comparison.localized(), comparison.to_string());
+        }
+    }
+    for direction in directions() {
+        assert_eq!(direction.localized(), direction.to_string());
+    }
+    let undetermined = Undetermined::Poorly(vec![Parameter::N, Parameter::K]);
+    assert_eq!(undetermined.localized(), undetermined.to_string());
+    let error = ProblemError::MissingSigma { row: 3, quantity: "dolp" };
+    assert_eq!(error.localized(), error.to_string());
+    for outcome in outcomes() {
+        assert_eq!(outcome.localized(), outcome.to_string());
+    }
+    for method in methods() {
+        assert_eq!((method.localized(), short_method(method)), (method.to_string(), method.short_name()));
+    }
+    for threads in [1, 2] {
+        let machine = Machine::new("", threads);
+        assert_eq!(machine.localized(), machine.to_string());
+    }
+}
+
+/// One for each reason.
+fn directions() -> Vec<UndeterminedDirection> {
+    use Parameter::{K, Kd, Ks, N, Q, Sigma};
+    let along = |reason, parameters: &[Parameter]| UndeterminedDirection {
+        reason,
+        direction: parameters.iter().map(|&parameter| (parameter, 1.0)).collect(),
+    };
+    vec![
+        along(UndeterminedReason::NoEffect, &[Q]),
+        along(UndeterminedReason::RatiosOnly, &[Ks, Kd]),
+        along(UndeterminedReason::TradeOff, &[N, K]),
+        along(UndeterminedReason::TradeOff, &[N, K, Sigma]),
+    ]
 }
 
 #[test]
 fn what_stays_open_keeps_its_parameters_in_chinese() {
     chinese();
-    for (english, chinese) in [
-        ("q has no effect on these data", "q 对这些数据没有影响"),
-        ("n and k trade off: these data fix a combination of them, not each", "n 与 k 相互补偿：这些数据只确定其组合，而非各自的值"),
-        ("n, k, σ together: these data fix combinations of them, not each", "n, k, σ 一起：这些数据只确定其组合，而非各自的值"),
-        ("something else", "something else"),
-    ] {
-        assert_eq!(phrase(english), chinese);
-    }
+    let texts: Vec<String> = directions().iter().map(Localized::localized).collect();
+    let expected = [
+        "q 对这些数据没有影响",
+        "k_s, k_d 一起：只有它们的比值进入 DoLP",
+        "n 与 k 相互补偿：这些数据只确定其组合，而非各自的值",
+        "n, k, σ 一起：这些数据只确定其组合，而非各自的值",
+    ];
+    assert_eq!(texts, expected);
 }
 
 #[test]
 fn names_of_models_finishes_metals_and_ends_of_fits_are_there_in_chinese() {
-    let mut texts: Vec<String> = PRESETS.iter().map(|preset| preset.name.to_owned()).collect();
-    texts.extend(FINISHES.iter().map(|finish| finish.name.to_owned()));
-    texts.extend(metals().expect("the bundled table").iter().map(|metal| metal.name.clone()));
+    chinese();
+    PRESETS.iter().for_each(|preset| _ = translated(preset.name));
+    FINISHES.iter().for_each(|finish| _ = translated(finish.name));
+    metals().expect("the bundled table").iter().for_each(|metal| _ = translated(&metal.name));
+    Parameter::ALL.into_iter().for_each(|parameter| _ = [parameter.name(), parameter.help()].map(translated));
     use StopReason as S;
-    let ends =
-        [S::Converged, S::ResidualsZero, S::NoImprovement, S::EvaluationLimit, S::Cancelled, S::Underdetermined, S::NoData, S::Numerical];
-    texts.extend(ends.map(|end| end.text().to_owned()));
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
+    assert_localized([
+        S::Converged,
+        S::ResidualsZero,
+        S::NoImprovement,
+        S::EvaluationLimit,
+        S::Cancelled,
+        S::Underdetermined,
+        S::NoData,
+        S::Numerical,
+    ]);
 }
 
 #[test]
-fn cases_scenes_and_methods_of_the_reports_are_there_in_chinese() {
-    let gallery = include_str!("../../../core/assets/reference/stability_gallery.csv");
-    let mut texts: Vec<String> = gallery.lines().filter_map(literal).collect();
-    assert!(texts.len() > 40, "{}", texts.len());
-    let fits = include_str!("../../../core/src/selftest/stability_fits.rs");
-    texts.extend(literals_after(fits.split("impl Bar").next().unwrap_or_default(), "Self::new("));
-    texts.push("converged, ΔE 1.2e-30, 2 directions open".to_owned());
-    let cost = include_str!("../../../core/src/selftest/cost.rs");
-    texts.extend(["name: ", "left_out: ", "gauss = "].iter().flat_map(|key| literals_after(cost, key)));
-    texts.extend(literals_after(include_str!("../../../core/src/selftest/accuracy_vs_time.rs"), "Method { name: "));
-    for kind in ["analytic Jacobian, scaled", "finite-difference Jacobian, unscaled"] {
-        for starts in ["one start", "5 starts"] {
-            texts.push(format!("Levenberg–Marquardt, {kind}, {starts}"));
-            texts.push(format!("LM, {}, {starts}", kind.replace(" Jacobian", "").replace("finite-difference", "differences")));
+fn findings_of_the_audit_are_said_in_chinese() {
+    use Check as C;
+    let checks = [
+        C::SpecularReciprocity,
+        C::DiffuseReciprocity,
+        C::VolumeReciprocity,
+        C::Reflectance,
+        C::FresnelLimit,
+        C::Admissibility,
+        C::Normalisation,
+    ];
+    let findings = checks.into_iter().flat_map(|check| [true, false].map(|pass| Finding { check, value: 0.0, bar: 0.0, pass, at: None }));
+    assert_localized(findings);
+}
+
+fn outcomes() -> Vec<StabilityOutcome> {
+    let mut outcomes = vec![StabilityOutcome::NoProblem, StabilityOutcome::Digits { values: 15.3, gradient: 14.0, textbook: 3.25 }];
+    for objective in [None, Some(1.2e-30)] {
+        for undetermined in 0..3 {
+            outcomes.push(StabilityOutcome::Fit { stop_reason: StopReason::Converged, objective, undetermined });
         }
     }
-    texts.extend(["this program, one start", "this program, many starts", "this program, 5 starts"].map(str::to_owned));
-    assert!(texts.len() > 100, "{}", texts.len());
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
+    outcomes
+}
+
+fn methods() -> Vec<BenchmarkMethod> {
+    use BenchmarkMethod as M;
+    let mut methods = vec![M::TextbookF32, M::TextbookF64, M::FromAngles, M::Prepared, M::Batch, M::OneStart, M::ManyStarts];
+    methods.push(M::Model("cauchy"));
+    for (analytic, scaled, starts) in [(true, true, 1), (false, false, 1), (true, false, 5)] {
+        methods.push(M::LevenbergMarquardt { analytic, scaled, starts });
+    }
+    methods
 }
 
 #[test]
-fn notes_under_the_reports_are_said_in_chinese() {
+fn rows_and_notes_of_the_reports_are_in_chinese() {
+    chinese();
+    assert_localized(outcomes());
+    assert_localized(methods().into_iter().filter(|method| !matches!(method, BenchmarkMethod::Model(_))));
+    assert_localized([Machine::new("", 1), Machine::new("", 4)].map(|machine| Machine { processor: String::new(), ..machine }));
+    assert_localized(Stability::cases());
+    Cost::scenes().iter().for_each(|(name, left_out)| _ = [name, left_out].map(|text| translated(text)));
     let looks = AtomicU32::new(0);
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
     for subject in BenchmarkId::ALL {
-        // Evaluations alone, which have spreads, since fits take long.
+        // Fits and large scenes take long.
         let asked = AtomicU32::new(0);
         let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 5;
-        let made = subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
-        let notes = match made {
-            BenchmarkResult::ErrorVsTime(report) => report.notes,
-            BenchmarkResult::Stability(report) => report.notes,
-            BenchmarkResult::Cost(report) => report.notes,
-        };
-        assert!(notes.len() > 1, "{subject:?}");
-        let left = untranslated(notes);
-        assert!(left.is_empty(), "{}", left.join("\n"));
+        match subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} }) {
+            BenchmarkResult::ErrorVsTime(report) => {
+                _ = translated(report.title);
+                assert_localized(report.notes);
+            }
+            BenchmarkResult::Stability(report) => {
+                _ = translated(report.title);
+                assert_localized(report.notes);
+            }
+            BenchmarkResult::Cost(report) => {
+                _ = translated(report.title);
+                assert_localized(report.notes);
+                for row in &report.rows {
+                    _ = [row.kernel, &row.terms].map(translated);
+                }
+            }
+        }
+        assert_found();
     }
 }
 
@@ -569,10 +638,4 @@ fn english_in(html: &str, document: &Document) -> Vec<String> {
     };
     let texts = texts_of(html).into_iter().map(|text| text.replace(&document.name, "")).filter(|text| !quoted(text));
     texts.filter(|text| !english(text).is_empty()).collect()
-}
-
-#[test]
-fn every_part_of_a_phrase_is_in_its_translation() {
-    let torn = i18n::torn_phrases();
-    assert!(torn.is_empty(), "{torn:#?}");
 }

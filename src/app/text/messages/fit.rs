@@ -1,0 +1,131 @@
+//! Messages of `pbrdf::fit`.
+
+use crate::app::text::messages::Localized;
+use pbrdf::fit::{
+    BoundsError, DesignError, DistributionComparison, Evidence, ProblemError, StopReason, Undetermined, UndeterminedDirection,
+    UndeterminedReason, Verdict, symbols,
+};
+use pbrdf::optics::SlopeDistribution;
+use tr::tr;
+
+impl Localized for StopReason {
+    fn localized(&self) -> String {
+        match self {
+            Self::Converged => tr!("converged"),
+            Self::ResidualsZero => tr!("model and data agree to the last digits"),
+            Self::NoImprovement => tr!("no further improvement is possible"),
+            Self::EvaluationLimit => tr!("too many evaluations"),
+            Self::Cancelled => tr!("cancelled; the best so far is shown"),
+            Self::Underdetermined => tr!("the data leave some parameters open"),
+            Self::NoData => tr!("there are no data to fit"),
+            Self::Numerical => tr!("a number beyond the range of f64 came up"),
+        }
+    }
+}
+
+impl Localized for UndeterminedDirection {
+    fn localized(&self) -> String {
+        let symbols = self.symbols();
+        match (self.reason, &self.direction[..]) {
+            (UndeterminedReason::NoEffect, _) => tr!("{} has no effect on these data", symbols),
+            (UndeterminedReason::RatiosOnly, _) => tr!("{} together: only their ratios enter DoLP", symbols),
+            (UndeterminedReason::TradeOff, [(one, _), (other, _)]) => {
+                tr!("{0} and {1} trade off: these data fix a combination of them, not each", one.symbol(), other.symbol())
+            }
+            (UndeterminedReason::TradeOff, _) => tr!("{} together: these data fix combinations of them, not each", symbols),
+        }
+    }
+}
+
+impl Localized for Undetermined {
+    fn localized(&self) -> String {
+        match self {
+            Self::Direction(direction) => direction.localized(),
+            Self::Poorly(parameters) => tr!("a standard error above half of the value: {}", symbols(parameters)),
+        }
+    }
+}
+
+impl Localized for ProblemError {
+    fn localized(&self) -> String {
+        match self {
+            Self::MissingSigma { quantity, .. } => {
+                tr!("the value of {0} has no {0}_sigma, which weights by standard deviation need", quantity)
+            }
+            Self::NothingToPredict => tr!("the model predicts DoLP only, and no DoLP is measured"),
+            Self::StartOutsideBounds { parameter, value, low, high } => {
+                tr!("{0} = {1} is outside its bounds {2} … {3}", parameter.key(), value, low, high)
+            }
+        }
+    }
+}
+
+impl Localized for DesignError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Parameters(error) => error.localized(),
+            Self::Problem(error) => error.localized(),
+        }
+    }
+}
+
+impl Localized for BoundsError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Order { parameter, low, high } => {
+                tr!("bounds of {0} are {1} … {2}: the lower one must be below the upper one", parameter.key(), low, high)
+            }
+            Self::Domain { parameter, value } => {
+                tr!("bound {0} of {1} is not allowed: expected {2}", value, parameter.key(), parameter.domain().localized())
+            }
+        }
+    }
+}
+
+impl Localized for Evidence {
+    fn localized(&self) -> String {
+        match self {
+            Self::Undefined => tr!("AICc is not defined for so few or so exact data"),
+            Self::None => tr!("the data do not tell them apart"),
+            Self::Weak => tr!("weak evidence"),
+            Self::Considerable => tr!("considerable evidence"),
+            Self::Decisive => tr!("essentially no support for the other"),
+        }
+    }
+}
+
+impl Localized for DistributionComparison {
+    fn localized(&self) -> String {
+        let measure = if self.is_delta_e { "ΔE".to_owned() } else { tr!("sum of squares") };
+        let (winner, confirmed) = match self.verdict() {
+            Verdict::Alike { gauss_preferred } => {
+                let sum = format!("{:.4e}", self.gauss);
+                return if gauss_preferred {
+                    tr!("Gauss and Cauchy describe these data alike ({0} {1}): Cauchy's tail exponent buys nothing here.", measure, sum)
+                } else {
+                    tr!("Gauss and Cauchy describe these data alike ({0} {1}).", measure, sum)
+                };
+            }
+            Verdict::Closer { winner, confirmed } => (winner, confirmed),
+        };
+        let other = match winner {
+            SlopeDistribution::Gauss => SlopeDistribution::Cauchy,
+            SlopeDistribution::Cauchy => SlopeDistribution::Gauss,
+        };
+        let (name, other) = (winner.localized(), other.localized());
+        let result = if confirmed { tr!("{0} wins over {1}", name, other) } else { tr!("{0} comes nearer than {1}", name, other) };
+        let by = if self.ratio().is_finite() {
+            tr!("{0} {1} times smaller", measure, format!("{:.4}", self.ratio()))
+        } else {
+            format!("{measure} 0")
+        };
+        let evidence = match self.aicc_gain {
+            None => self.evidence().localized(),
+            Some(gain) => {
+                let lower = if gain > 0.0 { SlopeDistribution::Cauchy } else { SlopeDistribution::Gauss };
+                tr!("AICc lower by {0} for {1}: {2}", format!("{:.1}", gain.abs()), lower.localized(), self.evidence().localized())
+            }
+        };
+        tr!("{0}: {1}; {2}.", result, by, evidence)
+    }
+}

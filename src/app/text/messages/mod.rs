@@ -1,0 +1,20 @@
+//! The messages of the core and of the program in the language of the window.
+//!
+//! Errors, verdicts and notes are values. The file of their module here has a sentence for each by an exhaustive match:
+//! a variant without a sentence does not compile. That is why enums of messages are not `#[non_exhaustive]`.
+
+mod files;
+mod fit;
+mod model;
+mod report;
+mod selftest;
+mod system;
+
+pub use report::WindowWording;
+pub use selftest::short_method;
+
+/// A value that has words in the language of the window.
+pub trait Localized {
+    /// A sentence, or a phrase without a capital and a full stop, as `Display` has it in English.
+    fn localized(&self) -> String;
+}
