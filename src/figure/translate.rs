@@ -13,7 +13,13 @@ impl Figure {
 
 fn translated_panel(panel: &Panel, translate: &dyn Fn(&str) -> String) -> Panel {
     let series = panel.series.iter().map(|series| translated_series(series, translate)).collect();
-    Panel { title: translate(&panel.title), x: translated_axis(&panel.x, translate), y: translated_axis(&panel.y, translate), series, ..panel.clone() }
+    Panel {
+        title: translate(&panel.title),
+        x: translated_axis(&panel.x, translate),
+        y: translated_axis(&panel.y, translate),
+        series,
+        ..panel.clone()
+    }
 }
 
 fn translated_axis(axis: &Axis, translate: &dyn Fn(&str) -> String) -> Axis {

@@ -38,7 +38,6 @@ pub struct FitDocument<'a> {
     pub words: &'a dyn Wording,
 }
 
-
 /// So many significant digits.
 fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -271,10 +270,7 @@ impl FitDocument<'_> {
                 vec![significant(minimum.objective, 6), minimum.reached.to_string(), self.words.stop_reason(minimum.stop_reason)]
             };
             blocks.push(self.paragraph("Where the starts ended, the best first:"));
-            blocks.push(Block::Table {
-                head: self.head(["ΔE", "starts", "why there"]),
-                rows: report.minima.iter().map(row).collect(),
-            });
+            blocks.push(Block::Table { head: self.head(["ΔE", "starts", "why there"]), rows: report.minima.iter().map(row).collect() });
         }
         blocks
     }

@@ -332,8 +332,7 @@ impl SolverBenchmark {
                 instance.best = instance.best.min(run.objective);
                 runs.push(run);
             }
-            let pooled =
-                matches!(method, Method::Marquardt { .. }).then(|| (method.named(extent.starts), together(&runs, extent.starts)));
+            let pooled = matches!(method, Method::Marquardt { .. }).then(|| (method.named(extent.starts), together(&runs, extent.starts)));
             all.push((method.named(1), runs));
             all.extend(pooled);
             (surroundings.progress)(0.1 + 0.1 * f64::from(done));

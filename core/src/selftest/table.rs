@@ -1,8 +1,8 @@
 //! A report as a value: rows with named columns, which Markdown, JSON and the window show each in their way.
 
+use crate::selftest::Machine;
 use crate::selftest::method::BenchmarkMethod;
 use crate::selftest::note::Note;
-use crate::selftest::Machine;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 

@@ -3,10 +3,10 @@
 use crate::app::jobs::worker::{Job, Worker};
 use crate::app::plots::Drawing;
 use crate::app::shell::docking::PaneId;
-use crate::export::{machine, now};
-use crate::figure::Figure;
 use crate::app::text::i18n::{self, Language};
 use crate::app::text::messages::WindowWording;
+use crate::export::{machine, now};
+use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
 use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
 
@@ -75,8 +75,7 @@ where
 {
     fn new(report: Report<R>, is_part: bool, page: usize) -> Self {
         let cells = report.rows.iter().map(|row| row.cells().iter().map(ToString::to_string).collect()).collect();
-        let mut view =
-            Self { report, is_part, language: i18n::current(), cells, figures: Vec::new(), drawings: Vec::new(), page };
+        let mut view = Self { report, is_part, language: i18n::current(), cells, figures: Vec::new(), drawings: Vec::new(), page };
         view.draw();
         view.page = page.min(view.drawings.len());
         view

@@ -5,9 +5,9 @@ use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkView};
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized;
+use crate::report::BenchmarkFigures;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
-use crate::report::BenchmarkFigures;
 use pbrdf::selftest::{Report, Row};
 use tr::tr;
 

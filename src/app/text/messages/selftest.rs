@@ -119,10 +119,7 @@ impl Localized for Note {
             Self::Spreads(spreads) => {
                 let spread = |(method, spread): &(BenchmarkMethod, f64)| format!("{} {:.1} %", method.localized(), 100.0 * spread);
                 let spreads: Vec<String> = spreads.iter().map(spread).collect();
-                tr!(
-                    "Spread of the repetitions, half the distance between the quartiles over the median: {}.",
-                    spreads.join(&tr!("; "))
-                )
+                tr!("Spread of the repetitions, half the distance between the quartiles over the median: {}.", spreads.join(&tr!("; ")))
             }
         }
     }

@@ -22,7 +22,8 @@ pub fn facets_figure(explorer: &App) -> Option<Figure> {
         series.push(Series::line(tr!("{}: P", name), points(&density.p, value)).colored(color));
         series.push(Series::dashed(tr!("{}: D = P / cos α", name), points(&density.d, value), Dash::Dashed).colored(color));
         if let Some(half) = density.half_width {
-            series.push(upright(tr!("half of P(0): {}°", format!("{half:.2}")), half, value, view.range.get(), Dash::Dotted).colored(color));
+            series
+                .push(upright(tr!("half of P(0): {}°", format!("{half:.2}")), half, value, view.range.get(), Dash::Dotted).colored(color));
         }
         series.push(Series::upright(tr!("median: {}°", format!("{:.2}", density.median)), density.median).colored(color));
     }
