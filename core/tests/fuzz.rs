@@ -14,22 +14,17 @@
 mod damage;
 
 use damage::{fuzz, texts};
-use pbrdf::measurement;
-use pbrdf::measurement::{Mapping, Measurement, TensorGrid, TensorResolution, grid_geometries, is_woollam};
-use pbrdf::measurement::{read_mapped, read_tensor, read_woollam, write_tensor};
+use pbrdf::measurement::{
+    Ellipsometry, Mapping, Measurement, Table, Tensor, TensorGrid, TensorResolution, grid_geometries, is_woollam, unwatched, write_tensor,
+};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::{SlopeDistribution, metals, read_metals};
-use std::ops::ControlFlow;
-
-fn go_on(_: f64) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
 
 /// What is written of an accepted measurement reads back the same.
 fn assert_reads_back(read: &Measurement) {
     let mut written = Vec::new();
-    measurement::write(read, &mut written).expect("memory takes everything");
-    let again = measurement::read(&written[..], &mut go_on).expect("what was written");
+    read.write(&mut written).expect("memory takes everything");
+    let again = Measurement::read(&written[..]).expect("what was written");
     assert_eq!(again.rows.len(), read.rows.len());
     for (again, row) in again.rows.iter().zip(&read.rows) {
         // Percent of a percent rounds; everything else is exact.
@@ -45,7 +40,7 @@ const TABLES: [&str; 3] = [
 
 #[test]
 fn measurement_tables() {
-    fuzz("table", &texts(&TABLES), |bytes| measurement::read(bytes, &mut go_on).inspect(assert_reads_back).is_ok());
+    fuzz("table", &texts(&TABLES), |bytes| Measurement::read(bytes).inspect(assert_reads_back).is_ok());
 }
 
 #[test]
@@ -57,10 +52,10 @@ fn mapped_tables() {
             // Any text is a mapping or an error.
             let _ = Mapping::from_text(text);
         }
-        if let Ok(table) = measurement::Table::foreign(bytes) {
+        if let Ok(table) = Table::foreign(bytes) {
             let _ = Mapping::guess(table.header(), table.metadata());
         }
-        read_mapped(bytes, &mapping, &mut go_on).is_ok()
+        mapping.read_table(bytes, &mut unwatched).is_ok()
     });
 }
 
@@ -74,7 +69,7 @@ fn woollam_texts() {
     ];
     fuzz("woollam", &texts(&samples), |bytes| {
         let _ = is_woollam(bytes);
-        let Ok(read) = read_woollam(bytes, &mut go_on) else { return false };
+        let Ok(read) = Ellipsometry::read(bytes) else { return false };
         for wanted in [None, Some(500.0), read.wavelengths_nm().first().copied()] {
             if let Ok(found) = read.specular_dolp(wanted) {
                 assert!(found.measurement.rows.iter().all(|row| row.dolp.is_some_and(|dolp| (0.0..=1.0).contains(&dolp.value))));
@@ -90,10 +85,10 @@ fn tensors() {
     let surface = Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters::default()).expect("the defaults");
     let grid = TensorGrid::new(&surface, TensorResolution { phi_d: 3, theta_d: 3, theta_h: 2 });
     let mut sample = Vec::new();
-    write_tensor(&surface, &grid, 550, &mut go_on, &mut sample).expect("memory takes everything");
+    write_tensor(&surface, &grid, 550, &mut unwatched, &mut sample).expect("memory takes everything");
     let geometries = grid_geometries(&[0.0, 30.0, 89.0], &[-89.0, -30.0, 0.0, 30.0, 60.0], 180.0).expect("angles in range");
     fuzz("tensor", &[sample], |bytes| {
-        let Ok(tensor) = read_tensor(bytes) else { return false };
+        let Ok(tensor) = Tensor::read(bytes) else { return false };
         for &wavelength in tensor.wavelengths_nm() {
             let slice = tensor.slice(&geometries, Some(wavelength)).expect("a band of the file");
             assert_eq!(slice.measurement.rows.len() + slice.without_value, geometries.len());

@@ -1,12 +1,11 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement;
-use pbrdf::measurement::{Mapping, Measurement, ReadError, append_columns, exact};
+use pbrdf::measurement::{Mapping, Measurement, ReadError, append_columns, exact, unwatched};
 use std::ops::ControlFlow;
 
 fn read(text: impl AsRef<[u8]>) -> Result<Measurement, ReadError> {
-    measurement::read(text.as_ref(), &mut |_| ControlFlow::Continue(()))
+    Measurement::read(text.as_ref())
 }
 
 fn accepted(text: impl AsRef<[u8]>) -> Measurement {
@@ -147,14 +146,14 @@ fn a_million_rows_tell_progress_and_can_be_stopped() {
         text.push_str(if i % 2 == 0 { "30,20,0.1\n" } else { "30,25.5,0.25\n" });
     }
     let mut reports = 0;
-    let measurement = measurement::read(text.as_bytes(), &mut |done| {
+    let measurement = Measurement::read_with(text.as_bytes(), &mut |done| {
         reports += 1;
         assert!((0.0..=1.0).contains(&done));
         ControlFlow::Continue(())
     });
     assert_eq!(measurement.expect("a good file").rows.len(), 1_000_000);
     assert!(reports > 100);
-    let stopped = measurement::read(text.as_bytes(), &mut |_| ControlFlow::Break(()));
+    let stopped = Measurement::read_with(text.as_bytes(), &mut |_| ControlFlow::Break(()));
     assert!(stopped.expect_err("a stop").to_string().contains("cancelled"));
 }
 
@@ -164,7 +163,7 @@ fn what_is_written_reads_back_the_same() {
         "# material: x\ntheta_i,theta_r,dphi,dolp,dolp_sigma,brdf,masked\n30,20,180,0.1,0.003,,0\n30.1,25,33.3,,,0.3333333333333333,1\n";
     let measurement = accepted(text);
     let mut written = Vec::new();
-    measurement::write(&measurement, &mut written).expect("memory takes everything");
+    measurement.write(&mut written).expect("memory takes everything");
     assert_eq!(accepted(&written), measurement);
 }
 
@@ -192,7 +191,7 @@ fn a_mapped_table_is_the_same_measurement() {
     let expected = accepted("theta_i,theta_r,dolp,dolp_sigma,brdf\n30,-20,0.125,0.01,2\n40,25,0.25,0.02,\n");
     let foreign = "AOI;View;note;DoLP %;err;f\n30;-0,3490658503988659;x;12,5;1;2\n40;0,4363323129985824;y;25;2;\n";
     let mapping = Mapping::from_text("theta_i=AOI,theta_r=2:radians,dolp=DoLP %:percent,dolp_sigma=err:percent,brdf=6").expect("a mapping");
-    let read = measurement::read_mapped(foreign.as_bytes(), &mapping, &mut |_| ControlFlow::Continue(())).expect("a good table");
+    let read = mapping.read_table(foreign.as_bytes(), &mut unwatched).expect("a good table");
     assert_eq!(read.ignored_columns, ["note"]);
     for (row, expected) in read.rows.iter().zip(&expected.rows) {
         // An ulp of the conversion from radians and percent.
@@ -204,7 +203,7 @@ fn a_mapped_table_is_the_same_measurement() {
 }
 
 fn mapped(table: &str, mapping: &Mapping) -> Result<Measurement, ReadError> {
-    measurement::read_mapped(table.as_bytes(), mapping, &mut |_| ControlFlow::Continue(()))
+    mapping.read_table(table.as_bytes(), &mut unwatched)
 }
 
 #[test]
@@ -253,7 +252,7 @@ fn comments_of_a_mapped_table_are_kept_and_survive_writing() {
     let expected = [("comment", "date 2024-05-01 12:30 operator JL, 633 nm HeNe"), ("material", "steel"), ("comment", "lamp off")];
     assert_eq!(measurement.metadata, expected.map(|(key, value)| (key.to_owned(), value.to_owned())));
     let mut written = Vec::new();
-    measurement::write(&measurement, &mut written).expect("memory takes everything");
+    measurement.write(&mut written).expect("memory takes everything");
     assert_eq!(accepted(&written).metadata, measurement.metadata);
 }
 
@@ -271,7 +270,7 @@ fn a_mapping_that_does_not_fit_its_table_is_refused_with_its_place() {
         ("theta_i=1:radians,theta_r=2,dolp=3", "a,b,c\n1e308,2,0.3\n", "line 2, column 1 (a)", "found 1e308"),
     ] {
         let mapping = Mapping::from_text(mapping).expect("a mapping");
-        let error = measurement::read_mapped(table.as_bytes(), &mapping, &mut |_| ControlFlow::Continue(())).expect_err(table).to_string();
+        let error = mapped(table, &mapping).expect_err(table).to_string();
         assert!(error.starts_with(place) && error.contains(reason), "{table:?}: {error}");
     }
 }

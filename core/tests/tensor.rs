@@ -1,7 +1,7 @@
 //! Tensors of Mueller matrices: what is written reads back, damaged files are refused with their place.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement::{Tensor, TensorError, TensorErrorKind, TensorGrid, TensorResolution, grid_geometries, read_tensor, write_tensor};
+use pbrdf::measurement::{Tensor, TensorError, TensorErrorKind, TensorGrid, TensorResolution, grid_geometries, unwatched, write_tensor};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 use std::ops::ControlFlow;
@@ -15,7 +15,7 @@ fn file(resolution: TensorResolution) -> Vec<u8> {
     let surface = surface();
     let mut bytes = Vec::new();
     let grid = TensorGrid::new(&surface, resolution);
-    write_tensor(&surface, &grid, 546, &mut |_| ControlFlow::Continue(()), &mut bytes).expect("memory takes everything");
+    write_tensor(&surface, &grid, 546, &mut unwatched, &mut bytes).expect("memory takes everything");
     bytes
 }
 
@@ -24,7 +24,7 @@ fn small() -> Vec<u8> {
 }
 
 fn read(bytes: &[u8]) -> Result<Tensor, TensorError> {
-    read_tensor(bytes)
+    Tensor::read(bytes)
 }
 
 /// Where the data of the field of that name begin, by its entry in the header.

@@ -1,11 +1,11 @@
 //! Woollam's ellipsometry text: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement::{Ellipsometry, ReadError, WavelengthError, is_woollam, read_woollam};
+use pbrdf::measurement::{Ellipsometry, ReadError, WavelengthError, is_woollam};
 use std::ops::ControlFlow;
 
 fn read(text: impl AsRef<[u8]>) -> Result<Ellipsometry, ReadError> {
-    read_woollam(text.as_ref(), &mut |_| ControlFlow::Continue(()))
+    Ellipsometry::read(text.as_ref())
 }
 
 fn accepted(text: impl AsRef<[u8]>) -> Ellipsometry {
@@ -109,13 +109,13 @@ fn what_does_not_fit_is_refused_with_its_place() {
 fn reading_tells_progress_and_can_be_stopped() {
     let text = format!("sample\nnm\n{}", "500 60 40 150\n".repeat(100_000));
     let mut reports = 0;
-    let found = read_woollam(text.as_bytes(), &mut |done| {
+    let found = Ellipsometry::read_with(text.as_bytes(), &mut |done| {
         reports += 1;
         assert!((0.0..=1.0).contains(&done));
         ControlFlow::Continue(())
     });
     assert_eq!((found.expect("a good file").rows.len(), reports), (100_000, 24));
-    let stopped = read_woollam(text.as_bytes(), &mut |_| ControlFlow::Break(()));
+    let stopped = Ellipsometry::read_with(text.as_bytes(), &mut |_| ControlFlow::Break(()));
     assert!(stopped.expect_err("a stop").to_string().contains("cancelled"));
 }
 

@@ -5,6 +5,7 @@ use crate::cli::values::{Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit;
 use pbrdf::measurement;
+use pbrdf::measurement::formats::FORMATS;
 use pbrdf::measurement::{Mapping, TensorResolution};
 use pbrdf::model::{Parameter, Preset};
 use std::path::PathBuf;
@@ -212,7 +213,7 @@ pub struct Angles {
 
 /// `import`.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true, after_help = IMPORT_HELP)]
+#[command(allow_negative_numbers = true, after_help = import_help())]
 pub struct ImportArguments {
     /// Woollam ellipsometry text, a tensor of Mueller matrices (.pbsdf), or with --columns any table.
     pub input: PathBuf,
@@ -237,14 +238,13 @@ pub struct ImportArguments {
     pub output: Option<PathBuf>,
 }
 
-/// What `import` understands.
-const IMPORT_HELP: &str = "\
-Woollam text (WVASE, its short form, CompleteEASE): psi at several angles becomes specular DoLP = |cos 2 psi| at theta_r = theta_i,
-with dolp_sigma where the file states sigma_psi. Depolarisation rows are named in the metadata and not applied.
+/// What `import` understands: a paragraph for each form of files.
+fn import_help() -> String {
+    let formats: Vec<&str> = FORMATS.iter().map(|format| format.help()).chain([TABLE_HELP]).collect();
+    formats.join("\n\n")
+}
 
-Tensor (.pbsdf, KAIST and Mitsuba 3): BRDF and DoLP for unpolarised light in one band, on the angles of --theta-i, --theta-r and
---dphi, linear between the nodes. Out of plane: --dphi 90 --theta-r 0:80:5.
-
+const TABLE_HELP: &str = "\
 Table with --columns: fields theta_i, theta_r, dphi (degrees, or :radians), dolp, dolp_sigma (fraction, or :percent), brdf, brdf_sigma,
 masked; a column by its name in the header or its number from 1. A table without a column for theta_i takes it from --theta-i, one
 without dphi from --dphi. Without --columns a guess is offered, not applied.";

@@ -3,15 +3,11 @@
 use crate::cli::arguments::Evaluate;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::{ReadError, ReadErrorKind, Record, Table, exact};
+use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, exact};
 use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
 use std::io::{self, Write};
 use std::process::ExitCode;
-
-const NUMBER: &str = "a finite number";
-const ANGLE: &str = "an angle in degrees";
-const DISTRIBUTION: &str = "gauss or cauchy";
 
 /// Which column holds what.
 struct Layout {
@@ -115,30 +111,30 @@ impl Layout {
     fn surface(&self, record: &Record<'_>) -> Result<Pbrdf, ReadError> {
         let name = record.text(self.distribution);
         let distribution = SlopeDistribution::from_key(&name)
-            .ok_or_else(|| record.error(self.distribution, ReadErrorKind::NotANumber { found: name, expected: DISTRIBUTION }))?;
+            .ok_or_else(|| record.error(self.distribution, ReadErrorKind::NotANumber { found: name, expected: Expected::Distribution }))?;
         let model = Model::full(distribution);
         let mut parameters = Parameters::default();
         for parameter in model.parameters() {
             let column = self.parameters[parameter as usize]
                 .ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn { name: "q", similar: None }))?;
-            parameters[parameter] = record.number(column, NUMBER)?;
+            parameters[parameter] = record.number(column, Expected::FiniteNumber)?;
         }
         Pbrdf::new(model, parameters).map_err(|error| {
             let column = self.parameters[error.parameter() as usize].unwrap_or(self.distribution);
             match error {
-                ParameterError::Outside { parameter, .. } => record.out_of_range(column, parameter.domain().to_string()),
-                ParameterError::NoIndex => record.out_of_range(column, "n or k above 0"),
+                ParameterError::Outside { parameter, .. } => record.out_of_range(column, Expected::Parameter(parameter.domain())),
+                ParameterError::NoIndex => record.out_of_range(column, Expected::Index),
             }
         })
     }
 
     fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
-        let theta_i = record.number(self.theta_i, ANGLE)?;
-        let theta_r = record.number(self.theta_r, ANGLE)?;
-        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, ANGLE))?;
+        let theta_i = record.number(self.theta_i, Expected::Angle)?;
+        let theta_r = record.number(self.theta_r, Expected::Angle)?;
+        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, Expected::Angle))?;
         Geometry::new(theta_i, theta_r, dphi).map_err(|error| match error {
-            GeometryError::ThetaI(_) => record.out_of_range(self.theta_i, "0 ≤ θi < 90 degrees"),
-            _ => record.out_of_range(self.theta_r, "0 ≤ θr < 90 degrees"),
+            GeometryError::ThetaI(_) => record.out_of_range(self.theta_i, Expected::ModelThetaI),
+            _ => record.out_of_range(self.theta_r, Expected::ModelThetaR),
         })
     }
 }

@@ -3,10 +3,8 @@
 use crate::cli::arguments::ImportArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement;
-use pbrdf::measurement::{
-    Field, Mapping, Measurement, Table, grid_geometries, is_tensor, is_woollam, read_mapped, read_tensor, read_woollam,
-};
+use pbrdf::measurement::formats::{FORMATS, Format, ImportError, ImportNote, ImportOptions, Imported, recognise};
+use pbrdf::measurement::{Field, Mapping, Measurement, Table};
 use std::process::ExitCode;
 
 pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
@@ -14,32 +12,32 @@ pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
     let bytes = input::bytes(&task.input)?;
     let mut measurement = if let Some(mapping) = &task.columns {
         mapped(task, &bytes, mapping)?
-    } else if is_woollam(&bytes) {
-        woollam(task, &bytes)?
-    } else if is_tensor(&bytes) {
-        tensor(task, &bytes)?
+    } else if let Some(format) = recognise(&bytes) {
+        recognised(task, format, bytes)?
     } else {
         return Err(Failure::input(&task.input, unknown(&bytes)));
     };
     let name = task.input.file_name().map(|name| name.to_string_lossy().replace(char::is_control, " "));
     measurement.metadata.push(("imported_from".to_owned(), name.unwrap_or_default()));
-    output::write(task.output.as_deref(), |out| measurement::write(&measurement, out))?;
+    output::write(task.output.as_deref(), |out| measurement.write(out))?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// What to do with a file that says nothing of itself.
+/// The answer to a file whose content does not tell its form.
 fn unknown(bytes: &[u8]) -> String {
-    let unknown = "this is neither Woollam ellipsometry text nor a tensor file (.pbsdf); name the columns of a table with --columns";
-    let Ok(table) = Table::foreign(bytes) else { return format!("{unknown} theta_i=1,theta_r=2,dolp=3") };
-    let guess = Mapping::guess(table.header(), table.metadata());
-    if guess.columns.is_empty() {
-        return format!("{unknown} theta_i=1,theta_r=2,dolp=3");
+    let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
+    let unknown = format!("this is neither {}; name the columns of a table with --columns", names.join(" nor "));
+    let guess = Table::foreign(bytes).ok().map(|table| (Mapping::guess(table.header(), table.metadata()), table.titles()));
+    match guess {
+        Some((guess, names)) if !guess.columns.is_empty() => {
+            if guess.has_quantity() {
+                format!("{unknown}; its header suggests {}", input::columns_options(&guess))
+            } else {
+                format!("{unknown}; no column for DoLP or BRDF was found, the columns are {}", names.join(", "))
+            }
+        }
+        _ => format!("{unknown} theta_i=1,theta_r=2,dolp=3"),
     }
-    if !guess.has_quantity() {
-        return format!("{unknown}; no column for DoLP or BRDF was found, the columns are {}", table.titles());
-    }
-    let option = |name: &str, angle: Option<f64>| angle.map_or_else(String::new, |angle| format!(" --{name} {angle}"));
-    format!("{unknown}; its header suggests --columns {guess}{}{}", option("theta-i", guess.theta_i), option("dphi", guess.dphi))
 }
 
 /// The columns that were named, and the angles that were given for want of a column.
@@ -60,65 +58,45 @@ fn with_constants(task: &ImportArguments, columns: &Mapping) -> Result<Mapping, 
 
 fn mapped(task: &ImportArguments, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
     let mapping = with_constants(task, mapping)?;
-    let measurement =
-        read_mapped(bytes, &mapping, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
-    if !measurement.ignored_columns.is_empty() {
-        output::notice(format_args!("{}: {}.", task.input.display(), measurement.ignored_notice()));
-    }
+    let measurement = mapping.read_table(bytes, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
+    input::notice_ignored_columns(&task.input, &measurement);
     Ok(measurement)
 }
 
-fn woollam(task: &ImportArguments, bytes: &[u8]) -> Result<Measurement, Failure> {
-    let ellipsometry = read_woollam(bytes, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
-    let path = task.input.display();
-    for (name, count) in &ellipsometry.ignored {
-        output::notice(format_args!("{path}: ignored {count} rows of {name}."));
-    }
-    if !ellipsometry.depolarisation.is_empty() {
-        let count = ellipsometry.depolarisation.len();
-        output::notice(format_args!("{path}: {count} rows of depolarisation (dpolE) are named in the metadata, not applied to DoLP."));
-    }
-    let slice = ellipsometry.specular_dolp(task.wavelength).map_err(|error| not_chosen(task, &error))?;
-    notice_nearest(task, &slice.wavelengths_nm);
-    for theta_i in &slice.left_out {
-        output::notice(format_args!("{path}: left out θi = {theta_i}°, which has no wavelength near the one asked for."));
-    }
-    Ok(slice.measurement)
+/// The measurement of a file whose content tells its form.
+fn recognised(task: &ImportArguments, format: &dyn Format, bytes: Vec<u8>) -> Result<Measurement, Failure> {
+    let file = format.open(bytes, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
+    notice_all(task, &file.notes());
+    let options = ImportOptions {
+        wavelength_nm: task.wavelength,
+        theta_i: task.theta_i.as_ref().map_or_else(ImportOptions::offered_theta_i, |grid| grid.0.clone()),
+        theta_r: task.theta_r.0.clone(),
+        dphi: task.dphi,
+        ..ImportOptions::default()
+    };
+    let Imported { measurement, notes } = file.import(&options, &mut input::while_reading()).map_err(|error| {
+        if let ImportError::NoValue { notes } = &error {
+            notice_all(task, notes);
+        }
+        failure(task, &error)
+    })?;
+    notice_all(task, &notes);
+    Ok(measurement)
 }
 
-fn not_chosen(task: &ImportArguments, error: &measurement::WavelengthError) -> Failure {
-    let hint = if task.wavelength.is_none() { " with --wavelength" } else { "" };
-    Failure::input(&task.input, format!("{error}{hint}"))
-}
-
-/// Says which wavelengths were taken in place of the one asked for.
-fn notice_nearest(task: &ImportArguments, taken_nm: &[f64]) {
-    if let Some(wanted) = task.wavelength.filter(|wanted| taken_nm != [*wanted]) {
-        let taken: Vec<String> = taken_nm.iter().map(f64::to_string).collect();
-        output::notice(format_args!("{}: has no {wanted} nm; the nearest was taken, {} nm.", task.input.display(), taken.join(" and ")));
+fn notice_all(task: &ImportArguments, notes: &[ImportNote]) {
+    for note in notes {
+        output::notice(format_args!("{}: {note}.", task.input.display()));
     }
 }
 
-fn tensor(task: &ImportArguments, bytes: &[u8]) -> Result<Measurement, Failure> {
-    let tensor = read_tensor(bytes).map_err(|error| Failure::input(&task.input, error))?;
-    let path = task.input.display();
-    if !tensor.assumed_grids().is_empty() {
-        let names = tensor.assumed_grids().join(", ");
-        output::notice(format_args!("{path}: gives no angles for {names}; they are taken to be even over their whole range."));
+fn failure(task: &ImportArguments, error: &ImportError) -> Failure {
+    match error {
+        ImportError::Read(error) => input::read_failure(&task.input, error),
+        ImportError::Geometry(error) => Failure::usage(format!("{error}.")),
+        ImportError::Wavelength(error) if task.wavelength.is_none() => {
+            Failure::input(&task.input, format_args!("{error} with --wavelength"))
+        }
+        _ => Failure::input(&task.input, error),
     }
-    let theta_i = task.theta_i.as_ref().map_or_else(|| vec![15.0, 30.0, 45.0, 60.0, 75.0], |grid| grid.0.clone());
-    let geometries =
-        grid_geometries(&theta_i, &task.theta_r.0, task.dphi.unwrap_or(180.0)).map_err(|error| Failure::usage(format!("{error}.")))?;
-    let slice = tensor.slice(&geometries, task.wavelength).map_err(|error| not_chosen(task, &error))?;
-    notice_nearest(task, &[slice.wavelength_nm]);
-    if slice.without_value > 0 {
-        output::notice(format_args!("{path}: left out {} geometries without a value.", slice.without_value));
-    }
-    if slice.beyond_one > 0 {
-        output::notice(format_args!("{path}: left out the DoLP of {} geometries where it is above 1.", slice.beyond_one));
-    }
-    if slice.measurement.rows.is_empty() {
-        return Err(Failure::input(&task.input, "none of the geometries has a value"));
-    }
-    Ok(slice.measurement)
 }

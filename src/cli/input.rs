@@ -4,8 +4,8 @@ use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cli::output::{Progress, notice};
 use crate::open_file::open_file;
-use pbrdf::measurement;
-use pbrdf::measurement::{Measurement, ReadError, ReadErrorKind};
+use pbrdf::measurement::formats::{ImportNote, recognise};
+use pbrdf::measurement::{Field, Hint, Mapping, Measurement, ReadError, ReadErrorKind, Table};
 use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -18,11 +18,13 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Turns an error of a reader into the failure of a command.
+/// Turns an error of a reader into the failure of a command, with its hint.
 pub fn read_failure(path: &Path, error: &ReadError) -> Failure {
-    match error.kind {
-        ReadErrorKind::Cancelled => Failure::interrupted(),
-        _ => Failure::input(path, error),
+    match (&error.kind, error.hint()) {
+        (ReadErrorKind::Cancelled, _) => Failure::interrupted(),
+        // Another form is for `measurement` to tell: other tables are no measurements.
+        (_, None | Some(Hint::Import)) => Failure::input(path, error),
+        (_, Some(hint)) => Failure::input(path, format_args!("{error}; {hint}")),
     }
 }
 
@@ -35,11 +37,57 @@ pub fn while_reading() -> impl FnMut(f64) -> ControlFlow<()> {
     }
 }
 
-/// A measurement, with a notice of the columns that mean nothing here.
+/// A measurement, with a notice of the columns that are not used.
 pub fn measurement(path: &Path, bytes: &[u8]) -> Result<Measurement, Failure> {
-    let measurement = measurement::read(bytes, &mut while_reading()).map_err(|error| read_failure(path, &error))?;
-    if !measurement.ignored_columns.is_empty() {
-        notice(format_args!("{}: {}.", path.display(), measurement.ignored_notice()));
-    }
+    let measurement = Measurement::read_with(bytes, &mut while_reading()).map_err(|error| measurement_failure(path, bytes, &error))?;
+    notice_ignored_columns(path, &measurement);
     Ok(measurement)
+}
+
+/// A notice of the columns of a file that its measurement does not use.
+pub fn notice_ignored_columns(path: &Path, measurement: &Measurement) {
+    if !measurement.ignored_columns.is_empty() {
+        let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
+        notice(format_args!("{}: {note}.", path.display()));
+    }
+}
+
+/// The failure of a command whose input is no measurement; for a foreign file with the command that imports it.
+fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
+    let is_cancelled = matches!(error.kind, ReadErrorKind::Cancelled);
+    if !is_cancelled && recognise(bytes).is_some() {
+        Failure::input(path, format_args!("{error}; {}", import_command(path, "")))
+    } else if error.hint() == Some(Hint::Import) {
+        let guess = Table::foreign(bytes).map(|table| Mapping::guess(table.header(), table.metadata())).unwrap_or_default();
+        let is_whole = guess.has_quantity()
+            && [Field::ThetaI, Field::ThetaR].iter().all(|&angle| guess.find(angle).is_some() || guess.constant(angle).is_some());
+        let options = if is_whole { columns_options(&guess) } else { "--columns theta_i=1,theta_r=2,dolp=3".to_owned() };
+        Failure::input(path, format_args!("{error}; {}", import_command(path, &options)))
+    } else {
+        read_failure(path, error)
+    }
+}
+
+/// The command that imports a file.
+fn import_command(path: &Path, options: &str) -> String {
+    let space = if options.is_empty() { "" } else { " " };
+    let output = path.with_extension("imported.csv");
+    let word = |path: &Path| quoted(&path.display().to_string());
+    format!("to import it, use pbrdf-explorer import {}{space}{options} -o {}", word(path), word(&output))
+}
+
+/// The options of `import` for that mapping.
+pub fn columns_options(mapping: &Mapping) -> String {
+    let option = |name: &str, angle: Option<f64>| angle.map_or_else(String::new, |angle| format!(" --{name} {angle}"));
+    format!("--columns {mapping}{}{}", option("theta-i", mapping.theta_i), option("dphi", mapping.dphi))
+}
+
+/// A word as a shell takes it, on one line.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''").replace(['\n', '\r'], " "))
+    }
 }

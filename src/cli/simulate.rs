@@ -2,8 +2,9 @@
 
 use crate::cli::arguments::{Angles, Columns, Simulate, Surface};
 use crate::cli::failure::Failure;
+use crate::cli::input::quoted;
 use crate::cli::output;
-use pbrdf::measurement::{Simulation, write};
+use pbrdf::measurement::Simulation;
 use pbrdf::model::{Parameters, Pbrdf};
 use std::process::ExitCode;
 
@@ -17,7 +18,7 @@ pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
     let mut measurement = simulation.run().map_err(|error| Failure::usage(format!("{error}.")))?;
     let command = command_without_output(std::env::args().skip(1));
     measurement.metadata.insert(1, ("command".to_owned(), command));
-    output::write(Some(&task.output), |out| write(&measurement, out))?;
+    output::write(Some(&task.output), |out| measurement.write(out))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -66,16 +67,6 @@ fn command_without_output(arguments: impl Iterator<Item = String>) -> String {
         }
     }
     words.join(" ")
-}
-
-/// As a shell needs it; on one line.
-fn quoted(argument: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
-    if !argument.is_empty() && argument.chars().all(plain) {
-        argument.to_owned()
-    } else {
-        format!("'{}'", argument.replace('\'', r"'\''").replace(['\n', '\r'], " "))
-    }
 }
 
 #[cfg(test)]

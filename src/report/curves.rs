@@ -1,6 +1,6 @@
 //! The model along a series: DoLP, its limit, BRDF and the terms of it against θr.
 
-use pbrdf::measurement::{Series, exact};
+use pbrdf::measurement::{IncidenceSeries, exact};
 use pbrdf::model::{Pbrdf, Reflection};
 use pbrdf::optics::Facet;
 use std::io::{self, Write};
@@ -35,7 +35,7 @@ pub fn directions(theta_i: f64, backscatter: bool) -> Vec<f64> {
 
 /// The model along a series.
 #[must_use]
-pub fn curve(surface: &Pbrdf, series: &Series, backscatter: bool) -> Vec<CurvePoint> {
+pub fn curve(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool) -> Vec<CurvePoint> {
     let angles = directions(series.theta_i, backscatter).into_iter();
     let points = angles.filter_map(|theta_r| {
         let facet = Facet::new(series.geometry(theta_r)?);
@@ -48,7 +48,7 @@ pub fn curve(surface: &Pbrdf, series: &Series, backscatter: bool) -> Vec<CurvePo
 ///
 /// Columns: `theta_i`, `theta_r`, `dphi` in degrees as in a measurement, so that the file can be read as one; `signed_theta_r`, negative on
 /// the backscatter side; `dolp`, `fresnel_limit`; `brdf`, `specular`, `diffuse`, `volume` in 1/sr.
-pub fn write_curves(surface: &Pbrdf, series: &[Series], backscatter: bool, mut out: impl Write) -> io::Result<()> {
+pub fn write_curves(surface: &Pbrdf, series: &[IncidenceSeries], backscatter: bool, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "theta_i,theta_r,dphi,signed_theta_r,dolp,fresnel_limit,brdf,specular,diffuse,volume")?;
     for group in series {
         for point in curve(surface, group, backscatter) {
@@ -66,17 +66,16 @@ pub fn write_curves(surface: &Pbrdf, series: &[Series], backscatter: bool, mut o
 #[cfg(test)]
 mod tests {
     use super::{curve, directions, write_curves};
-    use pbrdf::measurement::{Series, read};
+    use pbrdf::measurement::{IncidenceSeries, Measurement};
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
-    use std::ops::ControlFlow;
 
     fn surface() -> Pbrdf {
         Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).unwrap()
     }
 
-    fn series(theta_i: f64, plane: f64) -> Series {
-        Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() }
+    fn series(theta_i: f64, plane: f64) -> IncidenceSeries {
+        IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() }
     }
 
     #[test]
@@ -84,7 +83,7 @@ mod tests {
         let groups = [series(30.0, 180.0), series(55.5, 225.0)];
         let mut bytes = Vec::new();
         write_curves(&surface(), &groups, true, &mut bytes).unwrap();
-        let measurement = read(bytes.as_slice(), &mut |_| ControlFlow::Continue(())).unwrap();
+        let measurement = Measurement::read(bytes.as_slice()).unwrap();
         let points: Vec<_> = groups.iter().flat_map(|group| curve(&surface(), group, true)).collect();
         assert_eq!(measurement.rows.len(), points.len());
         assert!(points.iter().any(|point| point.theta_r < 0.0));
@@ -92,7 +91,7 @@ mod tests {
             assert_eq!(row.dolp.unwrap().value, point.reflection.dolp);
             assert_eq!(row.brdf.unwrap().value, point.reflection.brdf);
         }
-        let back = Series::of(&measurement.rows);
+        let back = IncidenceSeries::of(&measurement.rows);
         assert_eq!(back.len(), 2);
         assert!(back[1].dolp.iter().zip(&points[points.len() - back[1].dolp.len()..]).all(|(mark, point)| mark.theta_r == point.theta_r));
     }

@@ -6,7 +6,7 @@ use crate::report::fit_figures::FitFigures;
 use crate::report::residual_table::dolp_divisor;
 use crate::report::wording::Wording;
 use pbrdf::fit::{BrdfResiduals, DolpFormula, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
-use pbrdf::measurement::{Measurement, Series};
+use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::SlopeDistribution;
 
@@ -124,7 +124,7 @@ impl FitDocument<'_> {
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
         let surface = Pbrdf::new(self.report.model, self.report.parameters).ok()?;
-        let series = Series::of(&self.measurement.rows);
+        let series = IncidenceSeries::of(&self.measurement.rows);
         let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
         let brdf = if self.measurement.has_brdf() && !self.choices().dolp_only { figures.brdf(&self.source.name) } else { None };
         match (figures.dolp(&self.source.name), brdf) {
@@ -159,7 +159,7 @@ impl FitDocument<'_> {
 
     fn figures(&self) -> Vec<Block> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
-        let series = Series::of(&self.measurement.rows);
+        let series = IncidenceSeries::of(&self.measurement.rows);
         let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
         let mut blocks = vec![self.heading("Figures")];
         if let Some(figure) = figures.dolp("") {

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
 use crate::report::curves::{CurvePoint, curve};
-use pbrdf::measurement::{DataPoint, Series as Measured};
+use pbrdf::measurement::{DataPoint, IncidenceSeries};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 
@@ -24,7 +24,7 @@ pub struct FitFigures<'a> {
     surface: &'a Pbrdf,
     /// By what DoLP is divided: k_s under the printed reading of Eq. (17).
     divisor: f64,
-    series: &'a [Measured],
+    series: &'a [IncidenceSeries],
     backscatter: bool,
     curves: Vec<Vec<CurvePoint>>,
 }
@@ -33,14 +33,14 @@ pub struct FitFigures<'a> {
 type Term = (&'static str, bool, fn(&CurvePoint) -> f64, usize);
 
 /// What is taken from a measured series.
-type Marks = fn(&Measured) -> &[DataPoint];
+type Marks = fn(&IncidenceSeries) -> &[DataPoint];
 
 impl<'a> FitFigures<'a> {
     /// Of a surface along those series; `divisor` is [`crate::report::dolp_divisor`].
     #[must_use]
-    pub fn new(surface: &'a Pbrdf, divisor: f64, series: &'a [Measured]) -> Self {
+    pub fn new(surface: &'a Pbrdf, divisor: f64, series: &'a [IncidenceSeries]) -> Self {
         let series = &series[..series.len().min(MOST_SERIES)];
-        let backscatter = series.iter().any(Measured::has_backscatter);
+        let backscatter = series.iter().any(IncidenceSeries::has_backscatter);
         let curves = series.iter().map(|group| curve(surface, group, backscatter)).collect();
         Self { surface, divisor, series, backscatter, curves }
     }
@@ -50,7 +50,7 @@ impl<'a> FitFigures<'a> {
     }
 
     /// Series with their curves and colours.
-    fn colored(&self) -> impl Iterator<Item = (&Measured, &[CurvePoint], Rgb)> {
+    fn colored(&self) -> impl Iterator<Item = (&IncidenceSeries, &[CurvePoint], Rgb)> {
         self.series.iter().zip(&self.curves).zip(SERIES).map(|((group, curve), color)| (group, curve.as_slice(), color))
     }
 
@@ -83,7 +83,7 @@ impl<'a> FitFigures<'a> {
         has_points.then(|| Figure { title: title.to_owned(), panels, height_mm: 130.0, ..Figure::default() })
     }
 
-    fn residuals(&self, group: &Measured) -> Vec<Point> {
+    fn residuals(&self, group: &IncidenceSeries) -> Vec<Point> {
         let used = thinned(&group.dolp).filter(|mark| !mark.masked);
         let residual = |mark: &DataPoint| {
             let facet = Facet::new(group.geometry(mark.theta_r)?);
@@ -152,7 +152,7 @@ fn thinned(marks: &[DataPoint]) -> impl Iterator<Item = &DataPoint> {
 }
 
 /// Points with error bars, and the masked ones hollow and grey.
-fn measured_series(group: &Measured, marks: &[DataPoint], color: Rgb) -> Vec<Series> {
+fn measured_series(group: &IncidenceSeries, marks: &[DataPoint], color: Rgb) -> Vec<Series> {
     let of = |masked: bool| -> Vec<Point> {
         let marks = thinned(marks).filter(|mark| mark.masked == masked);
         let point = |mark: &DataPoint| {

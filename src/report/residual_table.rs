@@ -1,7 +1,7 @@
 //! A fitted model beside the measured values: columns for a table.
 
 use pbrdf::fit::DolpFormula;
-use pbrdf::measurement::{Measurement, append_columns, exact, write};
+use pbrdf::measurement::{Measurement, append_columns, exact};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 use std::io::{self, Write};
@@ -36,6 +36,6 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormul
 /// Writes a measurement with the fitted columns beside it.
 pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormula, dolp_only: bool, out: impl Write) -> io::Result<()> {
     let mut table = Vec::new();
-    write(measurement, &mut table)?;
+    measurement.write(&mut table)?;
     append_columns(&table, &FITTED_COLUMNS, &fitted_cells(measurement, surface, eq17, dolp_only), out)
 }

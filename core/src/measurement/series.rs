@@ -1,4 +1,4 @@
-//! Measured rows in the groups that they are plotted in: one θi, one plane through the surface normal.
+//! Measured rows grouped for plots: one θi and one plane through the surface normal.
 
 use crate::measurement::{Quantity, Row};
 use crate::optics::Geometry;
@@ -18,7 +18,7 @@ pub struct DataPoint {
 
 /// Rows of one θi in one plane through the surface normal, by ascending signed θr.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct IncidenceSeries {
     /// Degrees.
     pub theta_i: f64,
     /// Δφ of its forward side in degrees, 90 < Δφ ≤ 270; 180 is the plane of incidence.
@@ -31,7 +31,7 @@ pub struct Series {
     pub rows: Vec<usize>,
 }
 
-impl Series {
+impl IncidenceSeries {
     /// All series of those rows, by ascending θi and plane.
     #[must_use]
     pub fn of(rows: &[Row]) -> Vec<Self> {
@@ -51,9 +51,9 @@ impl Series {
             }
             if let Some(last) = groups.last_mut() {
                 let row = &rows[index];
-                let mark = |quantity| DataPoint { theta_r, quantity, masked: row.masked, row: index };
-                last.dolp.extend(row.dolp.map(mark));
-                last.brdf.extend(row.brdf.map(mark));
+                let point = |quantity| DataPoint { theta_r, quantity, masked: row.masked, row: index };
+                last.dolp.extend(row.dolp.map(point));
+                last.brdf.extend(row.brdf.map(point));
                 last.rows.push(index);
             }
         }
@@ -76,7 +76,7 @@ impl Series {
     /// Whether anything was measured on the backscatter side.
     #[must_use]
     pub fn has_backscatter(&self) -> bool {
-        self.dolp.iter().chain(&self.brdf).any(|mark| mark.theta_r < 0.0)
+        self.dolp.iter().chain(&self.brdf).any(|point| point.theta_r < 0.0)
     }
 }
 
@@ -89,7 +89,7 @@ fn plane_of(geometry: Geometry) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::Series;
+    use super::IncidenceSeries;
     use crate::measurement::{Quantity, Row};
     use crate::optics::Geometry;
 
@@ -101,16 +101,16 @@ mod tests {
     #[test]
     fn rows_of_one_angle_and_plane_stand_together_with_signs() {
         let rows = [row(40.0, 20.0, 180.0), row(30.0, 10.0, 180.0), row(40.0, 30.0, 0.0), row(40.0, 10.0, 90.0)];
-        let series = Series::of(&rows);
-        assert_eq!(series.iter().map(Series::name).collect::<Vec<_>>(), ["θi = 30°", "θi = 40°", "θi = 40°, Δφ = 270°"]);
-        assert_eq!(series[1].dolp.iter().map(|mark| mark.theta_r).collect::<Vec<_>>(), [-30.0, 20.0]);
+        let series = IncidenceSeries::of(&rows);
+        assert_eq!(series.iter().map(IncidenceSeries::name).collect::<Vec<_>>(), ["θi = 30°", "θi = 40°", "θi = 40°, Δφ = 270°"]);
+        assert_eq!(series[1].dolp.iter().map(|point| point.theta_r).collect::<Vec<_>>(), [-30.0, 20.0]);
         assert_eq!(series[1].rows, [2, 0]);
         assert!(series[1].has_backscatter() && !series[0].has_backscatter());
         for group in &series {
-            for mark in &group.dolp {
-                let geometry = group.geometry(mark.theta_r).unwrap();
-                assert_eq!(geometry.theta_r(), rows[mark.row].geometry.theta_r());
-                let turn = (geometry.dphi().0 - rows[mark.row].geometry.dphi().0).rem_euclid(360.0);
+            for point in &group.dolp {
+                let geometry = group.geometry(point.theta_r).unwrap();
+                assert_eq!(geometry.theta_r(), rows[point.row].geometry.theta_r());
+                let turn = (geometry.dphi().0 - rows[point.row].geometry.dphi().0).rem_euclid(360.0);
                 assert_eq!(turn, 0.0);
             }
         }

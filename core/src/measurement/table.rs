@@ -1,191 +1,13 @@
-//! Tables of numbers with named columns: what every reader of text files here has in common.
+//! Tables of cells with named columns: what the readers of text files share.
 //!
-//! Comma, semicolon or tab separates, found from the header; with the latter two a decimal comma is understood. Lines that begin
-//! with `#` may stand anywhere; `# key: value` is metadata. Byte order mark, CRLF, and any encoding inside comments are
-//! accepted. A quoted cell ends on its own line.
+//! Comma, semicolon or tab separates, told from the header; with the latter two a decimal comma is
+//! understood. Lines that begin with `#` may stand anywhere; `# key: value` is metadata. Byte order
+//! mark, CRLF, and any encoding inside comments are accepted. A quoted cell ends on its own line.
 
+use crate::measurement::{ColumnPlace, Expected, Progress, ReadError, ReadErrorKind};
 use std::io::Read;
-use std::ops::ControlFlow;
 
-/// Told how much of a table is read, 0 to 1; may stop it.
-pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
-
-/// A column in a message: its number from 1, and its name.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Column {
-    /// Number, from 1.
-    pub number: usize,
-    /// Name in the header; empty where the fault was found before the header was.
-    pub name: String,
-}
-
-/// Why a table cannot be read, and where.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{kind}", Place(*line, column.as_ref()))]
-pub struct ReadError {
-    /// Line from 1, where there is one.
-    pub line: Option<u64>,
-    /// Column, where there is one.
-    pub column: Option<Column>,
-    /// What is wrong.
-    pub kind: ReadErrorKind,
-}
-
-struct Place<'a>(Option<u64>, Option<&'a Column>);
-
-impl std::fmt::Display for Place<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.0, self.1) {
-            (Some(line), Some(column)) if column.name.is_empty() => write!(f, "line {line}, column {}: ", column.number),
-            (Some(line), Some(column)) => write!(f, "line {line}, column {} ({}): ", column.number, column.name),
-            (Some(line), None) => write!(f, "line {line}: "),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// What is wrong with a table.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadErrorKind {
-    /// Not a byte, or nothing but comments.
-    #[error("the file is empty; expected a header and rows")]
-    Empty,
-    /// A header and no row.
-    #[error("there is a header but no row under it")]
-    HeaderOnly,
-    /// The first row holds numbers.
-    #[error("there is no header: found {found:?}, expected column names such as theta_i, theta_r, dolp")]
-    NoHeader {
-        /// First cell.
-        found: String,
-    },
-    /// A column that has to be there.
-    #[error("the column {name} is missing from the header{}", .similar.as_ref().map_or_else(String::new, |found| format!("; found {found:?}, but names are lower case")))]
-    MissingColumn {
-        /// Its name.
-        name: &'static str,
-        /// A column that differs in capitals alone.
-        similar: Option<String>,
-    },
-    /// Neither quantity.
-    #[error("neither dolp nor brdf is in the header; at least one is needed; the columns are {names}")]
-    NoQuantity {
-        /// The names in the header.
-        names: String,
-    },
-    /// The same column twice, or two names for one quantity.
-    #[error("the column stands for the same quantity as column {first}; only one is allowed")]
-    RepeatedColumn {
-        /// Number of the first one.
-        first: usize,
-    },
-    /// A row of another length than the header.
-    #[error("the row has {found} cells; expected {expected}, as in the header")]
-    RowLength {
-        /// Its number of cells.
-        found: usize,
-        /// That of the header.
-        expected: usize,
-    },
-    /// A cell that has to be filled.
-    #[error("the cell is empty; expected {expected}")]
-    EmptyCell {
-        /// What was expected.
-        expected: &'static str,
-    },
-    /// A row that measures nothing.
-    #[error("neither DoLP nor BRDF is given in this row")]
-    NoData,
-    /// A standard deviation of nothing.
-    #[error("a standard deviation stands beside an empty value")]
-    SigmaWithoutValue,
-    /// Text in place of a number.
-    #[error("found {found:?}, expected {expected}")]
-    NotANumber {
-        /// The cell.
-        found: String,
-        /// What was expected.
-        expected: &'static str,
-    },
-    /// A number outside its range, infinite, or not a number at all.
-    #[error("found {found}, expected {expected}")]
-    OutOfRange {
-        /// The cell.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
-    /// A negative θr where Δφ says another side.
-    #[error("found {found} with dphi = {dphi}: a negative theta_r is the backscatter side, allowed only where dphi is absent or 180")]
-    NegativeThetaR {
-        /// The cell.
-        found: String,
-        /// Δφ of the row in degrees.
-        dphi: f64,
-    },
-    /// Nothing but white space, where a header is not what is missing.
-    #[error("the file is empty")]
-    EmptyText,
-    /// A line that is not of the kind its place asks for.
-    #[error("found {found:?}, expected {expected}")]
-    Unexpected {
-        /// What stands there.
-        found: String,
-        /// What was expected.
-        expected: &'static str,
-    },
-    /// A row with too few or too many numbers.
-    #[error("the row has {found} numbers; expected {expected}")]
-    Numbers {
-        /// How many.
-        found: usize,
-        /// How many there should be.
-        expected: &'static str,
-    },
-    /// Ellipsometry without a row of ψ and Δ.
-    #[error("there is no row of psi and delta")]
-    NoPsi,
-    /// A column that a mapping names and the table lacks.
-    #[error("there is no column {found} for {field}; the columns are {names}")]
-    UnknownColumn {
-        /// What it is for.
-        field: &'static str,
-        /// Its name or number.
-        found: String,
-        /// The names in the header.
-        names: String,
-    },
-    /// What a mapping has to name and does not.
-    #[error("no column is named for {field}")]
-    NotMapped {
-        /// What is missing.
-        field: &'static str,
-    },
-    /// A NUL byte.
-    #[error("found a NUL byte; expected plain text (UTF-8)")]
-    Nul,
-    /// UTF-16 by its byte order mark.
-    #[error("the file is UTF-16; expected plain text (UTF-8)")]
-    Utf16,
-    /// A quote that its line does not close.
-    #[error("a quote is not closed on its line")]
-    UnclosedQuote,
-    /// Stopped on request.
-    #[error("reading was cancelled")]
-    Cancelled,
-    /// The source failed.
-    #[error("{0}")]
-    Io(#[from] std::io::Error),
-}
-
-impl ReadErrorKind {
-    /// At no particular place.
-    pub(crate) fn anywhere(self) -> ReadError {
-        ReadError { line: None, column: None, kind: self }
-    }
-}
-
-/// A table whose header is read and whose rows are next.
+/// A table in memory whose header is read.
 pub struct Table {
     bytes: Vec<u8>,
     delimiter: u8,
@@ -196,14 +18,14 @@ pub struct Table {
     metadata: Vec<(String, String)>,
 }
 
-/// One row of a table, with what is needed to speak of its cells.
+/// One row of a table, which knows the names of its cells for errors.
 pub struct Record<'a> {
     table: &'a Table,
     cells: &'a csv::ByteRecord,
     line: u64,
 }
 
-/// U+FEFF in UTF-8, which some programs put first.
+/// U+FEFF in UTF-8, which some programs write first.
 pub(crate) const BYTE_ORDER_MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
 
 /// Rows between two reports of progress.
@@ -211,12 +33,18 @@ const ROWS_PER_REPORT: u64 = 4096;
 
 impl Table {
     /// Reads the whole source, its metadata and its header.
+    ///
+    /// # Errors
+    /// The source fails, is empty or no text, or has numbers in place of a header.
     pub fn new(source: impl Read) -> Result<Self, ReadError> {
         Self::scanned(source, false)?.with_header()
     }
 
-    /// The same of a table that others made: where the first row is mostly numbers, all rows are data and no column has a name;
-    /// comments are metadata under the key `comment`.
+    /// Reads a table of another laboratory: where the first row is mostly numbers, all rows are data and
+    /// no column has a name; comments are metadata under the key `comment`.
+    ///
+    /// # Errors
+    /// The source fails, is empty or no text.
     pub fn foreign(source: impl Read) -> Result<Self, ReadError> {
         Self::scanned(source, true)?.with_header()
     }
@@ -231,7 +59,7 @@ impl Table {
             bytes.drain(..BYTE_ORDER_MARK.len());
         }
         if !bytes.contains(&b'\n') {
-            // Line ends of old: a lone carriage return.
+            // A lone carriage return ended the lines of old Macs.
             bytes.iter_mut().filter(|byte| **byte == b'\r').for_each(|byte| *byte = b'\n');
         }
         let mut table =
@@ -240,7 +68,7 @@ impl Table {
         Ok(table)
     }
 
-    /// Walks the lines once: metadata, delimiter, and the faults that would mislead a CSV parser.
+    /// Walks the lines once for metadata and the delimiter, and for faults that would mislead a CSV parser.
     fn scan(&mut self) -> Result<(), ReadError> {
         let Self { bytes, delimiter, metadata, is_foreign, .. } = self;
         let mut header_seen = false;
@@ -259,7 +87,7 @@ impl Table {
             }
             let at = |position: usize, kind| {
                 let before = line[..position].iter().filter(|byte| *byte == delimiter).count();
-                let column = (!is_comment).then(|| Column { number: before + 1, name: String::new() });
+                let column = (!is_comment).then(|| ColumnPlace { number: before + 1, name: String::new() });
                 Err(ReadError { line: Some(number), column, kind })
             };
             if let Some(position) = line.iter().position(|&byte| byte == 0) {
@@ -296,7 +124,7 @@ impl Table {
             self.has_header = 2 * numbers <= header.len();
         } else if numbers > 0 {
             let found = header.into_iter().next().unwrap_or_default();
-            return Err(ReadError { line: Some(self.header_line), column: None, kind: ReadErrorKind::NoHeader { found } });
+            return Err(ReadErrorKind::NoHeader { found }.at_line(self.header_line));
         }
         self.header = if self.has_header { header } else { vec![String::new(); header.len()] };
         Ok(self)
@@ -308,15 +136,15 @@ impl Table {
         &self.header
     }
 
-    /// What a message calls a column: its name, or its number where the table has no header.
+    /// The name of a column in a message; its number where the table has no header.
     pub(crate) fn title(&self, index: usize) -> String {
         if self.has_header { self.header[index].clone() } else { (index + 1).to_string() }
     }
 
-    /// The titles of all columns.
+    /// The names of all columns in a message; their numbers where the table has no header.
     #[must_use]
-    pub fn titles(&self) -> String {
-        (0..self.header.len()).map(|index| self.title(index)).collect::<Vec<_>>().join(", ")
+    pub fn titles(&self) -> Vec<String> {
+        (0..self.header.len()).map(|index| self.title(index)).collect()
     }
 
     /// `# key: value` lines, in their order.
@@ -325,7 +153,10 @@ impl Table {
         &self.metadata
     }
 
-    /// Index of the column of that name, if there is one; an error if there are two.
+    /// Index of the column of that name, if there is one.
+    ///
+    /// # Errors
+    /// Two columns have that name.
     pub fn find(&self, name: &str) -> Result<Option<usize>, ReadError> {
         let mut found = self.header.iter().enumerate().filter(|(_, column)| *column == name).map(|(index, _)| index);
         match (found.next(), found.next()) {
@@ -335,6 +166,9 @@ impl Table {
     }
 
     /// Index of a column that has to be there.
+    ///
+    /// # Errors
+    /// No column or two columns have that name.
     pub fn require(&self, name: &'static str) -> Result<usize, ReadError> {
         self.find(name)?.ok_or_else(|| {
             let similar = self.header.iter().find(|column| column.eq_ignore_ascii_case(name)).cloned();
@@ -343,7 +177,7 @@ impl Table {
     }
 
     pub(crate) fn header_error(&self, kind: ReadErrorKind) -> ReadError {
-        ReadError { line: Some(self.header_line), column: None, kind }
+        kind.at_line(self.header_line)
     }
 
     pub(crate) fn repeated(&self, first: usize, second: usize) -> ReadError {
@@ -351,12 +185,12 @@ impl Table {
         ReadError { line: Some(self.header_line), column: Some(self.column(second)), kind }
     }
 
-    fn column(&self, index: usize) -> Column {
-        Column { number: index + 1, name: self.header[index].clone() }
+    fn column(&self, index: usize) -> ColumnPlace {
+        ColumnPlace { number: index + 1, name: self.header[index].clone() }
     }
 
-    /// Line of a record from 1. The reader's position is where it began to look: before comments and empty lines, or at the line feed
-    /// that ends the line before.
+    /// Line of a record from 1. The position of the CSV reader is where it began to look: before comments
+    /// and empty lines, or at the line feed that ends the line before.
     fn line_of(&self, record: &csv::ByteRecord) -> u64 {
         let Some(position) = record.position() else { return 1 };
         let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
@@ -365,7 +199,10 @@ impl Table {
         position.line() + skipped.map_or(0, |skipped| skipped as u64)
     }
 
-    /// Hands every row to `visit`, telling `progress` now and then.
+    /// Hands every row to `visit` and reports to `progress`.
+    ///
+    /// # Errors
+    /// A row of another length than the header, no row at all, an error of `visit`, or a stop by `progress`.
     pub fn for_each(&self, progress: Progress<'_>, mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>) -> Result<(), ReadError> {
         let mut reader = self.csv_reader();
         let mut cells = csv::ByteRecord::new();
@@ -376,8 +213,8 @@ impl Table {
         while read_record(&mut reader, &mut cells)? {
             let line = self.line_of(&cells);
             if cells.len() != self.header.len() {
-                let kind = ReadErrorKind::RowLength { found: cells.len(), expected: self.header.len() };
-                return Err(ReadError { line: Some(line), column: None, kind });
+                let separator = char::from(self.delimiter);
+                return Err(ReadErrorKind::RowLength { found: cells.len(), expected: self.header.len(), separator }.at_line(line));
             }
             visit(&Record { table: self, cells: &cells, line })?;
             rows += 1;
@@ -393,12 +230,12 @@ impl Table {
     }
 }
 
-/// Reads the next record; the source is in memory and rows may be of any length, so that this fails on nothing known.
+/// Reads the next record. The source is in memory and rows may be of any length: no error is known.
 fn read_record(reader: &mut csv::Reader<&[u8]>, record: &mut csv::ByteRecord) -> Result<bool, ReadError> {
     reader.read_byte_record(record).map_err(|error| ReadErrorKind::Io(std::io::Error::other(error)).anywhere())
 }
 
-/// What separates the cells of a table with that header.
+/// The separator of a table with that header.
 pub(crate) fn separator_of(header: &[u8]) -> u8 {
     [b';', b'\t', b','].into_iter().find(|byte| header.contains(byte)).unwrap_or(b',')
 }
@@ -411,7 +248,8 @@ fn metadata_of(line: &[u8]) -> Option<(String, String)> {
     (!key.is_empty()).then(|| (key.to_owned(), value.trim().to_owned()))
 }
 
-/// Key and value of a comment line of others: what has no key, or whose colon is that of a time of day, is a `comment`.
+/// Key and value of a comment line of another laboratory: a line without a key, or whose colon belongs
+/// to a time of day, is a `comment`.
 fn remark_of(line: &[u8]) -> Option<(String, String)> {
     let text = String::from_utf8_lossy(line);
     let text = text.trim_start_matches('#').trim();
@@ -452,17 +290,20 @@ impl Record<'_> {
     /// An error of this row as a whole.
     #[must_use]
     pub fn row_error(&self, kind: ReadErrorKind) -> ReadError {
-        ReadError { line: Some(self.line), column: None, kind }
+        kind.at_line(self.line)
     }
 
     /// An error at a cell whose number is not allowed.
     #[must_use]
-    pub fn out_of_range(&self, column: usize, expected: impl Into<String>) -> ReadError {
-        self.error(column, ReadErrorKind::OutOfRange { found: self.text(column), expected: expected.into() })
+    pub fn out_of_range(&self, column: usize, expected: Expected) -> ReadError {
+        self.error(column, ReadErrorKind::OutOfRange { found: self.text(column), expected })
     }
 
-    /// A cell as a finite number; `expected` says in a message what should have been there.
-    pub fn number(&self, column: usize, expected: &'static str) -> Result<f64, ReadError> {
+    /// A cell as a finite number.
+    ///
+    /// # Errors
+    /// The cell is empty, no number, or not finite; `expected` is in the message.
+    pub fn number(&self, column: usize, expected: Expected) -> Result<f64, ReadError> {
         let cell = &self.cells[column];
         if cell.is_empty() {
             return Err(self.error(column, ReadErrorKind::EmptyCell { expected }));
@@ -475,7 +316,7 @@ impl Record<'_> {
     fn parse(&self, cell: &[u8]) -> Option<f64> {
         let text = std::str::from_utf8(cell).ok()?;
         if self.table.delimiter != b',' && text.contains(',') {
-            // A decimal comma; with a point beside it the meaning would be a guess.
+            // A decimal comma. With a point beside it the number is ambiguous.
             if text.contains('.') { None } else { text.replacen(',', ".", 1).parse().ok() }
         } else {
             text.parse().ok()
@@ -483,7 +324,10 @@ impl Record<'_> {
     }
 
     /// A cell as a finite number, or none where it is empty.
-    pub fn optional(&self, column: usize, expected: &'static str) -> Result<Option<f64>, ReadError> {
+    ///
+    /// # Errors
+    /// The cell is no number, or not finite; `expected` is in the message.
+    pub fn optional(&self, column: usize, expected: Expected) -> Result<Option<f64>, ReadError> {
         if self.is_empty(column) { Ok(None) } else { self.number(column, expected).map(Some) }
     }
 }

@@ -1,27 +1,27 @@
-//! Choosing a wavelength of a file that has several: the one asked for or its nearest neighbour, never a guess.
+//! Choice of a wavelength of a file that has several: the nearest to the one asked for, never a guess.
 
 /// Why no wavelength can be chosen.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WavelengthError {
-    /// Nobody said which.
+    /// No wavelength was asked for.
     #[error("the file has {count} wavelengths, {}; one has to be chosen", Offer(.available_nm))]
     NotChosen {
         /// How many.
         count: usize,
-        /// They, ascending, in nm.
+        /// The wavelengths of the file, ascending, in nm.
         available_nm: Vec<f64>,
     },
     /// Farther from the ends than half a step, or in a gap.
     #[error("{wanted_nm} nm is outside what the file has: {}", Offer(.available_nm))]
     Outside {
-        /// What was asked for, in nm.
+        /// The wavelength asked for, in nm.
         wanted_nm: f64,
-        /// What there is, ascending, in nm.
+        /// The wavelengths of the file, ascending, in nm.
         available_nm: Vec<f64>,
     },
 }
 
-/// Few wavelengths one by one, many by their ends.
+/// Up to eight wavelengths one by one, more by their ends.
 struct Offer<'a>(&'a [f64]);
 
 impl std::fmt::Display for Offer<'_> {
@@ -34,12 +34,16 @@ impl std::fmt::Display for Offer<'_> {
     }
 }
 
-/// Beyond a lone wavelength this is still it, in nm.
+/// How far from the only wavelength of a file the one asked for may be, in nm.
 const REACH_OF_ONE: f64 = 1.0;
 
-/// The wavelength nearest to the one asked for; beyond the ends by at most half a step. Without asking, the only one there is.
+/// The wavelength nearest to the one asked for, which may lie beyond the ends by half a step at most.
+/// Without one asked for, the only wavelength there is.
 ///
 /// `available` in nm, in any order, repetitions allowed.
+///
+/// # Errors
+/// The wavelength asked for is too far from all, or there are several and none was asked for.
 pub fn choose_wavelength(available: &[f64], wanted_nm: Option<f64>) -> Result<f64, WavelengthError> {
     let mut available_nm = available.to_vec();
     available_nm.sort_by(f64::total_cmp);

@@ -9,7 +9,7 @@ use crate::app::shell::file_dialogs::{FileReply, FileRequest};
 use crate::app::shell::import_dialog::Origin;
 use crate::app::storage::export::{ExportKind, Write};
 use crate::app::storage::import;
-use crate::app::storage::import::{Hashing, ImportOptions, ImportResult, ImportSource, Loaded};
+use crate::app::storage::import::{Hashing, Loaded, with_notes};
 use crate::app::storage::session::{RestoredFit, SavedFit, Session};
 use crate::app::text::i18n::phrase;
 use crate::app::text::messages::Localized as _;
@@ -19,8 +19,8 @@ use crate::open_file::open_file;
 use crate::write_file::write_file;
 use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, fit};
 use pbrdf::fit::{bootstrap, profile};
-use pbrdf::measurement;
 use pbrdf::measurement::Measurement;
+use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported};
 use pbrdf::model::{Parameter, Preset};
 use pbrdf::selftest::Host;
 use std::io::Read;
@@ -53,7 +53,7 @@ pub enum Event {
         result: Result<Loaded, String>,
     },
     /// A foreign file was read as it was chosen, or why not, as a phrase.
-    ImportResult(Result<ImportResult, String>),
+    ImportResult(Result<Imported, ImportError>),
     Fitted {
         report: Box<FitResult>,
         problem: Arc<Problem>,
@@ -281,7 +281,7 @@ impl Worker {
             return Err(tr!("The measurement is still being saved."));
         }
         let job = self.spawn(JobKind::Save, move |_: &ProgressSender<()>, _| {
-            let written = write_file(&path, |out| measurement::write(&measurement, out));
+            let written = write_file(&path, |out| measurement.write(out));
             Event::Saved(match written {
                 Ok(()) => Ok(path),
                 Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), error.localized())),
@@ -334,10 +334,11 @@ impl Worker {
     }
 
     /// Reads a foreign file, which is in memory, as it was chosen.
-    pub fn import(&mut self, foreign: ImportSource, choice: ImportOptions) -> Result<(), String> {
+    pub fn import(&mut self, file: Arc<dyn ForeignFile>, options: ImportOptions) -> Result<(), String> {
         self.abandon_load();
         let job = self.spawn(JobKind::ImportDialog, move |teller: &ProgressSender<f64>, stop| {
-            Event::ImportResult(foreign.import(&choice, &mut while_reading(teller, stop)))
+            let imported = file.import(&options, &mut while_reading(teller, stop));
+            Event::ImportResult(imported.map(|imported| with_notes(&*file, imported)))
         })?;
         self.load = Some(job);
         Ok(())

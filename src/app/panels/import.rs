@@ -1,24 +1,26 @@
-//! The question that a foreign file asks: which wavelength, which slices, which column is what; with the first rows of the answer.
+//! The dialog that asks the questions of a foreign file, with the first rows of the measurement.
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::import_dialog::{ImportDialog, Slices};
 use crate::app::shell::theme;
-use crate::app::storage::import::{ForeignTable, ImportOptions, ImportResult, Slices};
+use crate::app::storage::import::note_text;
 use crate::app::text::glossary::short;
-use crate::app::text::i18n::phrase;
+use crate::app::text::i18n::{phrase, translated};
 use crate::app::work::design::Span;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
+use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample};
 use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
 use tr::tr;
 
-/// Width of the dialog, and heights of what scrolls in it: it stays where it is and as large as it is whatever is chosen.
+/// Width of the dialog, and heights of its scroll areas: place and size of the dialog don't depend on the
+/// options.
 const WIDTH: f32 = 640.0;
 const COLUMNS_HEIGHT: f32 = 220.0;
 const ANSWER_HEIGHT: f32 = 176.0;
-/// Rows of the answer that are shown.
+/// Rows of the measurement that are shown.
 const SHOWN: usize = 5;
-/// Above so many wavelengths there is a slider in place of a list.
+/// With more wavelengths there is a slider in place of a list.
 const LISTED: usize = 12;
 
 pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
@@ -26,7 +28,7 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         ui.heading(tr!("ImportDialog {}", import.origin.name));
-        choice_ui(import, ui);
+        questions_ui(import, ui);
         ui.separator();
         let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
         let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
@@ -50,32 +52,32 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
             }
         });
     });
-    // A click beside it would lose what was chosen.
+    // A click beside the dialog would lose the options.
     if response.should_close() && !response.backdrop_response.clicked() {
         commands.push(Command::CancelImport);
     }
 }
 
-fn choice_ui(import: &mut ImportDialog, ui: &mut Ui) {
-    let ImportDialog { foreign, choice, wavelengths_nm, .. } = import;
-    match (choice, &*foreign) {
-        (ImportOptions::Ellipsometry(wavelength_nm), _) => {
-            ui.label(tr!("Woollam ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."));
-            wavelength_ui(wavelength_nm, wavelengths_nm, ui);
+/// The questions of the file, each in its widgets.
+fn questions_ui(import: &mut ImportDialog, ui: &mut Ui) {
+    let ImportDialog { file, questions, options, slices, .. } = import;
+    if !file.summary().is_empty() {
+        ui.label(translated(file.summary()));
+    }
+    for question in &*questions {
+        match question {
+            Question::Wavelength { available_nm } => wavelength_ui(options, available_nm, ui),
+            Question::Directions => slices_ui(slices, options, ui),
+            Question::Columns(sample) => columns_ui(&mut options.columns, sample, ui),
         }
-        (ImportOptions::Tensor(slices), _) => {
-            ui.label(tr!("A tensor of Mueller matrices: slices through it become BRDF and DoLP for unpolarised light."));
-            slices_ui(slices, wavelengths_nm, ui);
-        }
-        (ImportOptions::Table(mapping), crate::app::storage::import::ImportSource::Table(table)) => columns_ui(mapping, table, ui),
-        (ImportOptions::Table(_), _) => {}
     }
 }
 
-fn wavelength_ui(wavelength_nm: &mut f64, available_nm: &[f64], ui: &mut Ui) {
+fn wavelength_ui(options: &mut ImportOptions, available_nm: &[f64], ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Wavelength"));
         let (Some(&first), Some(&last)) = (available_nm.first(), available_nm.last()) else { return };
+        let wavelength_nm = options.wavelength_nm.get_or_insert(first);
         if available_nm.len() <= LISTED {
             let combo = ComboBox::from_id_salt("wavelength").selected_text(format!("{wavelength_nm} nm")).show_ui(ui, |ui| {
                 for &other in available_nm {
@@ -100,9 +102,8 @@ fn wavelength_ui(wavelength_nm: &mut f64, available_nm: &[f64], ui: &mut Ui) {
     });
 }
 
-fn slices_ui(slices: &mut Slices, available_nm: &[f64], ui: &mut Ui) {
-    let Slices { wavelength_nm, theta_i, theta_r, dphi } = slices;
-    wavelength_ui(wavelength_nm, available_nm, ui);
+fn slices_ui(Slices { theta_i, theta_r }: &mut Slices, options: &mut ImportOptions, ui: &mut Ui) {
+    let dphi = options.dphi.get_or_insert(180.0);
     Grid::new("slices").num_columns(4).show(ui, |ui| {
         for heading in [String::new(), tr!("from"), tr!("to"), tr!("step")] {
             ui.weak(heading);
@@ -151,21 +152,21 @@ fn unit_text(field: Field, unit: Unit) -> String {
     match (unit, field) {
         (Unit::Radians, _) => tr!("radians"),
         (Unit::Percent, _) => tr!("percent"),
-        (Unit::Usual, Field::ThetaI | Field::ThetaR | Field::Dphi) => tr!("degrees"),
-        (Unit::Usual, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
-        (Unit::Usual, _) => String::new(),
+        (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi) => tr!("degrees"),
+        (Unit::Native, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
+        (Unit::Native, _) => String::new(),
     }
 }
 
-/// Every column with its first cells, what it is and in which unit.
-fn columns_ui(mapping: &mut Mapping, table: &ForeignTable, ui: &mut Ui) {
+/// Every column with its first cells, its meaning and its unit.
+fn columns_ui(mapping: &mut Mapping, table: &TableSample, ui: &mut Ui) {
     let angles = [Field::ThetaI, Field::ThetaR].iter().all(|angle| mapping.find(*angle).is_some() || mapping.constant(*angle).is_some());
     let text = if angles && mapping.has_quantity() {
         tr!("The columns are taken as follows: change what is not so.")
     } else {
         tr!("Which column is what? The header is not the program's own: {}.", phrase(&table.reason))
     };
-    // As high whichever it is: the dialog keeps its size.
+    // Both texts take the same height.
     let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body) + 4.0;
     let height = ui.add(Label::new(text).wrap()).rect.height();
     ui.add_space((lines - height).max(0.0));
@@ -217,7 +218,7 @@ fn constants_ui(mapping: &mut Mapping, ui: &mut Ui) {
     });
 }
 
-fn column_ui(mapping: &mut Mapping, table: &ForeignTable, index: usize, name: &str, ui: &mut Ui) {
+fn column_ui(mapping: &mut Mapping, table: &TableSample, index: usize, name: &str, ui: &mut Ui) {
     let title = if name.is_empty() { tr!("column {}", index + 1) } else { name.to_owned() };
     let label = ui.label(&title);
     let cells: Vec<&str> = table.rows.iter().filter_map(|row| row.get(index)).map(String::as_str).collect();
@@ -236,20 +237,22 @@ fn column_ui(mapping: &mut Mapping, table: &ForeignTable, index: usize, name: &s
     if chosen != before {
         // A field is in one column, and a column is one field.
         mapping.columns.retain(|column| column.column != number && Some(column.field) != chosen);
-        mapping.columns.extend(chosen.map(|field| MappedColumn { field, column: number, unit: Unit::Usual }));
+        mapping.columns.extend(chosen.map(|field| MappedColumn { field, column: number, unit: Unit::Native }));
         return;
     }
-    let Some(column) = place.map(|place| &mut mapping.columns[place]).filter(|column| column.field.units().len() > 1) else { return };
+    let Some(column) = place.map(|place| &mut mapping.columns[place]).filter(|column| !column.field.unit_names().is_empty()) else {
+        return;
+    };
     let field = column.field;
     let combo = ComboBox::from_id_salt(("unit", index)).selected_text(unit_text(field, column.unit)).show_ui(ui, |ui| {
-        for &unit in field.units() {
+        for &(_, unit) in field.unit_names() {
             ui.selectable_value(&mut column.unit, unit, unit_text(field, unit));
         }
     });
     combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("Unit of {}", title)));
 }
 
-/// The first rows of the answer, or why there is none; whether there is one.
+/// The first rows of the measurement, or why there is none; returns whether there is one.
 fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
     let warning = theme::warning(ui.visuals().dark_mode);
     match import.preview.get() {
@@ -258,7 +261,7 @@ fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
             ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", phrase(reason))).color(warning)).wrap());
             return false;
         }
-        Some(Ok(imported)) => rows_ui(imported, import.foreign.is_seen_whole(), ui),
+        Some(Ok(imported)) => rows_ui(imported, import.file.preview_is_whole(), ui),
     }
     if let Some(reason) = &import.error {
         ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", phrase(reason))).color(warning)).wrap());
@@ -266,7 +269,7 @@ fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
     true
 }
 
-fn rows_ui(imported: &ImportResult, is_all: bool, ui: &mut Ui) {
+fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
     let rows = &imported.measurement.rows;
     ui.weak(if is_all { tr!("The first of {} rows as they will be:", rows.len()) } else { tr!("The first rows as they will be:") });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
@@ -285,7 +288,7 @@ fn rows_ui(imported: &ImportResult, is_all: bool, ui: &mut Ui) {
             ui.end_row();
         }
     });
-    for notice in &imported.notices {
-        ui.add(Label::new(RichText::new(notice).weak()).wrap());
+    for note in &imported.notes {
+        ui.add(Label::new(RichText::new(note_text(note)).weak()).wrap());
     }
 }

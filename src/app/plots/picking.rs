@@ -2,7 +2,7 @@
 
 use crate::app::shell::commands::Command;
 use crate::app::views::curves::drawn;
-use crate::app::work::document::{DataPoint, Document, Series};
+use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
 use egui::Ui;
 use egui_plot::{PlotPoint, PlotResponse};
 
@@ -18,7 +18,7 @@ pub fn clicked_mask<R>(
     response: &PlotResponse<R>,
     ui: &Ui,
     document: &Document,
-    marks: impl Fn(usize, &Series) -> &[DataPoint],
+    marks: impl Fn(usize, &IncidenceSeries) -> &[DataPoint],
     coordinate: impl Fn(&DataPoint) -> Option<f64>,
 ) -> Option<Command> {
     let modifiers = ui.input(|input| input.modifiers);

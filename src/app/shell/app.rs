@@ -39,6 +39,7 @@ use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
 use crate::app::work::workspace::{Setup, Workspace};
 use pbrdf::fit::{DolpFormula, FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
+use pbrdf::measurement::formats::ImportNote;
 use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
 use std::io::Write as _;
@@ -139,7 +140,7 @@ impl App {
         let own = self.settings_file.as_ref().and_then(|_| lessons::own_folder());
         self.read_lessons(own.as_deref());
         let example = &EXAMPLES[0];
-        match pbrdf::measurement::read(example.text.as_bytes(), &mut |_| std::ops::ControlFlow::Continue(())) {
+        match pbrdf::measurement::Measurement::read(example.text.as_bytes()) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
             Err(error) => self.say(tr!("The bundled example cannot be read: {}.", phrase(&error))),
         }
@@ -163,7 +164,8 @@ impl App {
         self.generation += 1;
         self.import = None;
         if !measurement.ignored_columns.is_empty() {
-            self.say(format!("{name}: {}.", measurement.ignored_notice()));
+            let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
+            self.say(format!("{name}: {note}."));
         }
         self.work.document = Document::new(name, measurement, self.generation);
         self.work.settings.suit(&self.work.document);
@@ -235,9 +237,9 @@ impl App {
             }
             Event::Saved(Err(sentence)) => self.say(sentence),
             Event::Loaded { origin, result: Ok(Loaded::Measurement(imported)) } => self.loaded(origin, *imported),
-            Event::Loaded { origin, result: Ok(Loaded::ImportSource(foreign)) } => {
+            Event::Loaded { origin, result: Ok(Loaded::Foreign(file)) } => {
                 origin.path.iter().for_each(|path| self.typed.served(path));
-                self.import = Some(ImportDialog::new(origin, foreign));
+                self.import = Some(ImportDialog::new(origin, file));
             }
             Event::Loaded { origin, result: Err(sentence) } => {
                 origin.path.iter().for_each(|path| self.window.forget(path));

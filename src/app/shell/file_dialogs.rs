@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
+use pbrdf::measurement::formats::extensions;
 use std::cell::Cell;
 use std::path::PathBuf;
 use tr::tr;
@@ -82,7 +83,7 @@ fn ask(question: FileRequest) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
     match question {
         FileRequest::Open => {
-            let dialog = dialog.set_title(tr!("Open measurement")).add_filter(tr!("Measurements"), &["csv", "tsv", "txt", "dat", "pbsdf"]);
+            let dialog = dialog.set_title(tr!("Open measurement")).add_filter(tr!("Measurements"), &extensions());
             dialog.add_filter(tr!("All files"), &["*"]).pick_file()
         }
         FileRequest::OpenSession => dialog.set_title(tr!("Open session")).add_filter(tr!("Sessions"), &["json"]).pick_file(),

@@ -1,11 +1,12 @@
-//! A foreign file that waits for a choice, and what the window keeps while it is asked for.
+//! The state of the dialog that asks the questions of a foreign file.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::shell::app::App;
-use crate::app::storage::import::{ImportOptions, ImportResult, ImportSource};
-use crate::app::text::i18n;
-use crate::app::text::i18n::Language;
+use crate::app::storage::import::{note_text, with_notes};
+use crate::app::work::design::Span;
+use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};
 use std::path::PathBuf;
+use std::sync::Arc;
 use tr::tr;
 
 /// Where a measurement comes from.
@@ -18,67 +19,79 @@ pub struct Origin {
     pub sha256: Option<String>,
 }
 
+/// Ranges of angles to slice at, in degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slices {
+    pub theta_i: Span,
+    /// Negative is the backscatter side.
+    pub theta_r: Span,
+}
+
 /// The file that is asked about.
 pub struct ImportDialog {
     pub origin: Origin,
-    pub foreign: ImportSource,
-    pub choice: ImportOptions,
-    /// Wavelengths to choose from, in nm.
-    pub wavelengths_nm: Vec<f64>,
-    /// The beginning of what the choice leads to in the language of the window, or why it leads nowhere as a phrase in English.
-    pub preview: Memo<(ImportOptions, Language), Result<ImportResult, String>>,
-    /// Why the whole file could not be read so, as a phrase in English.
-    pub error: Option<String>,
+    pub file: Arc<dyn ForeignFile>,
+    pub questions: Vec<Question>,
+    pub options: ImportOptions,
+    pub slices: Slices,
+    /// The first rows that the options lead to, or why there are none.
+    pub preview: Memo<ImportOptions, Result<Imported, ImportError>>,
+    /// Why the whole file could not be read with these options.
+    pub error: Option<ImportError>,
 }
 
 impl ImportDialog {
-    pub fn new(origin: Origin, foreign: ImportSource) -> Self {
-        let choice = foreign.first_choice();
-        let wavelengths_nm = foreign.wavelengths_nm();
-        Self { origin, foreign, choice, wavelengths_nm, preview: Memo::default(), error: None }
+    pub fn new(origin: Origin, file: Arc<dyn ForeignFile>) -> Self {
+        let questions = file.questions();
+        let options = ImportOptions::offered(&questions);
+        let slices = Slices { theta_i: Span::new(15.0, 75.0, 15.0), theta_r: Span::new(-80.0, 80.0, 5.0) };
+        Self { origin, file, questions, options, slices, preview: Memo::default(), error: None }
     }
 }
 
 impl App {
-    /// Before each frame: what the choice leads to.
+    /// Before each frame: the preview of the options.
     pub(crate) fn refresh_import(&mut self) {
-        let Some(ImportDialog { foreign, choice, preview, error, .. }) = &mut self.import else { return };
-        if preview.key().is_none_or(|(before, _)| before != choice) {
+        let Some(ImportDialog { file, questions, options, slices, preview, error, .. }) = &mut self.import else { return };
+        if questions.iter().any(|question| matches!(question, Question::Directions)) {
+            (options.theta_i, options.theta_r) = (slices.theta_i.angles().collect(), slices.theta_r.angles().collect());
+        }
+        if preview.key() != Some(options) {
             *error = None;
         }
-        preview.refresh((choice.clone(), i18n::current()), |(choice, _)| foreign.preview(choice));
+        preview.refresh(options.clone(), |options| file.preview(options).map(|imported| with_notes(&**file, imported)));
     }
 
-    /// Reads the whole file as it was chosen.
+    /// Reads the whole file with the options.
     pub(crate) fn start_import(&mut self) -> Result<(), String> {
         match &self.import {
-            Some(import) => self.worker.import(import.foreign.clone(), import.choice.clone()),
+            Some(import) => self.worker.import(Arc::clone(&import.file), import.options.clone()),
             None => Ok(()),
         }
     }
 
-    /// Away with the question; what is open stays.
+    /// Closes the dialog; the open measurement stays.
     pub(crate) fn cancel_import(&mut self) {
         if self.import.take().is_some() {
             self.worker.abandon_load();
         }
     }
 
-    pub(crate) fn imported(&mut self, result: Result<ImportResult, String>) {
+    pub(crate) fn imported(&mut self, result: Result<Imported, ImportError>) {
         match (result, self.import.take()) {
             (Ok(mut imported), Some(import)) => {
                 let name = import.origin.name.replace(char::is_control, " ");
                 imported.measurement.metadata.push(("imported_from".to_owned(), name));
                 self.loaded(import.origin, imported);
             }
-            (Err(reason), Some(import)) => self.import = Some(ImportDialog { error: Some(reason), ..import }),
-            // The question was withdrawn meanwhile.
+            (Err(error), Some(import)) => self.import = Some(ImportDialog { error: Some(error), ..import }),
+            // The dialog was closed meanwhile.
             (_, None) => {}
         }
     }
 
-    /// Puts a measurement that was read in the place of the one that is open.
-    pub(crate) fn loaded(&mut self, origin: Origin, imported: ImportResult) {
+    /// Replaces the open measurement by one that was read.
+    pub(crate) fn loaded(&mut self, origin: Origin, imported: Imported) {
         let Origin { name, path, sha256 } = origin;
         self.notices.reading_succeeded();
         // A file is the user's own work, and takes the place of what was set aside.
@@ -90,7 +103,7 @@ impl App {
             self.typed.served(path);
             self.window.remember(path);
         }
-        let about = imported.notices.join(" ");
+        let about = imported.notes.iter().map(note_text).collect::<Vec<_>>().join(" ");
         if !about.is_empty() {
             self.say(format!("{name}: {about}"));
         }

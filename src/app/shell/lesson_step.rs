@@ -6,7 +6,6 @@ use crate::app::shell::docking::PaneId;
 use crate::app::work::document::{EXAMPLES, Mask};
 use crate::app::work::lesson::{Data, Step};
 use crate::app::work::settings::Settings;
-use std::ops::ControlFlow;
 
 impl App {
     /// Sets up a step. Undo leads to the step before as that is set up, so that the two can be compared.
@@ -49,7 +48,7 @@ impl App {
             None => (EXAMPLES[0].name, Some(EXAMPLES[0].text)),
         };
         if begins || self.work.document.name != name {
-            let read = |text: &str| pbrdf::measurement::read(text.as_bytes(), &mut |_| ControlFlow::Continue(()));
+            let read = |text: &str| pbrdf::measurement::Measurement::read(text.as_bytes());
             // Tests read all that are bundled.
             self.take(name.to_owned(), text.and_then(|text| read(text).ok()).unwrap_or_default());
         }

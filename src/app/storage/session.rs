@@ -11,13 +11,11 @@ use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, can_be_set};
 use crate::export::program;
 use pbrdf::fit::{Bounds, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
-use pbrdf::measurement;
 use pbrdf::measurement::{Measurement, ReadError};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::{self, Write};
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 const FORMAT: &str = "pbrdf-session";
@@ -243,7 +241,7 @@ impl Session {
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let table = |measurement: &Arc<Measurement>| -> io::Result<Vec<String>> {
             let mut bytes = Vec::new();
-            measurement::write(measurement, &mut bytes)?;
+            measurement.write(&mut bytes)?;
             Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
         };
         let data = |measurement| -> io::Result<Data> {
@@ -280,7 +278,7 @@ impl Session {
         let (name, sha256, measurement) = match contents.measurement {
             Some(Data { name, sha256, table }) => {
                 let text = table.join("\n");
-                (name, sha256, Some(measurement::read(text.as_bytes(), &mut |_| ControlFlow::Continue(()))?))
+                (name, sha256, Some(Measurement::read(text.as_bytes())?))
             }
             None => (String::new(), None, None),
         };

@@ -28,8 +28,8 @@ use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings, can_be_set};
 use damage::{fuzz, texts};
 use egui_kittest::Harness;
-use pbrdf::measurement;
 use pbrdf::measurement::Measurement;
+use pbrdf::measurement::formats::{ImportError, ImportOptions, Imported};
 use pbrdf::model::{Parameter, ParameterSet, Parameters};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -38,7 +38,7 @@ use std::sync::Arc;
 const TABLE: &str = "# material: steel\n# wavelength_nm: 650\ntheta_i,theta_r,dolp,dolp_sigma,brdf,masked\n30,20,0.1,0.01,2,0\n30,25,0.2,,1e-3,1\n30,-20,0,0.02,0.5,0\n40,20,0.3,0.01,,0\n40,30,0.4,0.01,1,0\n40,50,0.5,0.01,3,0\n";
 
 fn read_table(bytes: &[u8]) -> Option<Measurement> {
-    measurement::read(bytes, &mut |_| ControlFlow::Continue(())).ok()
+    Measurement::read(bytes).ok()
 }
 
 /// A window that draws a box for what its fonts lack, as the program does; other tests fail there.
@@ -158,10 +158,15 @@ fn foreign_files() {
     fuzz("foreign", &samples, |bytes| {
         let go_on = &mut |_| ControlFlow::Continue(());
         let Ok(arrived) = import::read(bytes.to_vec(), go_on) else { return false };
-        if let Loaded::ImportSource(foreign) = arrived {
-            let choice = foreign.first_choice();
-            let (preview, whole) = (foreign.preview(&choice), foreign.import(&choice, go_on));
-            assert!(!foreign.is_seen_whole() || preview == whole);
+        if let Loaded::Foreign(file) = arrived {
+            let options = ImportOptions {
+                theta_i: ImportOptions::offered_theta_i(),
+                theta_r: vec![-30.0, 0.0, 45.0],
+                ..ImportOptions::offered(&file.questions())
+            };
+            let said = |result: Result<Imported, ImportError>| result.map_err(|error| error.to_string());
+            let (preview, whole) = (said(file.preview(&options)), said(file.import(&options, go_on)));
+            assert!(!file.preview_is_whole() || preview == whole);
         }
         true
     });

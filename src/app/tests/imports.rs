@@ -1,8 +1,8 @@
-//! ImportSource files: each asks for the choice it needs, tells what it leads to, and leaves what is open where it fails.
+//! Foreign files: each asks its questions, shows the first rows of its measurement, and leaves the open measurement where it fails.
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::storage::import::{ImportOptions, bytes_of};
+use crate::app::storage::import::bytes_of;
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -44,8 +44,8 @@ fn ellipsometry_asks_for_a_wavelength_and_becomes_specular_dolp() {
     let (mut harness, _folder) = opened("al.dat", ELLIPSOMETRY.as_bytes());
     assert_eq!(state(&mut harness), (OWN.to_owned(), 27, true));
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    assert_eq!(import.choice, ImportOptions::Ellipsometry(650.0));
-    import.choice = ImportOptions::Ellipsometry(600.0);
+    assert_eq!(import.options.wavelength_nm, Some(650.0));
+    import.options.wavelength_nm = Some(600.0);
     harness.run();
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("al.dat".to_owned(), 2, false));
@@ -77,15 +77,15 @@ pub(crate) fn tensor() -> Vec<u8> {
 fn a_tensor_asks_for_its_slices() {
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    let ImportOptions::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
-    assert_eq!(slices.wavelength_nm, 546.0);
+    let slices = &mut import.slices;
     (slices.theta_i.from, slices.theta_i.to) = (30.0, 45.0);
     (slices.theta_r.from, slices.theta_r.to, slices.theta_r.step) = (-10.0, 20.0, 10.0);
-    slices.dphi = 90.0;
+    assert_eq!((import.options.wavelength_nm, import.options.dphi), (Some(546.0), Some(180.0)));
+    import.options.dphi = Some(90.0);
     harness.run();
     // Out of the plane of incidence there is no backscatter side.
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    assert!(matches!(&import.choice, ImportOptions::Tensor(slices) if slices.theta_r.from == 0.0));
+    assert_eq!(import.slices.theta_r.from, 0.0);
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("mine.pbsdf".to_owned(), 6, false));
     let explorer = explorer(&mut harness);
@@ -111,11 +111,7 @@ fn a_foreign_table_is_guessed_shown_and_opened() {
 #[test]
 fn columns_without_a_guess_are_named_by_hand() {
     let (mut harness, _folder) = opened("letters.csv", b"a,b,c\n30,20,12\n30,40,14\n");
-    let question = |harness: &mut Harness<'static, Option<App>>| match &explorer(harness).import.as_ref().expect("a question").choice {
-        ImportOptions::Table(mapping) => mapping.clone(),
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(question(&mut harness), Mapping::default());
+    assert_eq!(mapping(&mut harness), Mapping::default());
     assert!(harness.query_by_label_contains("This cannot be opened yet: ").is_some());
     assert!(harness.get_by_role_and_label(egui::accesskit::Role::Button, "Open").accesskit_node().is_disabled());
     for (column, meaning) in [("a", "θi, angle of incidence"), ("b", "θr, angle of view"), ("c", "DoLP")] {
@@ -125,22 +121,19 @@ fn columns_without_a_guess_are_named_by_hand() {
         harness.query_all_by_role_and_label(egui::accesskit::Role::Button, meaning).last().expect("a meaning").click();
         harness.run();
     }
-    assert_eq!(question(&mut harness).to_string(), "theta_i=1,theta_r=2,dolp=3");
+    assert_eq!(mapping(&mut harness).to_string(), "theta_i=1,theta_r=2,dolp=3");
     assert!(harness.query_by_label_contains("expected").is_some(), "a DoLP of 12 is none");
     harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Unit of c").click();
     harness.run();
     harness.get_by_label("percent").click();
     harness.run();
-    assert_eq!(question(&mut harness).find(Field::Dolp).map(|column| column.unit), Some(Unit::Percent));
+    assert_eq!(mapping(&mut harness).find(Field::Dolp).map(|column| column.unit), Some(Unit::Percent));
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("letters.csv".to_owned(), 2, false));
 }
 
 fn mapping(harness: &mut Harness<'static, Option<App>>) -> Mapping {
-    match &explorer(harness).import.as_ref().expect("a question").choice {
-        ImportOptions::Table(mapping) => mapping.clone(),
-        other => panic!("{other:?}"),
-    }
+    explorer(harness).import.as_ref().expect("a question").options.columns.clone()
 }
 
 #[test]
@@ -196,8 +189,7 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
         "theta_i=1,theta_r=2:radians,dolp=3:percent",
         "theta_i=1,theta_r=2,dolp=3:percent,brdf=4",
     ] {
-        explorer(&mut harness).import.as_mut().expect("a question").choice =
-            ImportOptions::Table(Mapping::from_text(text).expect("a mapping"));
+        explorer(&mut harness).import.as_mut().expect("a question").options.columns = Mapping::from_text(text).expect("a mapping");
         harness.run();
         assert_eq!(area(&harness), before, "{text}");
     }
@@ -205,8 +197,7 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
     let before = area(&harness);
     let import = explorer(&mut harness).import.as_mut().expect("a question");
-    let ImportOptions::Tensor(slices) = &mut import.choice else { panic!("slices of a tensor") };
-    (slices.theta_i.from, slices.theta_i.to, slices.dphi) = (30.0, 30.0, 90.0);
+    (import.slices.theta_i.from, import.slices.theta_i.to, import.options.dphi) = (30.0, 30.0, Some(90.0));
     harness.run();
     assert_eq!(area(&harness), before);
     assert!(harness.ctx.content_rect().contains_rect(before));

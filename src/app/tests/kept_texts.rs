@@ -3,12 +3,12 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::docking::PaneId;
-use crate::app::storage::import::{ImportOptions, ImportSource};
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::{Language, translated};
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
+use pbrdf::measurement::formats::Question;
 use pbrdf::measurement::{Mapping, Measurement, Quantity, Row};
 use pbrdf::optics::Geometry;
 
@@ -83,17 +83,17 @@ fn why_a_file_is_foreign_and_why_it_cannot_be_opened_yet() {
         let mut harness = harness();
         order(&mut harness, Command::OpenMeasurement(path.clone()));
         let import = explorer(&mut harness).import.as_mut().expect("a question");
-        import.choice = ImportOptions::Table(Mapping::default());
+        import.options.columns = Mapping::default();
         wait(&mut harness);
         harness
     };
     let mut harness = open();
-    let ImportSource::Table(table) = &explorer(&mut harness).import.as_ref().expect("a question").foreign else { panic!("a table") };
-    let why = table.reason.clone();
+    let Question::Columns(sample) = &explorer(&mut harness).import.as_ref().expect("a question").questions[0] else { panic!("a table") };
+    let why = sample.reason.to_string();
     assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
     let mut harness = open();
     let preview = explorer(&mut harness).import.as_ref().expect("a question").preview.get().expect("an answer");
-    let why = preview.as_ref().err().cloned().expect("no columns");
+    let why = preview.as_ref().expect_err("no columns").to_string();
     assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
 }
 

@@ -14,7 +14,6 @@ use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Facet, Geometry};
 use pbrdf::selftest::Host;
-use std::ops::ControlFlow;
 
 fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
     explorer(harness).commands.push(command);
@@ -192,7 +191,7 @@ fn each_export_writes_its_file_and_says_so() {
         let bytes = std::fs::read(&path).expect("a file");
         match name.rsplit('.').next() {
             Some("csv") => {
-                let measurement = pbrdf::measurement::read(bytes.as_slice(), &mut |_| ControlFlow::Continue(())).expect("a table");
+                let measurement = pbrdf::measurement::Measurement::read(bytes.as_slice()).expect("a table");
                 assert!(measurement.rows.len() >= 27);
             }
             Some("png") => assert!(bytes.starts_with(b"\x89PNG")),

@@ -21,14 +21,13 @@ use pbrdf::fit::{
     UndeterminedReason,
 };
 use pbrdf::measurement::{
-    Column, ColumnChoice, Field, MappedColumn, Mapping, MappingError, ReadError, ReadErrorKind, TensorError, TensorErrorKind, Unit,
-    WavelengthError, read, read_mapped, read_woollam, tensor_from_bytes,
+    ColumnChoice, ColumnPlace, Ellipsometry, Expected, Field, MappedColumn, Mapping, MappingError, Measurement, ReadError, ReadErrorKind,
+    Tensor, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape, TensorType, Unit, WavelengthError, unwatched,
 };
 use pbrdf::model::{Check, FINISHES, Finding, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
 use pbrdf::optics::{GeometryError, metals};
 use pbrdf::selftest::{BenchmarkMethod, Cost, Host, Machine, Stability, StabilityOutcome};
 use std::fmt::Display;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -194,6 +193,7 @@ fn assert_found() {
 #[test]
 fn errors_of_tables_are_said_in_chinese() {
     let text = || "x".to_owned();
+    let names = || vec!["dolp".to_owned(), "brdf".to_owned()];
     let kinds = || {
         use ReadErrorKind as E;
         vec![
@@ -202,30 +202,30 @@ fn errors_of_tables_are_said_in_chinese() {
             E::NoHeader { found: text() },
             E::MissingColumn { name: "theta_i", similar: None },
             E::MissingColumn { name: "theta_i", similar: Some("Theta_I".to_owned()) },
-            E::NoQuantity { names: "dolp, brdf".to_owned() },
+            E::NoQuantity { names: names() },
             E::RepeatedColumn { first: 1 },
-            E::RowLength { found: 2, expected: 3 },
-            E::EmptyCell { expected: "0 or 1" },
+            E::RowLength { found: 2, expected: 3, separator: ',' },
+            E::EmptyCell { expected: Expected::Mask },
             E::NoData,
             E::SigmaWithoutValue,
-            E::NotANumber { found: text(), expected: "0 or 1" },
-            E::OutOfRange { found: text(), expected: "0 or 1".to_owned() },
+            E::NotANumber { found: text(), expected: Expected::Mask },
+            E::OutOfRange { found: text(), expected: Expected::Mask },
             E::NegativeThetaR { found: "-3".to_owned(), dphi: 90.0 },
             E::EmptyText,
-            E::Unexpected { found: text(), expected: "0 or 1" },
-            E::Numbers { found: 5, expected: "4, or 6 with standard deviations" },
+            E::Unexpected { found: text(), expected: Expected::Mask },
+            E::Numbers { found: 5, without_sigmas: 4, with_sigmas: 6 },
             E::NoPsi,
-            E::UnknownColumn { field: "dolp", found: "\"x\"".to_owned(), names: "dolp, brdf".to_owned() },
-            E::UnknownColumn { field: "dolp", found: "number 7".to_owned(), names: "dolp, brdf".to_owned() },
-            E::NotMapped { field: "theta_i" },
-            E::NotMapped { field: "dolp or brdf" },
+            E::UnknownColumn { field: Field::Dolp, found: ColumnChoice::Name("x".to_owned()), names: names() },
+            E::UnknownColumn { field: Field::Dolp, found: ColumnChoice::Number(7), names: names() },
+            E::NotMapped { field: Field::ThetaI },
+            E::NoQuantityMapped,
             E::Nul,
             E::Utf16,
             E::UnclosedQuote,
             E::Cancelled,
         ]
     };
-    let column = |name: &str| Some(Column { number: 2, name: name.to_owned() });
+    let column = |name: &str| Some(ColumnPlace { number: 2, name: name.to_owned() });
     let at = |line| move |kind| ReadError { line, column: None, kind };
     let mut texts = says(kinds().into_iter().map(at(None)));
     texts.extend(says(kinds().into_iter().map(at(Some(3)))));
@@ -237,22 +237,21 @@ fn errors_of_tables_are_said_in_chinese() {
 
 /// Tables and other files that are each damaged in a way of their own.
 fn damaged_files() -> Vec<String> {
-    let mut going_on = |_: f64| ControlFlow::Continue(());
     let mut texts = Vec::new();
     for cells in
         ["x,0,0.5,1,0", "90,0,0.5,1,0", "10,95,0.5,1,0", "10,0,2,1,0", "10,0,0.5,-1,0", "10,0,0.5,1,2", ",0,0.5,1,0", "10,nan,0.5,1,0"]
     {
         let table = format!("theta_i,theta_r,dolp,brdf,masked\n{cells}\n");
-        texts.push(read(table.as_bytes(), &mut going_on).expect_err(cells).to_string());
+        texts.push(Measurement::read(table.as_bytes()).expect_err(cells).to_string());
     }
     for cells in ["10,0,inf,50,1", "10,0,180,120,1", "10,0,180,50,0", "10,0,180,50,x"] {
         let table = format!("theta_i,theta_r,dphi,dolp_percent,dolp_sigma\n{cells}\n");
-        texts.push(read(table.as_bytes(), &mut going_on).expect_err(cells).to_string());
+        texts.push(Measurement::read(table.as_bytes()).expect_err(cells).to_string());
     }
     let column = |field, number, unit| MappedColumn { field, column: ColumnChoice::Number(number), unit };
     let mapping =
-        Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Usual), column(Field::ThetaR, 9, Unit::Usual)], ..Mapping::default() };
-    texts.push(read_mapped(&b"a,b,c\n1,2,3\n"[..], &mapping, &mut going_on).expect_err("no ninth column").to_string());
+        Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Native), column(Field::ThetaR, 9, Unit::Native)], ..Mapping::default() };
+    texts.push(mapping.read_table(&b"a,b,c\n1,2,3\n"[..], &mut unwatched).expect_err("no ninth column").to_string());
     for rows in [
         "nm\n0 55 43 160",
         "nm\n650 95 43 160",
@@ -267,7 +266,7 @@ fn damaged_files() -> Vec<String> {
         " ",
         "nm\n",
     ] {
-        texts.push(read_woollam(rows.as_bytes(), &mut going_on).expect_err(rows).to_string());
+        texts.push(Ellipsometry::read(rows.as_bytes()).expect_err(rows).to_string());
     }
     texts
 }
@@ -286,25 +285,25 @@ fn errors_of_tensors_mappings_and_wavelengths_are_said_in_chinese() {
             E::NoTensor,
             E::Version(2, 1),
             E::Truncated { expected: 12, found: 7 },
-            E::TooMany { what: "the length of a name", found: 99, most: 64 },
-            E::TooMany { what: "the number of dimensions", found: 99, most: 8 },
-            E::TooMany { what: "the number of fields", found: 99, most: 64 },
-            E::TooMany { what: "the number of angles", found: 99, most: 64 },
+            E::TooMany { what: TensorCount::NameLength, found: 99, most: 64 },
+            E::TooMany { what: TensorCount::Dimensions, found: 99, most: 8 },
+            E::TooMany { what: TensorCount::Fields, found: 99, most: 64 },
+            E::TooMany { what: TensorCount::Angles, found: 99, most: 64 },
             E::Missing,
-            E::Type { found: 4, expected: "10 (f32)" },
-            E::Shape { found: "3 × 4".to_owned(), expected: "1 × the number of angles".to_owned() },
-            E::Shape { found: "3 × 4".to_owned(), expected: "the number of wavelengths".to_owned() },
-            E::Shape { found: "3 × 4".to_owned(), expected: "3 × 5".to_owned() },
-            E::Grid { index: 3, found: -1.5, expected: "angles in radians, within ±π" },
-            E::Grid { index: 3, found: 0.0, expected: "wavelengths in nm" },
+            E::Type { found: 4, expected: TensorType::F32 },
+            E::Shape { found: vec![3, 4], expected: TensorShape::Angles },
+            E::Shape { found: vec![3, 4], expected: TensorShape::Wavelengths },
+            E::Shape { found: vec![3, 4], expected: TensorShape::Matrices([3, 5, 2, 1, 4, 4]) },
+            E::Grid { index: 3, found: -1.5, expected: TensorAxis::Angles },
+            E::Grid { index: 3, found: 0.0, expected: TensorAxis::Wavelengths },
         ]
     };
     let mut texts = Vec::new();
     for (byte, field) in [(None, None), (Some(12), None), (None, Some("wvls")), (Some(12), Some("wvls"))] {
         texts.extend(kinds().into_iter().map(|kind| TensorError { byte, field: field.map(str::to_owned), kind }.to_string()));
     }
-    texts.push(tensor_from_bytes(b"tensor_file\0\x01\0\xff\0\0\0".to_vec()).expect_err("too many fields").to_string());
-    texts.extend(says([MappingError::Form("x".to_owned()), MappingError::Field("x".to_owned()), MappingError::Repeated("dolp")]));
+    texts.push(Tensor::from_bytes(b"tensor_file\0\x01\0\xff\0\0\0".to_vec()).expect_err("too many fields").to_string());
+    texts.extend(says([MappingError::Form("x".to_owned()), MappingError::Field("x".to_owned()), MappingError::Repeated(Field::Dolp)]));
     texts.extend(
         ["theta_i=1:percent", "brdf=1:percent", "dolp=1:radians"].map(|text| Mapping::from_text(text).expect_err(text).to_string()),
     );

@@ -62,7 +62,7 @@ fn a_measurement_without_dolp_has_no_strip_under_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("brdf.csv");
     let mut bytes = Vec::new();
-    pbrdf::measurement::write(&measurement, &mut bytes).expect("a table");
+    measurement.write(&mut bytes).expect("a table");
     std::fs::write(&path, bytes).expect("a writable folder");
     order(&mut harness, Command::OpenMeasurement(path));
     assert!(explorer(&mut harness).panes.is_on_screen(PaneId::Dolp));

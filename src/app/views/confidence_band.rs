@@ -2,7 +2,7 @@
 
 use crate::app::plots::Ribbon;
 use crate::app::views::curves::{BrdfScale, DECADES, directions, drawn};
-use crate::app::work::document::{Document, Series};
+use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::dolp_gain;
 use pbrdf::fit::{DolpFormula, FitResult};
@@ -63,7 +63,7 @@ fn along_series(
     ends: impl Fn(&Pbrdf, &[Facet], &[f64]) -> Ends,
 ) -> Vec<Ribbons> {
     let Ok(surface) = Pbrdf::new(report.model, report.parameters) else { return Vec::new() };
-    let ribbons = |series: &Series| {
+    let ribbons = |series: &IncidenceSeries| {
         let at = directions(series.theta_i, backscatter).into_iter();
         let (angles, facets): (Vec<f64>, Vec<Facet>) = at.filter_map(|angle| Some((angle, Facet::new(series.geometry(angle)?)))).unzip();
         in_pieces(&angles, &ends(&surface, &facets, &angles))

@@ -1,7 +1,7 @@
 //! What is drawn against θr: the model along every measured θi and at the sliders' own, and the measured points.
 
 use crate::app::plots::Range;
-use crate::app::work::document::{DataPoint, Document, Series};
+use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Settings;
 use egui_plot::PlotPoint;
@@ -142,8 +142,8 @@ impl CurveSet {
             return Self { series: drawn(document).map(|_| Curves::default()).collect(), ..Self::default() };
         };
         let plane = key.dphi.rem_euclid(360.0);
-        let own = Series { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        let curves = |series: &Series| Curves::new(&surface, key.eq17, series, key.backscatter, key.brdf);
+        let own = IncidenceSeries { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
+        let curves = |series: &IncidenceSeries| Curves::new(&surface, key.eq17, series, key.backscatter, key.brdf);
         let series: Vec<Curves> = drawn(document).map(curves).collect();
         let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
@@ -208,7 +208,7 @@ pub fn axis_values(pieces: &Polyline) -> impl Iterator<Item = f64> {
 }
 
 /// The series that are drawn.
-pub fn drawn(document: &Document) -> impl Iterator<Item = &Series> {
+pub fn drawn(document: &Document) -> impl Iterator<Item = &IncidenceSeries> {
     document.series.iter().take(MOST_SERIES)
 }
 
@@ -229,7 +229,7 @@ fn marks(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> O
 }
 
 impl Curves {
-    pub fn new(surface: &Pbrdf, eq17: DolpFormula, series: &Series, backscatter: bool, scale: BrdfScale) -> Self {
+    pub fn new(surface: &Pbrdf, eq17: DolpFormula, series: &IncidenceSeries, backscatter: bool, scale: BrdfScale) -> Self {
         let gain = dolp_gain(eq17, surface.parameters());
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles

@@ -11,7 +11,7 @@ use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, pl
 use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{Polyline, directions, pieces};
-use crate::app::work::document::Series;
+use crate::app::work::document::IncidenceSeries;
 use crate::app::work::workspace::Workspace;
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, LineStyle, VLine};
@@ -139,7 +139,7 @@ pub fn facets_refresh(explorer: &mut App) {
 
 /// G against signed θr.
 fn masking(theta_i: f64, dphi: f64) -> Polyline {
-    let series = Series { theta_i, plane: dphi.rem_euclid(360.0), dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
+    let series = IncidenceSeries { theta_i, plane: dphi.rem_euclid(360.0), dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
     pieces(directions(theta_i, true).into_iter().map(|theta_r| {
         let facet = series.geometry(theta_r).map(Facet::new);
         (theta_r, facet.map(|facet| facet.g_over_cosines / facet.one_over_cosines))

@@ -12,7 +12,7 @@ use crate::app::plots::{ColorScale, Range, ink_on};
 use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::directions;
-use crate::app::work::document::Series;
+use crate::app::work::document::IncidenceSeries;
 use crate::app::work::workspace::Workspace;
 use crate::figure::ColorMap;
 use egui::{Align2, Color32, DragValue, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
@@ -59,8 +59,8 @@ impl Curves {
     }
 }
 
-fn in_plane(theta_i: f64, plane: f64) -> Series {
-    Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() }
+fn in_plane(theta_i: f64, plane: f64) -> IncidenceSeries {
+    IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() }
 }
 
 /// m_ij/m00, i and j by the number of the element in reading order.

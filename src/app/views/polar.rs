@@ -12,7 +12,7 @@ use crate::app::plots::{Axes, Following, KeyEntry, Range, curve, key_line_ui, ro
 use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{BrdfScale, Curves, DECADES, Polyline, axis_values};
-use crate::app::work::document::Series;
+use crate::app::work::document::IncidenceSeries;
 use crate::app::work::workspace::Workspace;
 use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
@@ -51,7 +51,7 @@ pub fn polar_refresh(explorer: &mut App) {
     let key = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0), log);
     view.curves.refresh(key, |&(parameters, model, theta_i, plane, log)| {
         let Ok(surface) = Pbrdf::new(model, parameters) else { return Curves::default() };
-        let series = Series { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
+        let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
         Curves::new(&surface, DolpFormula::Consistent, &series, true, BrdfScale { log, times_cosine: false })
     });
     let Some(curves) = view.curves.get() else { return };

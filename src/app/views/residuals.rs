@@ -54,7 +54,7 @@ impl Residuals {
 fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
     let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return Vec::new() };
     let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
-    let of_one = |series: &crate::app::work::document::Series| {
+    let of_one = |series: &crate::app::work::document::IncidenceSeries| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
         let residual = |mark: &DataPoint| {

@@ -6,7 +6,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary::{mask_help, short};
 use crate::app::text::i18n::translated;
-use crate::app::work::document::{Document, Series};
+use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::workspace::Workspace;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
@@ -134,7 +134,7 @@ fn series_ui(document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
     });
 }
 
-fn one_series_ui(document: &Document, series: &Series, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut Vec<Command>, ui: &mut Ui) {
     let rows = &document.measurement.rows;
     let masked = series.rows.iter().filter(|&&row| rows[row].masked).count();
     let all = masked == series.rows.len();

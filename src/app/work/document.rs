@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tr::tr;
 
-pub use pbrdf::measurement::{DataPoint, Series};
+pub use pbrdf::measurement::{DataPoint, IncidenceSeries};
 
 /// A bundled example.
 pub struct Example {
@@ -31,7 +31,7 @@ pub struct Document {
     pub sha256: Option<String>,
     /// Shared with jobs that read it.
     pub measurement: Arc<Measurement>,
-    pub series: Vec<Series>,
+    pub series: Vec<IncidenceSeries>,
     /// Which measurement of this session it is.
     pub number: u64,
     /// Another one for every document and after every change of one, so that what is derived knows.
@@ -51,7 +51,7 @@ fn next_generation() -> u64 {
 
 impl Document {
     pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
-        let series = Series::of(&measurement.rows);
+        let series = IncidenceSeries::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
         Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: next_generation(), mask }
     }
@@ -110,7 +110,7 @@ impl Document {
 
     /// Whether anything was measured on the backscatter side.
     pub fn has_backscatter(&self) -> bool {
-        self.series.iter().any(Series::has_backscatter)
+        self.series.iter().any(IncidenceSeries::has_backscatter)
     }
 
     /// Whether the measured BRDF spans so much that a linear axis would show its peak alone.

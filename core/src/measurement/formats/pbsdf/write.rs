@@ -1,12 +1,15 @@
-//! Writes a surface as a tensor of Mueller matrices that Mitsuba 3 renders; format and conventions in `tensor.rs`.
+//! Writes a surface as a tensor file that Mitsuba 3 renders.
 //!
-//! φ_d spans all of −180° to 180°, since the volume lobe depends on θr alone and tells the light from the eye. θ_h is dense around 0,
-//! where the specular lobe is: the plugin takes nodes at any distance. Nodes with a ray below the horizon continue the values of
-//! its rim, where the data base has NaN, which would darken every cell that the horizon cuts. One band: the plugin takes it for every
-//! wavelength. In the plugin S3 has the other sign than here.
+//! φ_d spans all of −180° to 180°, since the volume lobe depends on θr alone and so distinguishes light
+//! and eye. θ_h is dense around 0, where the specular lobe is: the plugin takes nodes at any distance.
+//! Nodes with a ray below the horizon continue the values of the rim; the data base has NaN there, which
+//! would darken every cell that the horizon cuts. One band: the plugin takes it for every wavelength. In
+//! the plugin S3 has the opposite sign.
 
-use crate::measurement::table::Progress;
-use crate::measurement::tensor::{F32, MAGIC, U16, geometry_of};
+use super::error::TensorType;
+use super::read::MAGIC;
+use crate::measurement::Progress;
+use crate::measurement::rusinkiewicz::geometry_of;
 use crate::model::Pbrdf;
 use crate::optics::{Facet, Mueller};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -38,7 +41,7 @@ pub struct TensorGrid {
     theta_h: Vec<f32>,
 }
 
-/// Near the top of the lobe there are so many nodes within its median slope.
+/// Nodes within the median slope of the lobe, near its top.
 const NODES_PER_LOBE: f64 = 12.0;
 /// Rays below the horizon are lifted to this zenith angle in degrees.
 const RIM: f64 = 89.5;
@@ -72,7 +75,8 @@ fn stretched(share: f64, stretch: f64) -> f64 {
     if stretch > 0.0 { libm::sinh(stretch * share) / libm::sinh(stretch) } else { share }
 }
 
-/// The κ that makes the first step that wide, in radians; 0 where even steps are narrower. At most 20, so that f32 tells all nodes apart.
+/// The κ that makes the first step that wide, in radians; 0 where even steps are narrower. At most 20, so
+/// that all nodes differ in f32.
 fn stretch_for(first: f64, count: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "grids have few angles")]
     let share = 1.0 / (count.max(2) - 1) as f64;
@@ -97,9 +101,10 @@ fn nodes(count: usize, at: impl Fn(f64) -> f64) -> Vec<f32> {
     (0..=last).map(|i| at(i as f64 / last as f64) as f32).collect()
 }
 
-/// Writes a surface; `progress` is told how far it is and may stop it, which ends in an error of the kind `Interrupted`.
+/// Writes a surface as a tensor file, with `wavelength_nm` as its one band.
 ///
-/// `wavelength_nm` is what the file says of its one band.
+/// # Errors
+/// An error of `out`; of the kind `Interrupted` if `progress` stops the writing.
 pub fn write_tensor(surface: &Pbrdf, grid: &TensorGrid, wavelength_nm: u16, progress: Progress<'_>, mut out: impl Write) -> io::Result<()> {
     write_head(grid, wavelength_nm, &mut out)?;
     let mut row = Vec::new();
@@ -126,12 +131,12 @@ pub fn write_tensor(surface: &Pbrdf, grid: &TensorGrid, wavelength_nm: u16, prog
 fn matrix(surface: &Pbrdf, angles: [f64; 3]) -> Mueller {
     match geometry_of(angles, RIM) {
         Some(geometry) => surface.mueller_in_facet_plane(&Facet::new(geometry)),
-        // No angles of a grid get here: zenith angles end at the rim.
+        // Zenith angles end at the rim: every node of a grid has a geometry.
         None => Mueller::depolarizer(0.0),
     }
 }
 
-/// As the format holds it: a lobe brighter than f32 becomes its largest number; row and column 3 (S3) change sign.
+/// An element as the format holds it: limited to the range of f32; row and column 3 (S3) change sign.
 fn f32_of(value: f64, element: usize) -> f32 {
     let flips = (element / 4 == 3) != (element % 4 == 3);
     let largest = f64::from(f32::MAX);
@@ -147,14 +152,14 @@ fn write_head(grid: &TensorGrid, wavelength_nm: u16, out: &mut impl Write) -> io
     let angles = |angles: &[f32]| angles.iter().flat_map(|angle| angle.to_le_bytes()).collect::<Vec<u8>>();
     let wavelengths = [wavelength_nm; WAVELENGTHS_READ].iter().flat_map(|nm| nm.to_le_bytes()).collect::<Vec<u8>>();
     let [phi_d, theta_d, theta_h, ..] = grid.lengths();
-    let fields: [(&str, u8, Vec<usize>, Vec<u8>); 5] = [
-        ("phi_d", F32, vec![1, phi_d], angles(&grid.phi_d)),
-        ("theta_d", F32, vec![1, theta_d], angles(&grid.theta_d)),
-        ("theta_h", F32, vec![1, theta_h], angles(&grid.theta_h)),
-        ("wvls", U16, vec![1], wavelengths),
-        ("M", F32, grid.lengths().to_vec(), Vec::new()),
+    let fields: [(&str, TensorType, Vec<usize>, Vec<u8>); 5] = [
+        ("phi_d", TensorType::F32, vec![1, phi_d], angles(&grid.phi_d)),
+        ("theta_d", TensorType::F32, vec![1, theta_d], angles(&grid.theta_d)),
+        ("theta_h", TensorType::F32, vec![1, theta_h], angles(&grid.theta_h)),
+        ("wvls", TensorType::U16, vec![1], wavelengths),
+        ("M", TensorType::F32, grid.lengths().to_vec(), Vec::new()),
     ];
-    let entry_length = |(name, _, shape, _): &(&str, u8, Vec<usize>, Vec<u8>)| 2 + name.len() + 2 + 1 + 8 + 8 * shape.len();
+    let entry_length = |(name, _, shape, _): &(&str, TensorType, Vec<usize>, Vec<u8>)| 2 + name.len() + 2 + 1 + 8 + 8 * shape.len();
     let mut offset = MAGIC.len() + 2 + 4 + fields.iter().map(entry_length).sum::<usize>();
     let mut head = MAGIC.to_vec();
     head.extend([1, 0]);
@@ -169,7 +174,7 @@ fn write_head(grid: &TensorGrid, wavelength_nm: u16, out: &mut impl Write) -> io
         head.extend(short(name.len()));
         head.extend(name.as_bytes());
         head.extend(short(shape.len()));
-        head.push(kind);
+        head.push(kind.code());
         head.extend((offset as u64).to_le_bytes());
         shape.iter().for_each(|&length| head.extend((length as u64).to_le_bytes()));
         offset += data.len();

@@ -32,7 +32,7 @@ pub struct Simulation {
     pub surface: Pbrdf,
     /// Angles of incidence in degrees.
     pub theta_i: Vec<f64>,
-    /// Angles of view in degrees; negative ones on the backscatter side, with Δφ = 180 alone.
+    /// Angles of view in degrees; negative is the backscatter side, allowed only with Δφ = 180.
     pub theta_r: Vec<f64>,
     /// Relative azimuth in degrees.
     pub dphi: f64,
@@ -46,7 +46,10 @@ pub struct Simulation {
     pub seed: u64,
 }
 
-/// Every θr for every θi, in degrees; a negative θr with Δφ = 180 alone, as the backscatter side.
+/// Every θr for every θi, in degrees. A negative θr is the backscatter side, allowed only with Δφ = 180.
+///
+/// # Errors
+/// An angle is outside its range.
 pub fn grid_geometries(theta_i: &[f64], theta_r: &[f64], dphi: f64) -> Result<Vec<Geometry>, GeometryError> {
     let mut geometries = Vec::with_capacity(theta_i.len() * theta_r.len());
     for &theta_i in theta_i {
@@ -59,12 +62,18 @@ pub fn grid_geometries(theta_i: &[f64], theta_r: &[f64], dphi: f64) -> Result<Ve
 }
 
 impl Simulation {
-    /// Where is measured, row after row of θr for each θi.
+    /// The geometries, row after row of θr for each θi.
+    ///
+    /// # Errors
+    /// An angle is outside its range.
     pub fn geometries(&self) -> Result<Vec<Geometry>, GeometryError> {
         grid_geometries(&self.theta_i, &self.theta_r, self.dphi)
     }
 
-    /// Makes the measurement, in the order of the geometries.
+    /// Simulates the measurement, in the order of the geometries.
+    ///
+    /// # Errors
+    /// An angle is outside its range.
     pub fn run(&self) -> Result<Measurement, GeometryError> {
         let geometries = self.geometries()?;
         let mut deviates = Deviates::new(self.seed);
@@ -85,7 +94,7 @@ impl Simulation {
         Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), lines: Vec::new(), ignored_columns: Vec::new() })
     }
 
-    /// What is said of the rows: that they are simulated, from what, and how.
+    /// Metadata: that the rows are simulated, the model, its parameters, the noise and the seed.
     fn metadata(&self) -> Vec<(String, String)> {
         let model = self.surface.model();
         let parameters: &Parameters = self.surface.parameters();

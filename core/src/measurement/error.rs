@@ -1,0 +1,246 @@
+//! Why a text file cannot be read, and where.
+
+use crate::measurement::{ColumnChoice, Expected, Field, Hint};
+
+/// A column in a message.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ColumnPlace {
+    /// Number, from 1.
+    pub number: usize,
+    /// Name in the header; empty where the fault was found before the header was.
+    pub name: String,
+}
+
+/// Why a table cannot be read, and where.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{kind}", Place(*line, column.as_ref()))]
+pub struct ReadError {
+    /// Line from 1, where there is one.
+    pub line: Option<u64>,
+    /// Column, where there is one.
+    pub column: Option<ColumnPlace>,
+    /// What is wrong.
+    pub kind: ReadErrorKind,
+}
+
+struct Place<'a>(Option<u64>, Option<&'a ColumnPlace>);
+
+impl std::fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.0, self.1) {
+            (Some(line), Some(column)) if column.name.is_empty() => write!(f, "line {line}, column {}: ", column.number),
+            (Some(line), Some(column)) => write!(f, "line {line}, column {} ({}): ", column.number, column.name),
+            (Some(line), None) => write!(f, "line {line}: "),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What is wrong with a table.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadErrorKind {
+    /// Not a byte, or nothing but comments.
+    #[error("the file is empty; expected a header and rows")]
+    Empty,
+    /// A header and no row.
+    #[error("there is a header but no row under it")]
+    HeaderOnly,
+    /// The first row holds numbers.
+    #[error("there is no header: found {found:?}, expected column names such as theta_i, theta_r, dolp")]
+    NoHeader {
+        /// First cell.
+        found: String,
+    },
+    /// A column that has to be there.
+    #[error("the column {name} is missing from the header{}", Similar(.similar.as_deref()))]
+    MissingColumn {
+        /// Its name.
+        name: &'static str,
+        /// A column that differs in capitals alone.
+        similar: Option<String>,
+    },
+    /// Neither quantity.
+    #[error("neither dolp nor brdf is in the header; at least one is needed; the columns are {names}", names = .names.join(", "))]
+    NoQuantity {
+        /// The names in the header.
+        names: Vec<String>,
+    },
+    /// The same column twice, or two names for one quantity.
+    #[error("the column stands for the same quantity as column {first}; only one is allowed")]
+    RepeatedColumn {
+        /// Number of the first one, from 1.
+        first: usize,
+    },
+    /// A row of another length than the header.
+    #[error("the row has {found} cells; expected {expected}, as in the header")]
+    RowLength {
+        /// Its number of cells.
+        found: usize,
+        /// That of the header.
+        expected: usize,
+        /// What separates the cells.
+        separator: char,
+    },
+    /// A cell that has to be filled.
+    #[error("the cell is empty; expected {expected}")]
+    EmptyCell {
+        /// What was expected.
+        expected: Expected,
+    },
+    /// A row that measures nothing.
+    #[error("neither DoLP nor BRDF is given in this row")]
+    NoData,
+    /// A standard deviation of nothing.
+    #[error("a standard deviation stands beside an empty value")]
+    SigmaWithoutValue,
+    /// Text in place of a number.
+    #[error("found {found:?}, expected {expected}")]
+    NotANumber {
+        /// The cell.
+        found: String,
+        /// What was expected.
+        expected: Expected,
+    },
+    /// A number outside its range, infinite, or not a number at all.
+    #[error("found {found}, expected {expected}")]
+    OutOfRange {
+        /// The cell.
+        found: String,
+        /// What was expected.
+        expected: Expected,
+    },
+    /// A negative θr where Δφ says another side.
+    #[error("found {found} with dphi = {dphi}: a negative theta_r is the backscatter side, allowed only where dphi is absent or 180")]
+    NegativeThetaR {
+        /// The cell.
+        found: String,
+        /// Δφ of the row in degrees.
+        dphi: f64,
+    },
+    /// Nothing but white space, where a header is not what is missing.
+    #[error("the file is empty")]
+    EmptyText,
+    /// A line that is not of the kind its place asks for.
+    #[error("found {found:?}, expected {expected}")]
+    Unexpected {
+        /// What stands there.
+        found: String,
+        /// What was expected.
+        expected: Expected,
+    },
+    /// A row with too few or too many numbers.
+    #[error("the row has {found} numbers; expected {expected}", expected = RowNumbers(*.without_sigmas, *.with_sigmas))]
+    Numbers {
+        /// How many.
+        found: usize,
+        /// How many there are without standard deviations.
+        without_sigmas: usize,
+        /// How many there are with standard deviations.
+        with_sigmas: usize,
+    },
+    /// Ellipsometry without a row of ψ and Δ.
+    #[error("there is no row of psi and delta")]
+    NoPsi,
+    /// A column that a mapping names and the table lacks.
+    #[error("there is no column {found} for {field}; the columns are {names}", names = .names.join(", "))]
+    UnknownColumn {
+        /// What it is for.
+        field: Field,
+        /// Its name or number.
+        found: ColumnChoice,
+        /// The names in the header.
+        names: Vec<String>,
+    },
+    /// A field that a mapping has to name and does not.
+    #[error("no column is named for {field}")]
+    NotMapped {
+        /// What is missing.
+        field: Field,
+    },
+    /// A mapping that names neither quantity.
+    #[error("no column is named for dolp or brdf")]
+    NoQuantityMapped,
+    /// A NUL byte.
+    #[error("found a NUL byte; expected plain text (UTF-8)")]
+    Nul,
+    /// UTF-16 by its byte order mark.
+    #[error("the file is UTF-16; expected plain text (UTF-8)")]
+    Utf16,
+    /// A quote that its line does not close.
+    #[error("a quote is not closed on its line")]
+    UnclosedQuote,
+    /// Stopped on request.
+    #[error("reading was cancelled")]
+    Cancelled,
+    /// The source failed.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+}
+
+struct Similar<'a>(Option<&'a str>);
+
+impl std::fmt::Display for Similar<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.map_or(Ok(()), |found| write!(f, "; found {found:?}, but names are lower case"))
+    }
+}
+
+struct RowNumbers(usize, usize);
+
+impl std::fmt::Display for RowNumbers {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(without, with) = self;
+        let sigmas = if with - without == 1 { "a standard deviation" } else { "standard deviations" };
+        write!(f, "{without}, or {with} with {sigmas}")
+    }
+}
+
+impl ReadErrorKind {
+    /// An error at no particular place.
+    pub(crate) fn anywhere(self) -> ReadError {
+        ReadError { line: None, column: None, kind: self }
+    }
+
+    /// An error of a line as a whole.
+    pub(crate) fn at_line(self, line: u64) -> ReadError {
+        ReadError { line: Some(line), column: None, kind: self }
+    }
+}
+
+/// What laboratories write for a value that was not measured.
+const NOT_MEASURED: [&str; 9] = ["nan", "na", "n/a", "n.a.", "#n/a", "#div/0!", "-", "--", "null"];
+
+impl ReadError {
+    /// Whether a table fails for the names of its columns alone, so that it may be a foreign one.
+    #[must_use]
+    pub fn is_about_names(&self) -> bool {
+        matches!(self.kind, ReadErrorKind::MissingColumn { .. } | ReadErrorKind::NoQuantity { .. } | ReadErrorKind::NoHeader { .. })
+    }
+
+    /// What helps, where something does.
+    #[must_use]
+    pub fn hint(&self) -> Option<Hint> {
+        match &self.kind {
+            ReadErrorKind::MissingColumn { similar: None, .. } | ReadErrorKind::NoQuantity { .. } | ReadErrorKind::NoHeader { .. } => {
+                Some(Hint::Import)
+            }
+            ReadErrorKind::RowLength { found, expected, separator: ',' } if found > expected => Some(Hint::SeparateBySemicolons),
+            ReadErrorKind::NotANumber { found, expected } | ReadErrorKind::OutOfRange { found, expected } => cell_hint(found, *expected),
+            ReadErrorKind::Nul | ReadErrorKind::Utf16 => Some(Hint::SaveAsUtf8),
+            _ => None,
+        }
+    }
+}
+
+/// What helps where a cell is not what was expected.
+fn cell_hint(found: &str, expected: Expected) -> Option<Hint> {
+    if expected.may_be_empty() && NOT_MEASURED.contains(&found.to_lowercase().as_str()) {
+        Some(Hint::LeaveEmpty)
+    } else if expected == Expected::Dolp && found.replace(',', ".").parse().is_ok_and(|value: f64| value > 1.0 && value <= 100.0) {
+        Some(Hint::NameDolpPercent)
+    } else if found.contains(',') && found.contains('.') {
+        Some(Hint::OneDecimalMark)
+    } else {
+        None
+    }
+}

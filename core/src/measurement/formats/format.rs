@@ -1,0 +1,70 @@
+//! What every form of foreign file has in common.
+
+use super::error::ImportError;
+use super::note::ImportNote;
+use super::question::{ImportOptions, Question};
+use crate::measurement::{Measurement, Progress, unwatched};
+
+/// A form of files that is recognised by its content.
+pub trait Format: Sync {
+    /// The form in a sentence: `Woollam ellipsometry text`.
+    fn name(&self) -> &'static str;
+
+    /// What the import makes of such a file, for the help of the command line.
+    fn help(&self) -> &'static str;
+
+    /// Usual endings of the names of such files.
+    fn extensions(&self) -> &'static [&'static str];
+
+    /// Whether bytes look like such a file.
+    fn sniff(&self, bytes: &[u8]) -> bool;
+
+    /// Reads the file as far as the questions need.
+    ///
+    /// # Errors
+    /// The file is damaged, or `progress` stops the reading.
+    fn open(&self, bytes: Vec<u8>, progress: Progress<'_>) -> Result<Box<dyn ForeignFile>, ImportError>;
+}
+
+/// A foreign file in memory.
+pub trait ForeignFile: Send + Sync {
+    /// What the import makes of the file, in one sentence; empty where the questions say it.
+    fn summary(&self) -> &'static str;
+
+    /// What has to be told before there is a measurement.
+    fn questions(&self) -> Vec<Question>;
+
+    /// Notices that no answer changes.
+    fn notes(&self) -> Vec<ImportNote> {
+        Vec::new()
+    }
+
+    /// The measurement.
+    ///
+    /// # Errors
+    /// An answer is missing or does not fit the file, the file is damaged, or `progress` stops the
+    /// reading.
+    fn import(&self, options: &ImportOptions, progress: Progress<'_>) -> Result<Imported, ImportError>;
+
+    /// The first rows of the measurement, without delay.
+    ///
+    /// # Errors
+    /// An answer is missing or does not fit the file, or the first rows are damaged.
+    fn preview(&self, options: &ImportOptions) -> Result<Imported, ImportError> {
+        self.import(options, &mut unwatched)
+    }
+
+    /// Whether a preview holds every row.
+    fn preview_is_whole(&self) -> bool {
+        true
+    }
+}
+
+/// A measurement and the notices of its import.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Imported {
+    /// The measurement.
+    pub measurement: Measurement,
+    /// The notices.
+    pub notes: Vec<ImportNote>,
+}

@@ -1,0 +1,25 @@
+//! The forms of files that become measurements, one file a form.
+//!
+//! A new form is one file with a [`Format`] and one line in [`FORMATS`]. What a form has to be told is a
+//! [`Question`], what it has to say an [`ImportNote`]; the command line and the window know these alone.
+
+mod error;
+mod format;
+mod native;
+mod note;
+mod pbsdf;
+mod question;
+mod recognition;
+mod table;
+mod woollam;
+
+pub use error::ImportError;
+pub use format::{ForeignFile, Format, Imported};
+pub use native::{append_columns, exact};
+pub use note::ImportNote;
+pub use pbsdf::{
+    TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, is_tensor, write_tensor,
+};
+pub use question::{ImportOptions, Question, TableSample};
+pub use recognition::{FORMATS, Opened, extensions, open, recognise};
+pub use woollam::is_woollam;

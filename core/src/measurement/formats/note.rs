@@ -1,0 +1,87 @@
+//! What an import has to say besides its measurement.
+
+/// A notice about an import: nothing is left out or changed silently.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ImportNote {
+    /// Columns that the measurement does not use.
+    IgnoredColumns {
+        /// Their names in the order of the file; empty for a column without a name.
+        names: Vec<String>,
+    },
+    /// Rows of a quantity that the measurement does not use.
+    IgnoredRows {
+        /// The quantity.
+        name: String,
+        /// How many rows.
+        count: usize,
+    },
+    /// Depolarisation goes to the metadata.
+    DepolarisationNotApplied {
+        /// How many rows.
+        count: usize,
+    },
+    /// The wavelength asked for is not in the file.
+    NearestWavelength {
+        /// The wavelength asked for, in nm.
+        wanted_nm: f64,
+        /// The wavelengths taken, ascending, in nm.
+        taken_nm: Vec<f64>,
+    },
+    /// An angle of incidence is left out.
+    NoWavelengthNear {
+        /// The angle in degrees.
+        theta_i: f64,
+    },
+    /// Grids whose angles the file does not give.
+    AssumedGrids {
+        /// Their names.
+        names: Vec<&'static str>,
+    },
+    /// Geometries without a value are left out.
+    NoValue {
+        /// How many.
+        count: usize,
+    },
+    /// A DoLP above 1 is left out.
+    DolpAboveOne {
+        /// How many.
+        count: usize,
+    },
+}
+
+impl ImportNote {
+    /// The notice where the wavelengths taken are not the one asked for.
+    pub(crate) fn nearest(wanted_nm: Option<f64>, taken_nm: &[f64]) -> Option<Self> {
+        let wanted_nm = wanted_nm.filter(|wanted| taken_nm != [*wanted])?;
+        Some(Self::NearestWavelength { wanted_nm, taken_nm: taken_nm.to_vec() })
+    }
+}
+
+/// As it follows the name of the file: `has no 650 nm; the nearest was taken, 649.5 nm`.
+impl std::fmt::Display for ImportNote {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::IgnoredColumns { names } => {
+                let named = |name: &String| if name.is_empty() { "without a name".to_owned() } else { name.clone() };
+                let noun = if names.len() == 1 { "column" } else { "columns" };
+                write!(f, "ignored the {noun} {}", names.iter().map(named).collect::<Vec<_>>().join(", "))
+            }
+            Self::IgnoredRows { name, count } => write!(f, "ignored {count} rows of {name}"),
+            Self::DepolarisationNotApplied { count } => {
+                write!(f, "{count} rows of depolarisation (dpolE) are named in the metadata, not applied to DoLP")
+            }
+            Self::NearestWavelength { wanted_nm, taken_nm } => {
+                let taken = taken_nm.iter().map(f64::to_string).collect::<Vec<_>>().join(" and ");
+                write!(f, "has no {wanted_nm} nm; the nearest was taken, {taken} nm")
+            }
+            Self::NoWavelengthNear { theta_i } => {
+                write!(f, "left out θi = {theta_i}°, which has no wavelength near the one asked for")
+            }
+            Self::AssumedGrids { names } => {
+                write!(f, "gives no angles for {}; they are taken to be even over their whole range", names.join(", "))
+            }
+            Self::NoValue { count } => write!(f, "left out {count} geometries without a value"),
+            Self::DolpAboveOne { count } => write!(f, "left out the DoLP of {count} geometries where it is above 1"),
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Turns the records of a table into rows of a measurement.
+
+use crate::measurement::{
+    ColumnChoice, Expected, Field, MappedColumn, Mapping, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Record, Row, Table,
+    Unit,
+};
+use crate::optics::Geometry;
+
+/// Which column holds what.
+pub(crate) struct RowReader {
+    theta_i: AngleSource,
+    theta_r: AngleSource,
+    dphi: Option<AngleSource>,
+    dolp: Option<QuantitySource>,
+    brdf: Option<QuantitySource>,
+    masked: Option<usize>,
+}
+
+/// Where an angle stands, and in which unit.
+#[derive(Clone, Copy)]
+enum AngleSource {
+    Column {
+        column: usize,
+        unit: Unit,
+    },
+    /// The same angle in every row, in degrees.
+    Constant(f64),
+}
+
+/// Where a quantity and its standard deviation stand, and which values are allowed there.
+struct QuantitySource {
+    value: usize,
+    sigma: Option<usize>,
+    /// One over the unit of the value column: 100 for percent.
+    per_unit: f64,
+    /// One over the unit of the column of the standard deviation.
+    sigma_per_unit: f64,
+    maximum: f64,
+    expected: Expected,
+}
+
+impl RowReader {
+    /// The reader of this project's own columns.
+    pub(crate) fn native(table: &Table) -> Result<Self, ReadError> {
+        let no_quantity = || table.header_error(ReadErrorKind::NoQuantity { names: table.titles() });
+        let guess = Mapping::guess(table.header(), &[]);
+        if guess.find(Field::ThetaR).is_some() && !guess.has_quantity() {
+            // Whatever the names of the angles, the quantity is what the table lacks.
+            return Err(no_quantity());
+        }
+        let (theta_i, theta_r) = (table.require("theta_i")?, table.require("theta_r")?);
+        let (fraction, percent) = (table.find("dolp")?, table.find("dolp_percent")?);
+        if let (Some(a), Some(b)) = (fraction, percent) {
+            return Err(table.repeated(a.min(b), a.max(b)));
+        }
+        let (dolp_sigma, brdf_sigma) = (table.find("dolp_sigma")?, table.find("brdf_sigma")?);
+        let with_sigma = |sigma: Option<usize>| sigma.map(|column| (column, Unit::Native));
+        let dolp = fraction.map(|column| (column, Unit::Native)).or(percent.map(|column| (column, Unit::Percent)));
+        let dolp = dolp.map(|value| QuantitySource::new(Field::Dolp, value, with_sigma(dolp_sigma)));
+        let brdf = table.find("brdf")?.map(|column| QuantitySource::new(Field::Brdf, (column, Unit::Native), with_sigma(brdf_sigma)));
+        if dolp.is_none() && brdf.is_none() {
+            return Err(no_quantity());
+        }
+        let degrees = |column| AngleSource::Column { column, unit: Unit::Native };
+        let (theta_i, theta_r) = (degrees(theta_i), degrees(theta_r));
+        Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?.map(degrees), dolp, brdf, masked: table.find("masked")? })
+    }
+
+    /// The reader of the columns that a mapping names.
+    pub(crate) fn mapped(table: &Table, mapping: &Mapping) -> Result<Self, ReadError> {
+        let angle = |field| -> Result<Option<AngleSource>, ReadError> {
+            let column = place(mapping, field, table)?.map(|(column, unit)| AngleSource::Column { column, unit });
+            Ok(column.or(mapping.constant(field).map(AngleSource::Constant)))
+        };
+        let require = |field: Field| angle(field)?.ok_or_else(|| table.header_error(ReadErrorKind::NotMapped { field }));
+        let source = |field, sigma_field| -> Result<Option<QuantitySource>, ReadError> {
+            let (value, sigma) = (place(mapping, field, table)?, place(mapping, sigma_field, table)?);
+            Ok(value.map(|value| QuantitySource::new(field, value, sigma)))
+        };
+        let (dolp, brdf) = (source(Field::Dolp, Field::DolpSigma)?, source(Field::Brdf, Field::BrdfSigma)?);
+        if dolp.is_none() && brdf.is_none() {
+            return Err(table.header_error(ReadErrorKind::NoQuantityMapped));
+        }
+        let masked = place(mapping, Field::Masked, table)?.map(|(column, _)| column);
+        Ok(Self { theta_i: require(Field::ThetaI)?, theta_r: require(Field::ThetaR)?, dphi: angle(Field::Dphi)?, dolp, brdf, masked })
+    }
+
+    /// All rows of the table as a measurement.
+    pub(crate) fn read(&self, table: &Table, ignored_columns: Vec<String>, progress: Progress<'_>) -> Result<Measurement, ReadError> {
+        let (mut rows, mut lines) = (Vec::new(), Vec::new());
+        table.for_each(progress, |record| {
+            rows.push(self.row(record)?);
+            lines.push(record.line());
+            Ok(())
+        })?;
+        Ok(Measurement { metadata: table.metadata().to_vec(), rows, lines, ignored_columns })
+    }
+
+    fn row(&self, record: &Record<'_>) -> Result<Row, ReadError> {
+        let geometry = self.geometry(record)?;
+        let dolp = self.dolp.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
+        let brdf = self.brdf.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
+        if dolp.is_none() && brdf.is_none() {
+            return Err(record.row_error(ReadErrorKind::NoData));
+        }
+        let masked = match self.masked {
+            Some(column) => match record.optional(column, Expected::Mask)? {
+                None | Some(0.0) => false,
+                Some(1.0) => true,
+                Some(_) => return Err(record.out_of_range(column, Expected::Mask)),
+            },
+            None => false,
+        };
+        Ok(Row { geometry, dolp, brdf, masked })
+    }
+
+    fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
+        let theta_i = self.theta_i.degrees(record, Expected::ThetaI)?;
+        if !(0.0..90.0).contains(&theta_i) {
+            return Err(self.theta_i.out_of_range(record, Expected::ThetaI));
+        }
+        let theta_r = self.theta_r.degrees(record, Expected::ThetaR)?;
+        if theta_r.abs() >= 90.0 {
+            return Err(self.theta_r.out_of_range(record, Expected::ThetaR));
+        }
+        let dphi = self.dphi.map_or(Ok(180.0), |angle| angle.degrees(record, Expected::Dphi))?;
+        if theta_r < 0.0 && dphi != 180.0 {
+            return Err(self.theta_r.error(record, |found| ReadErrorKind::NegativeThetaR { found, dphi }));
+        }
+        let geometry = if theta_r < 0.0 { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) };
+        geometry.map_err(|_| self.theta_r.out_of_range(record, Expected::ThetaR))
+    }
+}
+
+impl AngleSource {
+    fn degrees(self, record: &Record<'_>, expected: Expected) -> Result<f64, ReadError> {
+        let degrees = match self {
+            Self::Column { column, unit: Unit::Radians } => record.number(column, expected)?.to_degrees(),
+            Self::Column { column, .. } => record.number(column, expected)?,
+            Self::Constant(degrees) => degrees,
+        };
+        if degrees.is_finite() { Ok(degrees) } else { Err(self.out_of_range(record, expected)) }
+    }
+
+    /// An error at the cell of the angle; a constant has no place in the file.
+    fn error(self, record: &Record<'_>, kind: impl FnOnce(String) -> ReadErrorKind) -> ReadError {
+        match self {
+            Self::Column { column, .. } => record.error(column, kind(record.text(column))),
+            Self::Constant(degrees) => kind(degrees.to_string()).anywhere(),
+        }
+    }
+
+    fn out_of_range(self, record: &Record<'_>, expected: Expected) -> ReadError {
+        self.error(record, |found| ReadErrorKind::OutOfRange { found, expected })
+    }
+}
+
+impl QuantitySource {
+    fn new(field: Field, (value, unit): (usize, Unit), sigma: Option<(usize, Unit)>) -> Self {
+        let per_unit = |unit| if unit == Unit::Percent { 100.0 } else { 1.0 };
+        let (maximum, expected) = match (field, unit) {
+            (Field::Brdf, _) => (f64::MAX, Expected::Brdf),
+            (_, Unit::Percent) => (100.0, Expected::DolpPercent),
+            _ => (1.0, Expected::Dolp),
+        };
+        let sigma_per_unit = sigma.map_or(1.0, |(_, unit)| per_unit(unit));
+        Self { value, sigma: sigma.map(|(column, _)| column), per_unit: per_unit(unit), sigma_per_unit, maximum, expected }
+    }
+
+    fn quantity(&self, record: &Record<'_>) -> Result<Option<Quantity>, ReadError> {
+        let value = record.optional(self.value, self.expected)?;
+        if value.is_some_and(|value| !(0.0..=self.maximum).contains(&value)) {
+            return Err(record.out_of_range(self.value, self.expected));
+        }
+        let mut sigma = None;
+        if let Some(column) = self.sigma {
+            sigma = record.optional(column, Expected::Sigma)?;
+            if sigma.is_some_and(|sigma| sigma <= 0.0) {
+                return Err(record.out_of_range(column, Expected::Sigma));
+            }
+            if value.is_none() && sigma.is_some() {
+                return Err(record.error(column, ReadErrorKind::SigmaWithoutValue));
+            }
+        }
+        Ok(value.map(|value| Quantity {
+            value: value / self.per_unit,
+            sigma: sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0),
+        }))
+    }
+}
+
+/// Index and unit of the column of a field in a table.
+pub(crate) fn place(mapping: &Mapping, field: Field, table: &Table) -> Result<Option<(usize, Unit)>, ReadError> {
+    let Some(MappedColumn { column, unit, .. }) = mapping.find(field) else { return Ok(None) };
+    let index = match column {
+        ColumnChoice::Name(name) => table.find(name)?,
+        ColumnChoice::Number(number) => number.checked_sub(1).filter(|&index| index < table.header().len()),
+    };
+    let unknown = || table.header_error(ReadErrorKind::UnknownColumn { field, found: column.clone(), names: table.titles() });
+    Ok(Some((index.ok_or_else(unknown)?, *unit)))
+}
