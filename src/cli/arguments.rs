@@ -1,12 +1,11 @@
-//! What can be asked on the command line.
+//! The arguments of the command line.
 
 use crate::cli::values;
 use crate::cli::values::{Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use pbrdf::fit;
-use pbrdf::measurement;
+use pbrdf::fit::{BrdfResiduals, DolpFormula, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
-use pbrdf::measurement::{Mapping, TensorResolution};
+use pbrdf::measurement::{Columns, Mapping, TensorResolution};
 use pbrdf::model::{Parameter, Preset};
 use std::path::PathBuf;
 
@@ -18,48 +17,39 @@ use std::path::PathBuf;
 pub struct Arguments {
     /// What to do without a window.
     #[command(subcommand)]
-    pub task: Option<Task>,
+    pub command: Option<Commands>,
     /// Measurement to open in the window.
     pub file: Option<PathBuf>,
 }
 
 /// The commands.
 #[derive(Debug, Subcommand)]
-pub enum Task {
+pub enum Commands {
     /// Evaluate the model, one row of parameters and angles after the other.
-    Evaluate(Evaluate),
+    Evaluate(EvaluateArguments),
     /// Fit the model to a measurement.
-    Fit(Box<Fit>),
+    Fit(Box<FitArguments>),
     /// Simulate a measurement.
-    Simulate(Simulate),
+    Simulate(SimulateArguments),
     /// Fit several models to one measurement.
-    Compare(Box<Compare>),
+    Compare(Box<CompareArguments>),
     /// Predict standard errors from a choice of angles.
-    PlanArguments(PlanArguments),
-    /// ReportArguments on error against run time, on numerical stability, or on the cost of each term.
-    ReportArguments(ReportArguments),
+    Plan(PlanArguments),
+    /// Report on error against run time, on numerical stability, or on the cost of each term.
+    Report(ReportArguments),
     /// Turn a foreign file into a measurement.
-    ImportArguments(ImportArguments),
+    Import(ImportArguments),
     /// Write a surface for another program.
     #[command(subcommand)]
-    Export(Export),
+    Export(ExportTarget),
     /// List tabulated refractive indices of metals, source by source.
-    Metals(Metals),
-}
-
-/// Arguments of a command that is announced but not built.
-#[derive(Debug, Args)]
-#[command(disable_help_flag = true)]
-pub struct Later {
-    /// Whatever follows.
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-    pub rest: Vec<String>,
+    Metals(MetalsArguments),
 }
 
 /// `evaluate`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Evaluate {
+pub struct EvaluateArguments {
     /// Table with the columns distribution, the nine parameters, theta_i, theta_r and dphi (180 if absent).
     pub input: PathBuf,
     /// File to write; standard output without.
@@ -76,14 +66,14 @@ pub struct Evaluate {
 /// `fit`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Fit {
+pub struct FitArguments {
     /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
     pub input: PathBuf,
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
     #[command(flatten)]
-    pub options: FitArguments,
+    pub problem: ProblemArguments,
     /// Scan these parameters: hold each on a grid and fit the rest again, for an honest interval.
     #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
     pub profile: Vec<Parameter>,
@@ -107,14 +97,14 @@ pub struct Fit {
 /// `compare`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Compare {
+pub struct CompareArguments {
     /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
     pub input: PathBuf,
     /// Models to compare; all without.
     #[arg(long, value_delimiter = ',', value_parser = values::preset)]
     pub models: Vec<&'static Preset>,
     #[command(flatten)]
-    pub options: FitArguments,
+    pub problem: ProblemArguments,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -122,7 +112,7 @@ pub struct Compare {
 
 /// What `fit` and `compare` have in common.
 #[derive(Debug, Args)]
-pub struct FitArguments {
+pub struct ProblemArguments {
     /// Values to start from, such as n=2,k=3; defaults for the rest.
     #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
     pub start: Vec<Assignment>,
@@ -142,19 +132,19 @@ pub struct FitArguments {
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// What divides the residuals.
-    #[arg(long, value_enum, default_value_t = Weights::None)]
+    #[arg(long, default_value = "none", value_parser = values::weights())]
     pub weights: Weights,
     /// How BRDF residuals are formed.
-    #[arg(long, value_enum, default_value_t = BrdfResiduals::Relative)]
+    #[arg(long, default_value = "relative", value_parser = values::brdf_residuals())]
     pub brdf_residuals: BrdfResiduals,
     /// How a residual counts: robust losses spare outliers.
-    #[arg(long, value_enum, default_value_t = Loss::Squared)]
+    #[arg(long, default_value = "linear", value_parser = values::loss())]
     pub loss: Loss,
     /// Where a robust loss begins to spare, in units of X − Xm; without, 1.345 × normalised MAD of the residuals.
     #[arg(long, value_parser = values::positive)]
     pub loss_scale: Option<f64>,
     /// Which reading of Eq. (17) predicts DoLP; printed leaves k_s out of the numerator.
-    #[arg(long, value_enum, default_value_t = DolpFormula::Consistent)]
+    #[arg(long, default_value = "consistent", value_parser = values::dolp_formula())]
     pub eq17: DolpFormula,
 }
 
@@ -163,9 +153,9 @@ pub struct FitArguments {
 #[command(allow_negative_numbers = true)]
 pub struct PlanArguments {
     #[command(flatten)]
-    pub surface: Surface,
+    pub surface: SurfaceArguments,
     #[command(flatten)]
-    pub angles: Angles,
+    pub angles: AngleArguments,
     /// Standard deviation of the noise in DoLP, absolute.
     #[arg(long, default_value_t = 0.005, value_parser = values::positive)]
     pub noise: f64,
@@ -173,7 +163,7 @@ pub struct PlanArguments {
     #[arg(long, default_value_t = 0.02, value_parser = values::positive)]
     pub brdf_noise: f64,
     /// What is measured.
-    #[arg(long, value_enum, default_value_t = Columns::Dolp)]
+    #[arg(long, default_value = "dolp", value_parser = values::columns())]
     pub columns: Columns,
     /// Parameters that are known.
     #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
@@ -188,7 +178,7 @@ pub struct PlanArguments {
 
 /// A model with values.
 #[derive(Debug, Args)]
-pub struct Surface {
+pub struct SurfaceArguments {
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
@@ -199,7 +189,7 @@ pub struct Surface {
 
 /// Where is measured.
 #[derive(Debug, Args)]
-pub struct Angles {
+pub struct AngleArguments {
     /// Angles of incidence in degrees: a list 30,40,50 or a range 10:80:10.
     #[arg(long, value_parser = values::grid)]
     pub theta_i: Grid,
@@ -251,17 +241,17 @@ without dphi from --dphi. Without --columns a guess is offered, not applied.";
 
 /// `export`.
 #[derive(Debug, Subcommand)]
-pub enum Export {
+pub enum ExportTarget {
     /// A tensor of Mueller matrices, .pbsdf, for the plugin measured_polarized of Mitsuba 3.
-    Mitsuba(Mitsuba),
+    Mitsuba(MitsubaArguments),
 }
 
 /// `export mitsuba`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Mitsuba {
+pub struct MitsubaArguments {
     #[command(flatten)]
-    pub surface: Surface,
+    pub surface: SurfaceArguments,
     /// What the file says of its one band, in nm; Mitsuba takes it for every wavelength.
     #[arg(long, value_name = "NM", default_value_t = 550, value_parser = clap::value_parser!(u16).range(1..))]
     pub wavelength: u16,
@@ -276,7 +266,7 @@ pub struct Mitsuba {
 /// `metals`.
 #[derive(Debug, Args)]
 #[command(after_help = METALS_HELP)]
-pub struct Metals {
+pub struct MetalsArguments {
     /// Symbol or name, such as Cu or copper; all metals without.
     pub name: Option<String>,
     /// Vacuum wavelength in nm at which to give n and k, linear between tabulated ones.
@@ -298,13 +288,13 @@ JSON: {\"wavelength_nm\": number or null, \"rows\": [...]}, one flat row per sou
 /// `simulate`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-pub struct Simulate {
+pub struct SimulateArguments {
     #[command(flatten)]
-    pub surface: Surface,
+    pub surface: SurfaceArguments,
     #[command(flatten)]
-    pub angles: Angles,
+    pub angles: AngleArguments,
     /// What is measured.
-    #[arg(long, value_enum, default_value_t = Columns::Dolp)]
+    #[arg(long, default_value = "dolp", value_parser = values::columns())]
     pub columns: Columns,
     /// Standard deviation of the noise in DoLP, absolute.
     #[arg(long, default_value_t = 0.0, value_parser = values::not_negative)]
@@ -353,74 +343,5 @@ impl ReportSubject {
             Self::Stability => "stability",
             Self::Cost => "cost",
         }
-    }
-}
-
-/// Options of the core under their names on the command line.
-macro_rules! choice {
-    ($(#[$doc:meta])* $name:ident => $core:path { $($(#[$variant_doc:meta])* $variant:ident),* }) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, ValueEnum)]
-        pub enum $name { $($(#[$variant_doc])* $variant,)* }
-
-        impl From<$name> for $core {
-            fn from(choice: $name) -> Self {
-                match choice { $($name::$variant => Self::$variant,)* }
-            }
-        }
-    };
-}
-
-choice! {
-    /// What divides the residuals.
-    Weights => fit::Weights {
-        /// Nothing: Eq. (18).
-        None,
-        /// The stated standard deviations: χ².
-        Sigma
-    }
-}
-choice! {
-    /// How BRDF residuals are formed.
-    BrdfResiduals => fit::BrdfResiduals {
-        /// X − Xm.
-        Absolute,
-        /// (X − Xm)/Xm.
-        Relative,
-        /// ln X − ln Xm.
-        Log
-    }
-}
-choice! {
-    /// How a residual counts.
-    Loss => fit::Loss {
-        /// By its square.
-        #[value(name = "linear")]
-        Squared,
-        /// By its square up to the scale, by its size beyond.
-        Huber,
-        /// The same with a smooth passage.
-        SoftL1
-    }
-}
-choice! {
-    /// Which reading of Eq. (17) predicts DoLP.
-    DolpFormula => fit::DolpFormula {
-        /// k_s inside the numerator.
-        Consistent,
-        /// k_s missing, as printed.
-        #[value(name = "printed")]
-        AsPrinted
-    }
-}
-choice! {
-    /// What is measured.
-    Columns => measurement::Columns {
-        /// DoLP.
-        Dolp,
-        /// BRDF.
-        Brdf,
-        /// Both.
-        Both
     }
 }

@@ -1,6 +1,6 @@
 //! `compare`: the ladder of models on one measurement, from the same starts.
 
-use crate::cli::arguments::Compare;
+use crate::cli::arguments::CompareArguments;
 use crate::cli::failure::Failure;
 use crate::cli::problem::{NoProblem, problem, starts};
 use crate::cli::watched::Watched;
@@ -14,35 +14,35 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A model with its fit, or why there is none.
-type Rung = (&'static Preset, Result<(Problem, FitResult), String>);
+type ModelResult = (&'static Preset, Result<(Problem, FitResult), String>);
 
 /// Presets that differ by their distribution alone: Gauss, Cauchy.
 const PAIRS: [(&str, &str); 2] = [("gauss", "cauchy"), ("specular-gauss", "specular")];
 
-pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let bytes = input::bytes(&task.input)?;
-    let measurement = input::measurement(&task.input, &bytes)?;
-    let presets: Vec<&'static Preset> = if task.models.is_empty() { PRESETS.iter().collect() } else { task.models.clone() };
-    let mut rungs: Vec<Rung> = Vec::new();
+    let bytes = input::bytes(&arguments.input)?;
+    let measurement = input::measurement(&arguments.input, &bytes)?;
+    let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
+    let mut results: Vec<ModelResult> = Vec::new();
     for preset in presets {
         if interrupt::asked() {
             break;
         }
-        let result = match problem(preset, &task.options, &measurement) {
+        let result = match problem(preset, &arguments.problem, &measurement) {
             Ok(problem) => {
                 let watched = Watched::new(preset.key);
                 let closures = watched.watch();
-                let report = fit(&problem, starts(&task.options), task.options.seed, closures.as_watch());
+                let report = fit(&problem, starts(&arguments.problem), arguments.problem.seed, closures.as_watch());
                 Ok((problem, report))
             }
             Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
-            Err(other) => return Err(other.about(&task.input, &measurement)),
+            Err(other) => return Err(other.about(&arguments.input, &measurement)),
         };
-        rungs.push((preset, result));
+        results.push((preset, result));
     }
-    if task.json {
-        let fits: Vec<Value> = rungs
+    if arguments.json {
+        let fits: Vec<Value> = results
             .iter()
             .map(|(preset, result)| match result {
                 Ok((_, report)) => fit_json(preset, report),
@@ -51,9 +51,9 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
             .collect();
         output::write_json(&json!({ "fits": fits }))?;
     } else {
-        let verdicts = verdicts(&rungs);
+        let verdicts = verdicts(&results);
         output::write(None, |out| {
-            print(out, &measurement, &rungs)?;
+            print(out, &measurement, &results)?;
             verdicts.iter().try_for_each(|verdict| writeln!(out, "\n{verdict}"))
         })?;
     }
@@ -61,8 +61,8 @@ pub fn run(task: &Compare) -> Result<ExitCode, Failure> {
 }
 
 /// Gauss against Cauchy, wherever both were fitted.
-fn verdicts(rungs: &[Rung]) -> Vec<String> {
-    let of = |key: &str| rungs.iter().find(|(preset, _)| preset.key == key).and_then(|(_, result)| result.as_ref().ok());
+fn verdicts(results: &[ModelResult]) -> Vec<String> {
+    let of = |key: &str| results.iter().find(|(preset, _)| preset.key == key).and_then(|(_, result)| result.as_ref().ok());
     let verdict = |&(gauss, cauchy): &(&str, &str)| {
         let watched = Watched::new("gauss at equal median slope");
         let closures = watched.watch();
@@ -76,13 +76,13 @@ fn verdicts(rungs: &[Rung]) -> Vec<String> {
 }
 
 /// Two tables: how good each model is, and what it says of each parameter, beside the truth of a simulation.
-fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::Result<()> {
+fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]) -> io::Result<()> {
     writeln!(
         out,
         "{:<16} {:>12} {:>12} {:>10} {:>5} {:>11} {:>10}  stop",
         "model", "ΔE", "χ²/dof", "AICc", "dof", "evaluations", "time/ms"
     )?;
-    for (preset, result) in rungs {
+    for (preset, result) in results {
         match result {
             Err(reason) => writeln!(out, "{:<16} skipped: {reason}", preset.key)?,
             Ok((_, report)) => {
@@ -105,7 +105,7 @@ fn print(out: &mut dyn Write, measurement: &Measurement, rungs: &[Rung]) -> io::
         }
     }
     let fitted: Vec<(&str, &FitResult)> =
-        rungs.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
+        results.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
     let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
     write!(out, "\n{:<9}", "")?;
     for (key, _) in &fitted {

@@ -1,6 +1,6 @@
 //! `evaluate`: the model, one row of parameters and angles after the other.
 
-use crate::cli::arguments::Evaluate;
+use crate::cli::arguments::EvaluateArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, exact};
@@ -18,17 +18,17 @@ struct Layout {
     dphi: Option<usize>,
 }
 
-pub fn run(task: &Evaluate) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let bytes = input::bytes(&task.input)?;
-    let rows = read(&bytes).map_err(|error| input::read_failure(&task.input, &error))?;
+    let bytes = input::bytes(&arguments.input)?;
+    let rows = read(&bytes).map_err(|error| input::read_failure(&arguments.input, &error))?;
     let mut progress = output::Progress::new("evaluating");
-    output::write(task.output.as_deref(), |out| {
-        writeln!(out, "{}", header(task).join(","))?;
+    output::write(arguments.output.as_deref(), |out| {
+        writeln!(out, "{}", header(arguments).join(","))?;
         let mut line = Vec::new();
         for (i, (surface, geometry)) in rows.iter().enumerate() {
             line.clear();
-            evaluate(task, surface, *geometry, &mut line)?;
+            evaluate(arguments, surface, *geometry, &mut line)?;
             out.write_all(&line)?;
             if i % 4096 == 0 {
                 #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress line")]
@@ -44,12 +44,12 @@ pub fn run(task: &Evaluate) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn header(task: &Evaluate) -> Vec<String> {
+fn header(arguments: &EvaluateArguments) -> Vec<String> {
     let mut names: Vec<String> = ["brdf", "dolp", "specular", "diffuse", "volume"].map(str::to_owned).into();
-    if task.mueller {
+    if arguments.mueller {
         names.extend((0..16).map(|i| format!("m{}{}", i / 4, i % 4)));
     }
-    if task.gradient {
+    if arguments.gradient {
         for quantity in ["brdf", "dolp"] {
             names.extend(Parameter::ALL.map(|parameter| format!("d{quantity}_d{}", parameter.key())));
         }
@@ -57,16 +57,16 @@ fn header(task: &Evaluate) -> Vec<String> {
     names
 }
 
-fn evaluate(task: &Evaluate, surface: &Pbrdf, geometry: Geometry, line: &mut Vec<u8>) -> io::Result<()> {
+fn evaluate(arguments: &EvaluateArguments, surface: &Pbrdf, geometry: Geometry, line: &mut Vec<u8>) -> io::Result<()> {
     let facet = Facet::new(geometry);
-    let (reflection, gradient) = if task.gradient {
+    let (reflection, gradient) = if arguments.gradient {
         let (reflection, gradient) = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
         (reflection, Some(gradient))
     } else {
         (surface.reflection(&facet), None)
     };
     let mut numbers = vec![reflection.brdf, reflection.dolp, reflection.specular, reflection.diffuse, reflection.volume];
-    if task.mueller {
+    if arguments.mueller {
         let mueller = surface.mueller(geometry);
         numbers.extend((0..16).map(|i| mueller.element(i / 4, i % 4)));
     }

@@ -1,55 +1,59 @@
 //! `fit`: the model on a measurement.
 
-use crate::cli::arguments::Fit;
+use crate::cli::arguments::FitArguments;
 use crate::cli::failure::Failure;
 use crate::cli::problem::{problem, starts};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::export;
 use crate::report::{English, FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
-use pbrdf::fit::{BootstrapEstimate, Edge, EstimateStatus, FitResult, Problem, Profile, fit};
-use pbrdf::fit::{bootstrap, profile};
+use pbrdf::fit::{
+    BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, fit, profile,
+};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let bytes = input::bytes(&task.input)?;
-    let measurement = input::measurement(&task.input, &bytes)?;
-    let problem = problem(task.model, &task.options, &measurement).map_err(|reason| reason.about(&task.input, &measurement))?;
+    let bytes = input::bytes(&arguments.input)?;
+    let measurement = input::measurement(&arguments.input, &bytes)?;
+    let problem =
+        problem(arguments.model, &arguments.problem, &measurement).map_err(|reason| reason.about(&arguments.input, &measurement))?;
     if problem.left_out() > 0 {
         output::notice(format_args!(
             "Measured BRDF values of 0, which have no relative or logarithmic residual and are left out: {}.",
             problem.left_out()
         ));
     }
-    if let Some(parameter) = task.profile.iter().find(|parameter| !problem.free().contains(parameter)) {
+    if let Some(parameter) = arguments.profile.iter().find(|parameter| !problem.free().contains(parameter)) {
         return Err(Failure::usage(format!("{} is not free in this fit and has no profile.", parameter.key())));
     }
     let watched = Watched::new("fitting");
     let watch = watched.watch();
-    let report = fit(&problem, starts(&task.options), task.options.seed, watch.as_watch());
-    let profiles: Vec<Profile> = task.profile.iter().map(|&parameter| profile(&problem, &report, parameter, watch.as_watch())).collect();
-    let scatters = task.bootstrap.map_or_else(Vec::new, |count| bootstrap(&problem, &report, count, task.options.seed, watch.as_watch()));
+    let report = fit(&problem, starts(&arguments.problem), arguments.problem.seed, watch.as_watch());
+    let profiles: Vec<Profile> =
+        arguments.profile.iter().map(|&parameter| profile(&problem, &report, parameter, watch.as_watch())).collect();
+    let scatters =
+        arguments.bootstrap.map_or_else(Vec::new, |count| bootstrap(&problem, &report, count, arguments.problem.seed, watch.as_watch()));
     drop(watch);
     drop(watched);
 
-    if let Some(path) = &task.output {
+    if let Some(path) = &arguments.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&measurement, &surface, problem.choices().eq17, task.model.dolp_only);
+        let cells = fitted_cells(&measurement, &surface, problem.choices().eq17, arguments.model.dolp_only);
         output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &cells, out))?;
     }
-    write_documents(task, &bytes, &measurement, &problem, &report)?;
-    if task.json {
-        let mut json = fit_json(task.model, &report);
+    write_documents(arguments, &bytes, &measurement, &problem, &report)?;
+    if arguments.json {
+        let mut json = fit_json(arguments.model, &report);
         add_scans(&mut json, &profiles, &scatters);
         output::write_json(&json)?;
     } else {
         output::write(None, |out| {
-            print(out, task, &measurement, &report)?;
+            print(out, arguments, &measurement, &report)?;
             print_scans(out, &profiles, &scatters)
         })?;
     }
@@ -57,16 +61,23 @@ pub fn run(task: &Fit) -> Result<ExitCode, Failure> {
 }
 
 /// The report and the figure that were asked for.
-fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem: &Problem, report: &FitResult) -> Result<(), Failure> {
-    let name = task.input.file_name().map_or_else(|| task.input.display().to_string(), |name| name.to_string_lossy().into_owned());
+fn write_documents(
+    arguments: &FitArguments,
+    bytes: &[u8],
+    measurement: &Measurement,
+    problem: &Problem,
+    report: &FitResult,
+) -> Result<(), Failure> {
+    let name =
+        arguments.input.file_name().map_or_else(|| arguments.input.display().to_string(), |name| name.to_string_lossy().into_owned());
     let source = Source { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
     let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
-    if let Some(path) = &task.report {
+    if let Some(path) = &arguments.report {
         let kind = export::report_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
         export::write_report(path, kind, &fitted.document()).map_err(|error| Failure::output(path.display(), &error))?;
     }
-    if let Some(path) = &task.figure {
+    if let Some(path) = &arguments.figure {
         let kind = export::picture_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
         let figure = fitted.figure().ok_or_else(|| Failure::usage("There is nothing to draw: no row has a value."))?;
         export::write_picture(path, kind, &figure).map_err(|error| Failure::output(path.display(), &error))?;
@@ -75,15 +86,22 @@ fn write_documents(task: &Fit, bytes: &[u8], measurement: &Measurement, problem:
 }
 
 /// The report for a person.
-fn print(out: &mut dyn Write, task: &Fit, measurement: &Measurement, report: &FitResult) -> io::Result<()> {
+fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measurement, report: &FitResult) -> io::Result<()> {
     let used = measurement.rows.iter().filter(|row| !row.masked).count();
-    writeln!(out, "{}: {used} of {} rows, model {} ({})", task.input.display(), measurement.rows.len(), task.model.key, task.model.name)?;
+    writeln!(
+        out,
+        "{}: {used} of {} rows, model {} ({})",
+        arguments.input.display(),
+        measurement.rows.len(),
+        arguments.model.key,
+        arguments.model.name
+    )?;
     let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
     writeln!(out, "{} ({} evaluations, {:.1} ms)", capitalised(report.stop_reason.text()), report.evaluations, report.elapsed_ms)?;
     writeln!(out, "ΔE {} -> {}", number(report.start_objective), number(report.objective))?;
     if !report.minimises_delta_e {
         let (before, after) = (number(report.start_sum_of_squares), number(Some(report.sum_of_squares)));
-        writeln!(out, "minimised, instead of ΔE: sum of squares of the {} {before} -> {after}", residuals_in_words(task))?;
+        writeln!(out, "minimised, instead of ΔE: sum of squares of the {} {before} -> {after}", residuals_in_words(arguments))?;
     }
     if let Some(chi2) = report.chi2 {
         writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.dof)?;
@@ -152,15 +170,14 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapE
     Ok(())
 }
 
-fn residuals_in_words(task: &Fit) -> String {
-    use crate::cli::arguments::{BrdfResiduals, Loss, Weights};
-    let weights = if matches!(task.options.weights, Weights::Sigma) { "weighted " } else { "" };
-    let form = match task.options.brdf_residuals {
+fn residuals_in_words(arguments: &FitArguments) -> String {
+    let weights = if matches!(arguments.problem.weights, Weights::Sigma) { "weighted " } else { "" };
+    let form = match arguments.problem.brdf_residuals {
         BrdfResiduals::Absolute => "residuals",
         BrdfResiduals::Relative => "residuals, relative for BRDF",
         BrdfResiduals::Log => "residuals, logarithmic for BRDF",
     };
-    let loss = if matches!(task.options.loss, Loss::Squared) { "" } else { ", under a robust loss" };
+    let loss = if matches!(arguments.problem.loss, Loss::Squared) { "" } else { ", under a robust loss" };
     format!("{weights}{form}{loss}")
 }
 

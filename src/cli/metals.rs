@@ -1,6 +1,6 @@
 //! `metals`: tabulated refractive indices, source by source.
 
-use crate::cli::arguments::Metals;
+use crate::cli::arguments::MetalsArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use pbrdf::optics;
@@ -9,24 +9,24 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-pub fn run(task: &Metals) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &MetalsArguments) -> Result<ExitCode, Failure> {
     let damaged = |error| Failure::usage(format!("The bundled table of metals is damaged: {error}."));
     let all = optics::metals().map_err(damaged)?;
-    let chosen: Vec<&Metal> = match &task.name {
+    let chosen: Vec<&Metal> = match &arguments.name {
         None => all.iter().collect(),
         Some(name) => vec![optics::metal(name).map_err(damaged)?.ok_or_else(|| unknown(name, all))?],
     };
-    if let ([metal], Some(wavelength)) = (&chosen[..], task.wavelength) {
+    if let ([metal], Some(wavelength)) = (&chosen[..], arguments.wavelength) {
         refuse_outside(metal, wavelength)?;
     }
-    if task.json {
+    if arguments.json {
         let rows: Vec<Value> =
-            chosen.iter().flat_map(|metal| metal.sources.iter().map(|source| row(metal, source, task.wavelength))).collect();
-        output::write_json(&json!({ "wavelength_nm": task.wavelength, "rows": rows }))?;
-    } else if let ([metal], Some(_)) = (&chosen[..], &task.name) {
-        output::write(None, |out| print_sources(out, metal, task.wavelength))?;
+            chosen.iter().flat_map(|metal| metal.sources.iter().map(|source| row(metal, source, arguments.wavelength))).collect();
+        output::write_json(&json!({ "wavelength_nm": arguments.wavelength, "rows": rows }))?;
+    } else if let ([metal], Some(_)) = (&chosen[..], &arguments.name) {
+        output::write(None, |out| print_sources(out, metal, arguments.wavelength))?;
     } else {
-        output::write(None, |out| print_metals(out, &chosen, task.wavelength))?;
+        output::write(None, |out| print_metals(out, &chosen, arguments.wavelength))?;
     }
     Ok(ExitCode::SUCCESS)
 }

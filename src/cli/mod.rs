@@ -1,4 +1,4 @@
-//! Floor 6: the core without a window.
+//! The command line: the core without a window.
 //!
 //! Exit codes: 0 an answer; 2 bad usage, bad input, no display; 1 output that could not be written; 130 interrupted.
 //! Errors are plain sentences on stderr; progress goes there too.
@@ -21,7 +21,7 @@ mod simulate;
 mod values;
 mod watched;
 
-use arguments::{Arguments, Export, Task};
+use arguments::{Arguments, Commands, ExportTarget};
 use clap::Parser as _;
 use failure::Failure;
 use std::process::ExitCode;
@@ -34,16 +34,16 @@ pub fn run() -> ExitCode {
         // Help and version are answers.
         Err(answer) => answer.exit(),
     };
-    let result = match arguments.task {
-        Some(Task::Evaluate(task)) => evaluate::run(&task),
-        Some(Task::Fit(task)) => fit::run(&task),
-        Some(Task::Simulate(task)) => simulate::run(&task),
-        Some(Task::Compare(task)) => compare::run(&task),
-        Some(Task::PlanArguments(task)) => plan::run(&task),
-        Some(Task::ReportArguments(task)) => report::run(&task),
-        Some(Task::ImportArguments(task)) => import::run(&task),
-        Some(Task::Export(Export::Mitsuba(task))) => mitsuba::run(&task),
-        Some(Task::Metals(task)) => metals::run(&task),
+    let result = match arguments.command {
+        Some(Commands::Evaluate(arguments)) => evaluate::run(&arguments),
+        Some(Commands::Fit(arguments)) => fit::run(&arguments),
+        Some(Commands::Simulate(arguments)) => simulate::run(&arguments),
+        Some(Commands::Compare(arguments)) => compare::run(&arguments),
+        Some(Commands::Plan(arguments)) => plan::run(&arguments),
+        Some(Commands::Report(arguments)) => report::run(&arguments),
+        Some(Commands::Import(arguments)) => import::run(&arguments),
+        Some(Commands::Export(ExportTarget::Mitsuba(arguments))) => mitsuba::run(&arguments),
+        Some(Commands::Metals(arguments)) => metals::run(&arguments),
         None => window(arguments.file),
     };
     match result {

@@ -1,38 +1,38 @@
 //! `plan`: what a choice of angles would determine, before anything is measured.
 
-use crate::cli::arguments::{Columns, PlanArguments};
+use crate::cli::arguments::PlanArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::cli::simulate::simulation;
-use pbrdf::fit;
-use pbrdf::fit::{DesignPrediction, NoiseModel};
+use pbrdf::fit::{Design, DesignPrediction, NoiseModel};
+use pbrdf::measurement::Columns;
 use pbrdf::model::{Parameter, ParameterSet};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-pub fn run(task: &PlanArguments) -> Result<ExitCode, Failure> {
-    let simulation = simulation(&task.surface, &task.angles, task.columns)?;
+pub fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
+    let simulation = simulation(&arguments.surface, &arguments.angles, arguments.columns)?;
     let geometries = simulation.geometries().map_err(|error| Failure::usage(format!("{error}.")))?;
     let noise = NoiseModel {
-        dolp: (!matches!(task.columns, Columns::Brdf)).then_some(task.noise),
-        brdf: (!matches!(task.columns, Columns::Dolp)).then_some(task.brdf_noise),
+        dolp: (!matches!(arguments.columns, Columns::Brdf)).then_some(arguments.noise),
+        brdf: (!matches!(arguments.columns, Columns::Dolp)).then_some(arguments.brdf_noise),
     };
     let model = simulation.surface.model();
-    let mut plan = fit::Design::new(model, *simulation.surface.parameters(), geometries, noise);
-    for &parameter in task.fix.iter().chain(&task.free) {
+    let mut plan = Design::new(model, *simulation.surface.parameters(), geometries, noise);
+    for &parameter in arguments.fix.iter().chain(&arguments.free) {
         if !model.parameters().contains(parameter) {
             output::notice(format_args!(
                 "The model {} has no parameter {}: what is said of it is ignored.",
-                task.surface.model.key,
+                arguments.surface.model.key,
                 parameter.key()
             ));
         }
     }
-    let freed: ParameterSet = task.free.iter().copied().collect();
-    plan.free = plan.free.without_all(task.fix.iter().copied().collect()).union(freed.intersection(model.parameters()));
+    let freed: ParameterSet = arguments.free.iter().copied().collect();
+    plan.free = plan.free.without_all(arguments.fix.iter().copied().collect()).union(freed.intersection(model.parameters()));
     let prediction = plan.predict().map_err(|error| Failure::usage(format!("{error}.")))?;
-    if task.json {
+    if arguments.json {
         let errors: Map<String, Value> =
             prediction.errors.iter().map(|(parameter, error)| (parameter.key().to_owned(), json!(error))).collect();
         output::write_json(&json!({ "std_error": errors, "undetermined": prediction.undetermined }))?;
@@ -42,7 +42,7 @@ pub fn run(task: &PlanArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn print(out: &mut dyn Write, plan: &fit::Design, prediction: &DesignPrediction) -> io::Result<()> {
+fn print(out: &mut dyn Write, plan: &Design, prediction: &DesignPrediction) -> io::Result<()> {
     let condition = prediction.condition.map_or_else(String::new, |condition| format!(", condition {condition:.1e}"));
     writeln!(
         out,

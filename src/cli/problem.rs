@@ -1,6 +1,6 @@
 //! The problem that the options of `fit` and `compare` describe.
 
-use crate::cli::arguments::FitArguments;
+use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError, Starts, free_by_default};
@@ -12,7 +12,7 @@ use std::path::Path;
 pub enum NoProblem {
     /// The options are wrong.
     Usage(String),
-    /// The data do not fit the options.
+    /// The data do not fit the arguments.
     Data(ProblemError),
 }
 
@@ -32,8 +32,8 @@ impl NoProblem {
 }
 
 /// How many starts are asked for.
-pub fn starts(options: &FitArguments) -> Starts {
-    match options.starts {
+pub fn starts(arguments: &ProblemArguments) -> Starts {
+    match arguments.starts {
         None => Starts::Automatic,
         Some(1) => Starts::One,
         Some(count) => Starts::Exactly(count),
@@ -41,39 +41,39 @@ pub fn starts(options: &FitArguments) -> Starts {
 }
 
 /// The problem of fitting that preset.
-pub fn problem(preset: &Preset, options: &FitArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
+pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
     let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
     let model = preset.model;
     let choices = FitOptions {
-        weights: options.weights.into(),
-        brdf_residuals: options.brdf_residuals.into(),
-        loss: options.loss.into(),
-        loss_scale: options.loss_scale,
-        eq17: options.eq17.into(),
+        weights: arguments.weights,
+        brdf_residuals: arguments.brdf_residuals,
+        loss: arguments.loss,
+        loss_scale: arguments.loss_scale,
+        eq17: arguments.eq17,
         dolp_only: preset.dolp_only,
     };
-    let named = options.start.iter().map(|(parameter, _)| parameter).chain(options.fix.iter().map(|(parameter, _)| parameter));
-    let named = named.chain(&options.free).chain(options.bounds.iter().map(|(parameter, ..)| parameter));
+    let named = arguments.start.iter().map(|(parameter, _)| parameter).chain(arguments.fix.iter().map(|(parameter, _)| parameter));
+    let named = named.chain(&arguments.free).chain(arguments.bounds.iter().map(|(parameter, ..)| parameter));
     let strangers: ParameterSet = named.copied().filter(|&parameter| !model.parameters().contains(parameter)).collect();
     for parameter in strangers {
         output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));
     }
     let mut bounds = Bounds::default();
-    for &(parameter, low, high) in &options.bounds {
+    for &(parameter, low, high) in &arguments.bounds {
         bounds.set(parameter, low, high).map_err(|error| usage(&error))?;
     }
     let mut start = Parameters::default();
     let mut given = ParameterSet::EMPTY;
-    let fixed_values = options.fix.iter().filter_map(|&(parameter, value)| Some((parameter, value?)));
-    for (parameter, value) in options.start.iter().copied().chain(fixed_values) {
+    let fixed_values = arguments.fix.iter().filter_map(|&(parameter, value)| Some((parameter, value?)));
+    for (parameter, value) in arguments.start.iter().copied().chain(fixed_values) {
         start[parameter] = value;
         given = given.with(parameter);
     }
     let mut free = free_by_default(model, measurement, &choices);
-    for &(parameter, _) in &options.fix {
+    for &(parameter, _) in &arguments.fix {
         free = free.without(parameter);
     }
-    for &parameter in &options.free {
+    for &parameter in &arguments.free {
         free = free.union(ParameterSet::EMPTY.with(parameter).intersection(model.parameters()));
     }
     for parameter in free {

@@ -1,6 +1,6 @@
 //! `report`: what the program says about itself, as a table, as JSON, and as files in a folder.
 
-use crate::cli::arguments::{ReportArguments as Task, ReportSubject};
+use crate::cli::arguments::{ReportArguments, ReportSubject};
 use crate::cli::failure::Failure;
 use crate::cli::output::Progress;
 use crate::cli::{interrupt, output};
@@ -38,15 +38,15 @@ impl Answer {
     }
 }
 
-pub fn run(task: &Task) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &ReportArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    if let Some(folder) = &task.output {
+    if let Some(folder) = &arguments.output {
         // Before minutes of work, not after.
         prepare(folder)?;
     }
     let begun = Instant::now();
-    let progress = Mutex::new(Progress::new(task.subject.key()));
-    let surroundings = Host {
+    let progress = Mutex::new(Progress::new(arguments.subject.key()));
+    let host = Host {
         clock: &|| begun.elapsed().as_secs_f64() * 1e3,
         cancelled: &interrupt::asked,
         progress: &|fraction| {
@@ -55,19 +55,19 @@ pub fn run(task: &Task) -> Result<ExitCode, Failure> {
             }
         },
     };
-    let answer = match task.subject {
-        ReportSubject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), now(), surroundings)),
-        ReportSubject::Stability => Answer::new(&Stability::run(machine(), now(), surroundings)),
-        ReportSubject::Cost => Answer::new(&Cost::run(machine(), now(), surroundings)),
+    let answer = match arguments.subject {
+        ReportSubject::ErrorVsTime => Answer::new(&ErrorVsTime::run(machine(), now(), host)),
+        ReportSubject::Stability => Answer::new(&Stability::run(machine(), now(), host)),
+        ReportSubject::Cost => Answer::new(&Cost::run(machine(), now(), host)),
     };
     drop(progress);
-    if task.json {
+    if arguments.json {
         output::write_json(&answer.json)?;
     } else {
         output::write(None, |out| out.write_all(answer.markdown.as_bytes()))?;
     }
-    if let Some(folder) = &task.output {
-        save(folder, task.subject.key(), &answer)?;
+    if let Some(folder) = &arguments.output {
+        save(folder, arguments.subject.key(), &answer)?;
     }
     Ok(output::exit_code())
 }

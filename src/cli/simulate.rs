@@ -1,36 +1,36 @@
 //! `simulate`: a measurement that says of itself that it is none.
 
-use crate::cli::arguments::{Angles, Columns, Simulate, Surface};
+use crate::cli::arguments::{AngleArguments, SimulateArguments, SurfaceArguments};
 use crate::cli::failure::Failure;
 use crate::cli::input::quoted;
 use crate::cli::output;
-use pbrdf::measurement::Simulation;
+use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Parameters, Pbrdf};
 use std::process::ExitCode;
 
-pub fn run(task: &Simulate) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     let simulation = Simulation {
-        noise: task.noise,
-        brdf_noise: task.brdf_noise,
-        seed: task.seed,
-        ..simulation(&task.surface, &task.angles, task.columns)?
+        noise: arguments.noise,
+        brdf_noise: arguments.brdf_noise,
+        seed: arguments.seed,
+        ..simulation(&arguments.surface, &arguments.angles, arguments.columns)?
     };
     let mut measurement = simulation.run().map_err(|error| Failure::usage(format!("{error}.")))?;
     let command = command_without_output(std::env::args().skip(1));
     measurement.metadata.insert(1, ("command".to_owned(), command));
-    output::write(Some(&task.output), |out| measurement.write(out))?;
+    output::write(Some(&arguments.output), |out| measurement.write(out))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// A simulation without noise.
-pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Result<Simulation, Failure> {
+pub fn simulation(surface: &SurfaceArguments, angles: &AngleArguments, columns: Columns) -> Result<Simulation, Failure> {
     Ok(Simulation {
         model_name: surface.model.key.to_owned(),
         surface: self::surface(surface, columns)?,
         theta_i: angles.theta_i.0.clone(),
         theta_r: angles.theta_r.0.clone(),
         dphi: angles.dphi,
-        columns: columns.into(),
+        columns,
         noise: 0.0,
         brdf_noise: 0.0,
         seed: 0,
@@ -38,7 +38,7 @@ pub fn simulation(surface: &Surface, angles: &Angles, columns: Columns) -> Resul
 }
 
 /// A model with its values, if it predicts those columns.
-pub fn surface(surface: &Surface, columns: Columns) -> Result<Pbrdf, Failure> {
+pub fn surface(surface: &SurfaceArguments, columns: Columns) -> Result<Pbrdf, Failure> {
     let mut parameters = Parameters::default();
     let preset = surface.model;
     if preset.dolp_only && !matches!(columns, Columns::Dolp) {

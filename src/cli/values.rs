@@ -1,7 +1,9 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
 use crate::export;
-use pbrdf::measurement::{Mapping, TensorResolution};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pbrdf::fit::{BrdfResiduals, DolpFormula, Loss, Weights};
+use pbrdf::measurement::{Columns, Mapping, TensorResolution};
 use pbrdf::model::{PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
 
@@ -20,6 +22,58 @@ const LARGEST_GRID: f64 = 1e6;
 /// Most nodes of an angle, and of all together, that a tensor is written with.
 const MOST_NODES: usize = 2000;
 const MOST_MATRICES: usize = 32_000_000;
+
+/// An option of the core by its name on the command line: name, help, value.
+type Choice<T> = (&'static str, &'static str, T);
+
+fn choice<T: Copy + Send + Sync + 'static>(choices: &'static [Choice<T>]) -> impl TypedValueParser<Value = T> {
+    let names = choices.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
+    let value = |name: String| choices.iter().find(|(known, ..)| *known == name).map(|(.., value)| *value).ok_or("no such choice");
+    PossibleValuesParser::new(names).try_map(value)
+}
+
+/// What divides the residuals.
+pub fn weights() -> impl TypedValueParser<Value = Weights> {
+    const CHOICES: [Choice<Weights>; 2] =
+        [("none", "Nothing: Eq. (18)", Weights::None), ("sigma", "The stated standard deviations: χ²", Weights::Sigma)];
+    choice(&CHOICES)
+}
+
+/// How BRDF residuals are formed.
+pub fn brdf_residuals() -> impl TypedValueParser<Value = BrdfResiduals> {
+    const CHOICES: [Choice<BrdfResiduals>; 3] = [
+        ("absolute", "X − Xm", BrdfResiduals::Absolute),
+        ("relative", "(X − Xm)/Xm", BrdfResiduals::Relative),
+        ("log", "ln X − ln Xm", BrdfResiduals::Log),
+    ];
+    choice(&CHOICES)
+}
+
+/// How a residual counts.
+pub fn loss() -> impl TypedValueParser<Value = Loss> {
+    const CHOICES: [Choice<Loss>; 3] = [
+        ("linear", "By its square", Loss::Squared),
+        ("huber", "By its square up to the scale, by its size beyond", Loss::Huber),
+        ("soft-l1", "The same with a smooth passage", Loss::SoftL1),
+    ];
+    choice(&CHOICES)
+}
+
+/// Which reading of Eq. (17) predicts DoLP.
+pub fn dolp_formula() -> impl TypedValueParser<Value = DolpFormula> {
+    const CHOICES: [Choice<DolpFormula>; 2] = [
+        ("consistent", "k_s inside the numerator", DolpFormula::Consistent),
+        ("printed", "k_s missing, as printed", DolpFormula::AsPrinted),
+    ];
+    choice(&CHOICES)
+}
+
+/// The quantities that are measured.
+pub fn columns() -> impl TypedValueParser<Value = Columns> {
+    const CHOICES: [Choice<Columns>; 3] =
+        [("dolp", "DoLP", Columns::Dolp), ("brdf", "BRDF", Columns::Brdf), ("both", "Both", Columns::Both)];
+    choice(&CHOICES)
+}
 
 /// A preset by its name.
 pub fn preset(text: &str) -> Result<&'static Preset, String> {
