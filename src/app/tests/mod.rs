@@ -7,6 +7,7 @@ mod commands;
 mod dialogs;
 mod files;
 mod fitting;
+mod fixtures;
 mod fuzz;
 mod help;
 mod hemisphere;
