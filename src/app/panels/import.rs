@@ -27,7 +27,7 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
     let App { import: Some(import), worker, commands, .. } = explorer else { return };
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
-        ui.heading(tr!("ImportDialog {}", import.origin.name));
+        ui.heading(tr!("Import {}", import.origin.name));
         questions_ui(import, ui);
         ui.separator();
         let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);

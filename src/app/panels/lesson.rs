@@ -44,7 +44,7 @@ fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.columns(3, |columns| {
             for (ui, (heading, text)) in
-                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Observer"), &step.watch), (tr!("Why"), &step.why)])
+                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Watch"), &step.watch), (tr!("Why"), &step.why)])
             {
                 part_ui(&heading, text, code, ui);
             }

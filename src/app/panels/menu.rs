@@ -107,7 +107,7 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
 
 fn view_ui(explorer: &mut App, ui: &mut Ui) {
     let items = commands::items(explorer);
-    ui.weak(tr!("Dock"));
+    ui.weak(tr!("Panes"));
     items_ui(&items, Menu::PaneId, &mut explorer.commands, ui);
     ui.separator();
     items_ui(&items, Menu::View, &mut explorer.commands, ui);

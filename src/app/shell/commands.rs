@@ -189,7 +189,7 @@ impl Menu {
             Self::Export => tr!("Export"),
             Self::Edit => tr!("Edit"),
             Self::Fit => tr!("Fitting"),
-            Self::PaneId => tr!("Dock"),
+            Self::PaneId => tr!("Panes"),
             Self::View => tr!("View"),
             Self::Theme => tr!("Theme"),
             Self::Language => tr!("Language"),

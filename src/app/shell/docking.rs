@@ -154,7 +154,7 @@ pub static PANES: [PaneSpec; 16] = [
         pane: PaneId::Metals,
         key: "metals",
         title: "Metals",
-        tooltip: "MetalSelection n and k of metals against wavelength, all sources side by side, and surface finishes",
+        tooltip: "Tabulated n and k of metals against wavelength, all sources side by side, and surface finishes",
         shortcut: None,
         place: Place::Lower,
         refresh: views::metals_refresh,

@@ -9,11 +9,11 @@ use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::Starts;
+use pbrdf::fit::{DolpFormula, Loss, Starts};
 use pbrdf::model::{Parameter, Parameters, Preset};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Relative difference that arithmetic in another order may make.
 const TOLERANCE: f64 = 1e-9;
@@ -96,7 +96,7 @@ fn settings_are_read() {
 /// Panes of a layout, in its order.
 fn panes_of(layout: &Layout, out: &mut Vec<&'static str>) {
     match layout {
-        Layout::Pane(pane) => out.push(pane.entry().key),
+        Layout::PaneId(pane) => out.push(pane.entry().key),
         Layout::Tabs { parts, .. } => parts.iter().for_each(|part| panes_of(part, out)),
         Layout::Columns(parts) | Layout::Rows(parts) => parts.iter().for_each(|(_, part)| panes_of(part, out)),
     }
@@ -111,6 +111,22 @@ fn values(parameters: &Parameters) -> Value {
     json!(parameters.to_array())
 }
 
+/// Names of that release.
+fn loss(loss: Loss) -> &'static str {
+    match loss {
+        Loss::Squared => "linear",
+        Loss::Huber => "huber",
+        Loss::SoftL1 => "soft-l1",
+    }
+}
+
+fn formula(formula: DolpFormula) -> &'static str {
+    match formula {
+        DolpFormula::Consistent => "consistent",
+        DolpFormula::AsPrinted => "printed",
+    }
+}
+
 /// What the settings hold, under names of this test.
 fn settings_view(settings: &Settings) -> Value {
     let locked: Vec<Parameter> = settings.locked.iter().collect();
@@ -123,9 +139,9 @@ fn settings_view(settings: &Settings) -> Value {
         "show_bounds": settings.show_bounds,
         "weights": settings.choices.weights,
         "brdf_residuals": settings.choices.brdf_residuals,
-        "loss": settings.choices.loss,
+        "loss": loss(settings.choices.loss),
         "loss_scale": settings.choices.loss_scale,
-        "dolp_formula": settings.choices.eq17,
+        "dolp_formula": formula(settings.choices.eq17),
         "dolp_only": settings.choices.dolp_only,
         "starts": match settings.starts { Starts::One => json!("one"), Starts::Automatic => json!("automatic"), Starts::Exactly(n) => json!(n) },
         "seed": settings.seed,
@@ -155,14 +171,15 @@ fn settings_view(settings: &Settings) -> Value {
 }
 
 /// What the window shows of the work that is open.
-fn view(explorer: &App) -> Value {
+fn view(window: &App) -> Value {
+    let work = &window.work;
     let mut panes = Vec::new();
-    if let Some(layout) = explorer.panes.layout() {
+    if let Some(layout) = window.panes.layout() {
         panes_of(&layout, &mut panes);
     }
-    let on_screen: Vec<&str> = explorer.panes.on_screen().iter().map(|pane| pane.entry().key).collect();
-    let rows = &explorer.document.measurement.rows;
-    let fits: Vec<Value> = explorer.fit_history.iter().map(|fit| {
+    let on_screen: Vec<&str> = window.panes.on_screen().iter().map(|pane| pane.entry().key).collect();
+    let rows = &work.document.measurement.rows;
+    let fits: Vec<Value> = work.fit_history.iter().map(|fit| {
         let report = &fit.report;
         json!({
             "delta_e": report.objective,
@@ -174,9 +191,9 @@ fn view(explorer: &App) -> Value {
             "free": keys(fit.problem.free()),
             "bounds": fit.problem.free().iter().map(|&p| { let (low, high) = fit.problem.bounds().of(p); json!([low, high]) }).collect::<Vec<_>>(),
             "std_errors": report.estimates.iter().map(|e| e.std_error).collect::<Vec<_>>(),
-            "loss": fit.problem.choices().loss,
+            "loss": loss(fit.problem.choices().loss),
             "loss_scales": report.loss_scales,
-            "dolp_formula": fit.problem.choices().eq17,
+            "dolp_formula": formula(fit.problem.choices().eq17),
             "brdf_residuals": fit.problem.choices().brdf_residuals,
             "stop_reason": report.stop_reason,
             "residuals": fit.problem.len(),
@@ -188,19 +205,19 @@ fn view(explorer: &App) -> Value {
         })
     }).collect();
     json!({
-        "name": explorer.document.name,
-        "sha256": explorer.document.sha256,
+        "name": work.document.name,
+        "sha256": work.document.sha256,
         "rows": rows.len(),
         "dolp_values": rows.iter().filter(|row| row.dolp.is_some()).count(),
         "brdf_values": rows.iter().filter(|row| row.brdf.is_some()).count(),
-        "masked": explorer.document.mask().to_vec(),
-        "metadata_keys": explorer.document.measurement.metadata.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>(),
+        "masked": work.document.mask().to_vec(),
+        "metadata_keys": work.document.measurement.metadata.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>(),
         "panes": panes,
         "on_screen": on_screen,
-        "settings": settings_view(&explorer.settings),
+        "settings": settings_view(&work.settings),
         "fits": fits,
-        "shown_fit": explorer.last_fit.as_ref().and_then(|shown| explorer.fit_history.iter().position(|fit| Rc::ptr_eq(fit, shown))),
-        "lesson_open": explorer.lessons.open.is_some(),
-        "notice": explorer.notices.text(),
+        "shown_fit": work.shown_fit.as_ref().and_then(|shown| work.fit_history.iter().position(|fit| Arc::ptr_eq(fit, shown))),
+        "lesson_open": window.lessons.open.is_some(),
+        "notice": window.notices.text(),
     })
 }

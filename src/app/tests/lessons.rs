@@ -27,7 +27,7 @@ fn every_step_of_every_lesson_is_shown() {
             assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
             assert_eq!(explorer(&mut harness).notices.text(), None, "{heading}");
             // Between the plots and the lower edge of the window.
-            let (buttons, text) = (harness.get_by_label("Set up again").rect(), harness.get_by_label("Observer").rect());
+            let (buttons, text) = (harness.get_by_label("Set up again").rect(), harness.get_by_label("Watch").rect());
             assert!(buttons.top() > 560.0 && text.top() > buttons.bottom() && text.bottom() < 700.0, "{heading}: {buttons} {text}");
             for name in explorer(&mut harness).lessons.all[lesson].steps[step].panes.clone() {
                 let pane = PaneId::try_from(name.clone()).unwrap_or_else(|error| panic!("{heading}: {error}"));

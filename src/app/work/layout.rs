@@ -8,12 +8,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
+    #[serde(rename = "pane")]
     PaneId(PaneId),
     /// One of several at a time, by its place in the list.
-    Tabs {
-        active: usize,
-        parts: Vec<Layout>,
-    },
+    Tabs { active: usize, parts: Vec<Layout> },
     /// Side by side, with shares of the width.
     Columns(Vec<(f32, Layout)>),
     /// One above the other, with shares of the height.
