@@ -4,7 +4,9 @@
 mod common;
 
 use common::{Row, gradient_error, relative_error, table};
-use pbrdf::model::{Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, Parameters, Pbrdf, Radiances};
+use pbrdf::model::{
+    Batch, Diffuse, DolpFormula, DolpGradients, GradientRequest, Instructions, Model, Parameter, Parameters, Pbrdf, Radiances,
+};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 /// Bar on the relative error of BRDF and DoLP against 60 digits.
@@ -131,7 +133,8 @@ fn surfaces() -> Vec<Pbrdf> {
         }
         let distribution = SlopeDistribution::ALL[i % 2];
         let diffuse = [Diffuse::Minnaert, Diffuse::Lambert, Diffuse::Absent, Diffuse::Hyde][i / 2 % 4];
-        let model = Model { masking: i / 12 % 2 == 0, diffuse, volume: i / 6 % 2 == 0, ..Model::full(distribution) };
+        let dolp_formula = [DolpFormula::Consistent, DolpFormula::AsPrinted][i / 5 % 2];
+        let model = Model { masking: i / 12 % 2 == 0, diffuse, volume: i / 6 % 2 == 0, dolp_formula, ..Model::full(distribution) };
         surfaces.push(Pbrdf::new(model, parameters).expect("inside the domain"));
     }
     let lobes_only = Model { specular: false, ..Model::full(SlopeDistribution::Gauss) };

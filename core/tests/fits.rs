@@ -3,11 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 use pbrdf::fit::{
-    Bounds, BrdfResiduals, DolpFormula, Edge, EstimateStatus, FitOptions, Loss, Observer, Problem, Starts, StopReason, Weights, fit,
-    free_by_default,
+    Bounds, BrdfResiduals, Edge, EstimateStatus, FitOptions, Loss, Observer, Problem, Starts, StopReason, Weights, fit, free_by_default,
 };
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
 use pbrdf::optics::SlopeDistribution::{Cauchy, Gauss};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -226,19 +225,19 @@ fn a_robust_loss_spares_outliers() {
 #[test]
 fn the_jacobian_of_every_kind_of_residual_is_its_derivative() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Both, grid(20, 60, 20), grid(0, 80, 20), 0.01);
-    let model = Model::full(Cauchy);
     let at = Parameters { n: 1.7, k: 2.4, sigma: 0.4, ks: 1.3, ..TRUTH };
     let mut all = Vec::new();
     for weights in [Weights::None, Weights::Sigma] {
         for brdf_residuals in [BrdfResiduals::Absolute, BrdfResiduals::Relative, BrdfResiduals::Log] {
             for loss in [Loss::Squared, Loss::Huber, Loss::SoftL1] {
-                for eq17 in [DolpFormula::Consistent, DolpFormula::AsPrinted] {
-                    all.push(FitOptions { weights, brdf_residuals, loss, loss_scale: Some(0.05), eq17, dolp_only: false });
+                for formula in [DolpFormula::Consistent, DolpFormula::AsPrinted] {
+                    let choices = FitOptions { weights, brdf_residuals, loss, loss_scale: Some(0.05), dolp_only: false };
+                    all.push((Model::full(Cauchy).with_dolp_formula(formula), choices));
                 }
             }
         }
     }
-    for choices in all {
+    for (model, choices) in all {
         let problem = Problem::new(&measurement, model, at, model.parameters(), Bounds::default(), choices).expect("a valid problem");
         let mut jacobian = DMatrix::zeros(problem.len(), 9);
         assert!(problem.jacobian(&at, &mut jacobian));

@@ -1,9 +1,9 @@
 //! The objective over two parameters: the same numbers as the problem's own, for every choice.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Axis, Bounds, BrdfResiduals, DolpFormula, FitOptions, Landscape, Loss, Problem, Weights};
+use pbrdf::fit::{Axis, Bounds, BrdfResiduals, FitOptions, Landscape, Loss, Problem, Weights};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::Cauchy;
 
 const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -31,8 +31,12 @@ fn noisy(columns: Columns, noise: f64) -> Measurement {
 }
 
 fn problem(measurement: &Measurement, choices: FitOptions) -> Problem {
+    problem_of(Model::full(Cauchy), measurement, choices)
+}
+
+fn problem_of(model: Model, measurement: &Measurement, choices: FitOptions) -> Problem {
     let free = ParameterSet::ALL.without(Parameter::Ks);
-    Problem::new(measurement, Model::full(Cauchy), TRUTH, free, Bounds::default(), choices).expect("a valid problem")
+    Problem::new(measurement, model, TRUTH, free, Bounds::default(), choices).expect("a valid problem")
 }
 
 fn axes() -> (Axis, Axis) {
@@ -66,7 +70,7 @@ fn a_landscape_is_the_plain_objective() {
     is_the_plain_objective(&problem(&both, FitOptions { brdf_residuals: BrdfResiduals::Log, ..choices }));
     is_the_plain_objective(&problem(&dolp, FitOptions { weights: Weights::Sigma, ..choices }));
     is_the_plain_objective(&problem(&dolp, FitOptions { loss: Loss::Huber, ..choices }));
-    is_the_plain_objective(&problem(&dolp, FitOptions { eq17: DolpFormula::AsPrinted, ..choices }));
+    is_the_plain_objective(&problem_of(Model::full(Cauchy).with_dolp_formula(DolpFormula::AsPrinted), &dolp, choices));
 }
 
 #[test]
@@ -80,18 +84,21 @@ fn a_landscape_of_what_is_minimised_is_the_problems_own_sum_of_squares() {
         FitOptions { weights: Weights::Sigma, ..choices },
         FitOptions { loss: Loss::Huber, loss_scale: Some(0.01), ..choices },
         FitOptions { loss: Loss::SoftL1, loss_scale: Some(0.01), weights: Weights::Sigma, ..choices },
-        FitOptions { eq17: DolpFormula::AsPrinted, ..choices },
     ] {
-        let problem = problem(&both, choices);
-        let (across, up) = axes();
-        let landscape = Landscape::minimised(&problem, across, up, &|| false).expect("not cancelled");
-        for (row, k) in up.values().into_iter().enumerate() {
-            for (column, n) in across.values().into_iter().enumerate() {
-                let expected = problem.sum_of_squares(&Parameters { n, k, ..TRUTH }).expect("a surface");
-                let value = landscape.objective[row * across.count + column];
-                // As for ΔE: the kernel's 1e-13, squared and summed.
-                assert!((value - expected).abs() <= 1e-11 * expected, "{choices:?} n = {n}, k = {k}: {value:e} {expected:e}");
-            }
+        is_what_is_minimised(&problem(&both, choices), &format!("{choices:?}"));
+    }
+    is_what_is_minimised(&problem_of(Model::full(Cauchy).with_dolp_formula(DolpFormula::AsPrinted), &both, choices), "as printed");
+}
+
+fn is_what_is_minimised(problem: &Problem, case: &str) {
+    let (across, up) = axes();
+    let landscape = Landscape::minimised(problem, across, up, &|| false).expect("not cancelled");
+    for (row, k) in up.values().into_iter().enumerate() {
+        for (column, n) in across.values().into_iter().enumerate() {
+            let expected = problem.sum_of_squares(&Parameters { n, k, ..TRUTH }).expect("a surface");
+            let value = landscape.objective[row * across.count + column];
+            // As for ΔE: the kernel's 1e-13, squared and summed.
+            assert!((value - expected).abs() <= 1e-11 * expected, "{case} n = {n}, k = {k}: {value:e} {expected:e}");
         }
     }
 }

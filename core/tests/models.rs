@@ -3,7 +3,7 @@
 
 use pbrdf::fit::{Bounds, DistributionComparison, FitOptions, GaussAtFixedSigma, Observer, Problem, Starts, fit, free_by_default};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
-use pbrdf::model::{Diffuse, GradientRequest, Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Preset};
+use pbrdf::model::{Diffuse, DolpFormula, GradientRequest, Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Preset};
 use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 
 const STEEL: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.25, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -160,13 +160,56 @@ fn dolp_depends_on_the_parameters_that_each_model_says_and_on_no_others() {
     // What cancels leaves rounding behind.
     const NOTHING: f64 = 1e-12;
     let parameters = Parameters { n: 1.6, k: 2.4, sigma: 0.4, ks: 0.8, kd: 0.2, kv: 0.3, q: 2.4, c: -0.3, sigma_v: 0.7 };
-    for preset in &PRESETS {
-        let surface = Pbrdf::new(preset.model, parameters).expect("a valid surface");
+    let formulas = [DolpFormula::Consistent, DolpFormula::AsPrinted];
+    let models = PRESETS.iter().flat_map(|preset| formulas.map(|formula| (preset, preset.model.with_dolp_formula(formula))));
+    for (preset, model) in models {
+        let surface = Pbrdf::new(model, parameters).expect("a valid surface");
         let facets = [(20.0, 65.0), (60.0, 10.0), (75.0, 40.0)].map(|(theta_i, theta_r)| facet(theta_i, theta_r, 180.0));
         let gradients = facets.map(|facet| surface.reflection_and_gradient(&facet, GradientRequest::ALL).1.dolp);
         for parameter in Parameter::ALL {
             let is_felt = gradients.iter().any(|gradient| gradient[parameter as usize].abs() > NOTHING);
-            assert_eq!(is_felt, preset.model.dolp_parameters().contains(parameter), "{}: {}", preset.key, parameter.key());
+            assert_eq!(is_felt, model.dolp_parameters().contains(parameter), "{}: {}", preset.key, parameter.key());
         }
     }
+}
+
+#[test]
+fn dolp_as_printed_is_the_consistent_one_over_k_s() {
+    // A dozen roundings, of values and of each term of a derivative.
+    const ROUNDING: f64 = 1e-14;
+    let parameters = Parameters { n: 1.6, k: 2.4, sigma: 0.4, ks: 0.3, kd: 0.2, kv: 0.3, q: 2.4, c: -0.3, sigma_v: 0.7 };
+    let with_hyde = Model { volume: true, ..hyde() };
+    for model in PRESETS.iter().map(|preset| preset.model).chain([with_hyde]) {
+        for (theta_i, theta_r) in [(20.0, 65.0), (60.0, 10.0), (75.0, 40.0)] {
+            let [consistent, printed] = [DolpFormula::Consistent, DolpFormula::AsPrinted].map(|formula| {
+                let surface = Pbrdf::new(model.with_dolp_formula(formula), parameters).expect("a valid surface");
+                let facet = facet(theta_i, theta_r, 180.0);
+                assert_eq!(surface.dolp(&facet), surface.reflection(&facet).dolp);
+                surface.reflection_and_gradient(&facet, GradientRequest::ALL)
+            });
+            let dolp = consistent.0.dolp / parameters.ks;
+            assert!((printed.0.dolp / dolp - 1.0).abs() < ROUNDING, "{model:?}");
+            for parameter in Parameter::ALL {
+                let j = parameter as usize;
+                let by_ks = if parameter == Parameter::Ks { dolp / parameters.ks } else { 0.0 };
+                let of_consistent = consistent.1.dolp[j] / parameters.ks;
+                let error = (printed.1.dolp[j] - (of_consistent - by_ks)).abs();
+                assert!(error <= ROUNDING * (of_consistent.abs() + by_ks), "{model:?} {parameter:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn dolp_as_printed_has_a_limit_at_k_s_of_0() {
+    let model = Model::full(SlopeDistribution::Cauchy).with_dolp_formula(DolpFormula::AsPrinted);
+    let at = |ks: f64| {
+        let surface = Pbrdf::new(model, Parameters { ks, ..STEEL }).expect("a valid surface");
+        surface.reflection_and_gradient(&facet(40.0, 60.0, 180.0), GradientRequest::ALL)
+    };
+    let ((here, gradient), (near, _)) = (at(0.0), at(1e-9));
+    // The slope is of the order of 1.
+    assert!(here.dolp > 1.0 && (here.dolp - near.dolp).abs() < 1e-7, "{here:?} {near:?}");
+    let by_difference = (near.dolp - here.dolp) / 1e-9;
+    assert!((gradient.dolp[Parameter::Ks as usize] / by_difference - 1.0).abs() < 1e-5, "{gradient:?} {by_difference}");
 }

@@ -3,10 +3,10 @@
 use crate::cli::values;
 use crate::cli::values::{Assignment, Grid, Interval};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use pbrdf::fit::{BrdfResiduals, DolpFormula, Loss, Weights};
+use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
 use pbrdf::measurement::{Columns, Mapping, TensorResolution};
-use pbrdf::model::{Parameter, Preset};
+use pbrdf::model::{DolpFormula, Parameter, Preset};
 use std::path::PathBuf;
 
 /// Explores, fits and simulates polarised reflection from metal surfaces.

@@ -43,7 +43,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
 
     if let Some(path) = &arguments.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&measurement, &surface, problem.choices().eq17, arguments.model.dolp_only);
+        let cells = fitted_cells(&measurement, &surface, arguments.model.dolp_only);
         output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &cells, out))?;
     }
     write_documents(arguments, &bytes, &measurement, &problem, &report)?;

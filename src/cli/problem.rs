@@ -43,13 +43,12 @@ pub fn starts(arguments: &ProblemArguments) -> Starts {
 /// The problem of fitting that preset.
 pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
     let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
-    let model = preset.model;
+    let model = preset.model.with_dolp_formula(arguments.eq17);
     let choices = FitOptions {
         weights: arguments.weights,
         brdf_residuals: arguments.brdf_residuals,
         loss: arguments.loss,
         loss_scale: arguments.loss_scale,
-        eq17: arguments.eq17,
         dolp_only: preset.dolp_only,
     };
     let named = arguments.start.iter().map(|(parameter, _)| parameter).chain(arguments.fix.iter().map(|(parameter, _)| parameter));

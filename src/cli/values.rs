@@ -2,9 +2,9 @@
 
 use crate::export;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use pbrdf::fit::{BrdfResiduals, DolpFormula, Loss, Weights};
+use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::{Columns, Mapping, TensorResolution};
-use pbrdf::model::{PRESETS, Parameter, Preset, assignment_from_text};
+use pbrdf::model::{DolpFormula, PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
 
 /// `n=2`.

@@ -3,11 +3,10 @@
 use crate::figure::{Figure, Panel};
 use crate::report::document::{Block, Document};
 use crate::report::fit_figures::FitFigures;
-use crate::report::residual_table::dolp_divisor;
 use crate::report::wording::Wording;
-use pbrdf::fit::{BrdfResiduals, DolpFormula, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
-use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Pbrdf, Preset};
+use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::SlopeDistribution;
 
 /// Where measured data come from.
@@ -125,7 +124,7 @@ impl FitDocument<'_> {
     pub fn figure(&self) -> Option<Figure> {
         let surface = Pbrdf::new(self.report.model, self.report.parameters).ok()?;
         let series = IncidenceSeries::of(&self.measurement.rows);
-        let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
+        let figures = FitFigures::new(&surface, &series);
         let brdf = if self.measurement.has_brdf() && !self.choices().dolp_only { figures.brdf(&self.source.name) } else { None };
         match (figures.dolp(&self.source.name), brdf) {
             (Some(dolp), Some(brdf)) => {
@@ -160,7 +159,7 @@ impl FitDocument<'_> {
     fn figures(&self) -> Vec<Block> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
         let series = IncidenceSeries::of(&self.measurement.rows);
-        let figures = FitFigures::new(&surface, dolp_divisor(&surface, self.choices().eq17), &series);
+        let figures = FitFigures::new(&surface, &series);
         let mut blocks = vec![self.heading("Figures")];
         if let Some(figure) = figures.dolp("") {
             let caption = self.text(
@@ -327,7 +326,7 @@ impl FitDocument<'_> {
     }
 
     fn choice_rows(&self) -> Vec<(&'static str, String)> {
-        let FitOptions { weights, brdf_residuals, loss, loss_scale, eq17, dolp_only } = self.choices();
+        let FitOptions { weights, brdf_residuals, loss, loss_scale, dolp_only } = self.choices();
         let weights = match weights {
             Weights::None => "none: all values of a quantity count alike",
             Weights::Sigma => "each residual divided by the stated standard deviation",
@@ -346,7 +345,7 @@ impl FitDocument<'_> {
             Loss::Huber => self.words.fill("Huber, {0}", &[&scale()]),
             Loss::SoftL1 => self.words.fill("soft L1, {0}", &[&scale()]),
         };
-        let reading = match eq17 {
+        let reading = match self.problem.model().dolp_formula {
             DolpFormula::Consistent => "consistent: k_s in the numerator",
             DolpFormula::AsPrinted => "as printed: k_s missing from the numerator",
         };

@@ -22,8 +22,6 @@ const MUTED: Rgb = Rgb(150, 150, 150);
 /// A surface drawn along measured series.
 pub struct FitFigures<'a> {
     surface: &'a Pbrdf,
-    /// By what DoLP is divided: k_s under the printed reading of Eq. (17).
-    divisor: f64,
     series: &'a [IncidenceSeries],
     backscatter: bool,
     curves: Vec<Vec<CurvePoint>>,
@@ -36,13 +34,13 @@ type Term = (&'static str, bool, fn(&CurvePoint) -> f64, usize);
 type Marks = fn(&IncidenceSeries) -> &[DataPoint];
 
 impl<'a> FitFigures<'a> {
-    /// Of a surface along those series; `divisor` is [`crate::report::dolp_divisor`].
+    /// Of a surface along those series.
     #[must_use]
-    pub fn new(surface: &'a Pbrdf, divisor: f64, series: &'a [IncidenceSeries]) -> Self {
+    pub fn new(surface: &'a Pbrdf, series: &'a [IncidenceSeries]) -> Self {
         let series = &series[..series.len().min(MOST_SERIES)];
         let backscatter = series.iter().any(IncidenceSeries::has_backscatter);
         let curves = series.iter().map(|group| curve(surface, group, backscatter)).collect();
-        Self { surface, divisor, series, backscatter, curves }
+        Self { surface, series, backscatter, curves }
     }
 
     fn theta_r(&self) -> Axis {
@@ -65,7 +63,7 @@ impl<'a> FitFigures<'a> {
         let mut residuals = vec![Series::level("", 0.0).colored(MUTED)];
         let mut highest = measured;
         for (group, curve, color) in self.colored().filter(|(group, ..)| !group.dolp.is_empty()) {
-            let dolp = |point: &CurvePoint| point.reflection.dolp / self.divisor;
+            let dolp = |point: &CurvePoint| point.reflection.dolp;
             if has_limit {
                 series.push(Series::dashed("Fresnel limit", points(curve, |point| point.limit), Dash::Dashed).colored(color));
                 highest = highest.max(highest_of(curve, |point| point.limit));
@@ -87,7 +85,7 @@ impl<'a> FitFigures<'a> {
         let used = thinned(&group.dolp).filter(|mark| !mark.masked);
         let residual = |mark: &DataPoint| {
             let facet = Facet::new(group.geometry(mark.theta_r)?);
-            let y = self.surface.reflection(&facet).dolp / self.divisor - mark.quantity.value;
+            let y = self.surface.reflection(&facet).dolp - mark.quantity.value;
             Some(Point { x: mark.theta_r, y, bar: mark.quantity.sigma.map(|sigma| (y - sigma, y + sigma)) })
         };
         used.filter_map(residual).collect()

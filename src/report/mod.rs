@@ -15,5 +15,5 @@ pub use document::{Block, Document};
 pub use fit_document::{FitDocument, Source};
 pub use fit_figures::FitFigures;
 pub use fit_json::fit_json;
-pub use residual_table::{FITTED_COLUMNS, dolp_divisor, fitted_cells, write_fitted};
+pub use residual_table::{FITTED_COLUMNS, fitted_cells, write_fitted};
 pub use wording::{English, Wording};

@@ -1,6 +1,5 @@
 //! A fitted model beside the measured values: columns for a table.
 
-use pbrdf::fit::DolpFormula;
 use pbrdf::measurement::{Measurement, append_columns, exact};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
@@ -9,24 +8,14 @@ use std::io::{self, Write};
 /// Names of the columns that a fit adds to a measurement.
 pub const FITTED_COLUMNS: [&str; 4] = ["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"];
 
-/// By what DoLP is divided under that reading of Eq. (17).
-#[must_use]
-pub fn dolp_divisor(surface: &Pbrdf, eq17: DolpFormula) -> f64 {
-    match eq17 {
-        DolpFormula::Consistent => 1.0,
-        DolpFormula::AsPrinted => surface.parameters().ks,
-    }
-}
-
 /// Model and residual (model less measured) of both quantities for each row; a quantity that was not measured, or that a model of DoLP
 /// alone does not predict, leaves its cells empty.
 #[must_use]
-pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormula, dolp_only: bool) -> Vec<Vec<String>> {
-    let divisor = dolp_divisor(surface, eq17);
+pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool) -> Vec<Vec<String>> {
     let pair = |model: f64, measured: Option<f64>| [exact(model), measured.map_or_else(String::new, |measured| exact(model - measured))];
     let cells = measurement.rows.iter().map(|row| {
         let reflection = surface.reflection(&Facet::new(row.geometry));
-        let dolp = pair(reflection.dolp / divisor, row.dolp.map(|dolp| dolp.value));
+        let dolp = pair(reflection.dolp, row.dolp.map(|dolp| dolp.value));
         let brdf = if dolp_only { [String::new(), String::new()] } else { pair(reflection.brdf, row.brdf.map(|brdf| brdf.value)) };
         dolp.into_iter().chain(brdf).collect()
     });
@@ -34,8 +23,8 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormul
 }
 
 /// Writes a measurement with the fitted columns beside it.
-pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, eq17: DolpFormula, dolp_only: bool, out: impl Write) -> io::Result<()> {
+pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool, out: impl Write) -> io::Result<()> {
     let mut table = Vec::new();
     measurement.write(&mut table)?;
-    append_columns(&table, &FITTED_COLUMNS, &fitted_cells(measurement, surface, eq17, dolp_only), out)
+    append_columns(&table, &FITTED_COLUMNS, &fitted_cells(measurement, surface, dolp_only), out)
 }

@@ -7,7 +7,7 @@ use crate::fit::bounds::Bounds;
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
 use crate::fit::objective::{Problem, ProblemError, free_by_default};
-use crate::fit::options::{DolpFormula, FitOptions, Weights};
+use crate::fit::options::{FitOptions, Weights};
 use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use crate::optics::{Facet, Geometry};
@@ -34,8 +34,6 @@ pub struct Design {
     pub noise: NoiseModel,
     /// The parameters that the fit is to find.
     pub free: ParameterSet,
-    /// By which reading of Eq. (17).
-    pub eq17: DolpFormula,
 }
 
 /// What a plan would determine.
@@ -68,7 +66,7 @@ impl Design {
     /// With the parameters free that a fit of such data frees by default.
     #[must_use]
     pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: NoiseModel) -> Self {
-        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, eq17: DolpFormula::Consistent };
+        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY };
         plan.free = Pbrdf::new(model, parameters)
             .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &FitOptions::default()));
         plan
@@ -81,7 +79,7 @@ impl Design {
         for parameter in self.free {
             bounds.widen_to(parameter, self.parameters[parameter]);
         }
-        let choices = FitOptions { weights: Weights::Sigma, eq17: self.eq17, ..FitOptions::default() };
+        let choices = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
         let problem = Problem::new(&self.measurement(&surface), self.model, self.parameters, self.free, bounds, choices);
         let problem = problem?;
         let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);

@@ -132,7 +132,7 @@ impl<'a> Field<'a> {
         } else {
             batch.dolp(&surface, &mut radiances.dolp);
         }
-        self.problem.sum_of_squares_of(&radiances.dolp, &radiances.brdf, parameters.ks)
+        self.problem.sum_of_squares_of(&radiances.dolp, &radiances.brdf)
     }
 }
 

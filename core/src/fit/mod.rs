@@ -27,7 +27,7 @@ pub use least_squares::LeastSquares;
 pub use local::solver::{Effort, LocalFit, Observer, Solution, StopReason, TracePoint, fit_local, minimise};
 pub use multistart::search::{Basin, MultistartResult, Starts, search};
 pub use objective::{Problem, ProblemError, free_by_default};
-pub use options::{BrdfResiduals, DolpFormula, FitOptions, Loss, Weights};
+pub use options::{BrdfResiduals, FitOptions, Loss, Weights};
 pub use result::{
     Edge, Estimate, EstimateStatus, FitResult, Minimum, Undetermined, fit, is_poorly_determined, relative_error_base, symbols,
 };

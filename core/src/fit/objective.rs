@@ -9,9 +9,9 @@
 //! `ρ(z) = 2(√(1 + z) − 1)`.
 
 use crate::fit::bounds::Bounds;
-use crate::fit::options::{BrdfResiduals, DolpFormula, FitOptions, Loss, Weights};
+use crate::fit::options::{BrdfResiduals, FitOptions, Loss, Weights};
 use crate::measurement::{Measurement, Quantity};
-use crate::model::{GeometrySet, Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
+use crate::model::{DolpFormula, GeometrySet, Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 use crate::optics::RefractiveIndex;
 use nalgebra::{DMatrix, DVector};
 
@@ -345,7 +345,7 @@ impl Problem {
                     Reflection { dolp: self.scene.dolp(&surface, point), ..reflection }
                 };
             }
-            *slot = self.loss(datum, self.residual(datum, &reflection, parameters.ks)).0;
+            *slot = self.loss(datum, self.residual(datum, &reflection)).0;
             finite &= slot.is_finite();
         }
         finite
@@ -362,9 +362,9 @@ impl Problem {
                 point = datum.point;
                 at = self.scene.reflection_and_gradient(&surface, point, self.wanted);
             }
-            let slope = self.loss(datum, self.residual(datum, &at.0, parameters.ks)).1;
+            let slope = self.loss(datum, self.residual(datum, &at.0)).1;
             for (j, &parameter) in self.free.iter().enumerate() {
-                let derivative = slope * datum.weight * self.derivative(datum.kind, parameter, &at, parameters.ks);
+                let derivative = slope * datum.weight * derivative(datum.kind, parameter, &at);
                 out[(i, j)] = derivative;
                 finite &= derivative.is_finite();
             }
@@ -372,32 +372,13 @@ impl Problem {
         finite
     }
 
-    fn residual(&self, datum: &Datum, reflection: &Reflection, ks: f64) -> f64 {
+    fn residual(&self, datum: &Datum, reflection: &Reflection) -> f64 {
         let predicted = match datum.kind {
-            Kind::Dolp => self.dolp(reflection.dolp, ks),
+            Kind::Dolp => reflection.dolp,
             Kind::Brdf => reflection.brdf,
             Kind::LogBrdf => libm::log(reflection.brdf),
         };
         datum.weight * (predicted - datum.measured)
-    }
-
-    /// DoLP by the chosen reading of Eq. (17).
-    fn dolp(&self, consistent: f64, ks: f64) -> f64 {
-        match self.choices.eq17 {
-            DolpFormula::Consistent => consistent,
-            DolpFormula::AsPrinted => consistent / ks,
-        }
-    }
-
-    fn derivative(&self, kind: Kind, parameter: Parameter, (reflection, gradient): &(Reflection, Gradient), ks: f64) -> f64 {
-        let j = parameter as usize;
-        match (kind, self.choices.eq17) {
-            (Kind::Brdf, _) => gradient.brdf[j],
-            (Kind::LogBrdf, _) => gradient.brdf[j] / reflection.brdf,
-            (Kind::Dolp, DolpFormula::Consistent) => gradient.dolp[j],
-            (Kind::Dolp, DolpFormula::AsPrinted) if parameter == Parameter::Ks => (gradient.dolp[j] - reflection.dolp / ks) / ks,
-            (Kind::Dolp, DolpFormula::AsPrinted) => gradient.dolp[j] / ks,
-        }
     }
 
     /// A residual as the loss counts it, and the slope of that.
@@ -445,13 +426,13 @@ impl Problem {
     }
 
     /// Sum of the squared (scaled) residuals of DoLP and BRDF evaluated elsewhere in [`Self::scene`]. None without data.
-    pub(crate) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64], ks: f64) -> Option<f64> {
+    pub(crate) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64]) -> Option<f64> {
         let square = |datum: &Datum| {
             let reflection = match datum.kind {
                 Kind::Dolp => Reflection { dolp: dolp[datum.point], ..Reflection::default() },
                 Kind::Brdf | Kind::LogBrdf => Reflection { brdf: brdf[datum.point], ..Reflection::default() },
             };
-            let (residual, _) = self.loss(datum, self.residual(datum, &reflection, ks));
+            let (residual, _) = self.loss(datum, self.residual(datum, &reflection));
             residual * residual
         };
         (!self.is_empty()).then(|| self.data.iter().map(square).sum())
@@ -478,7 +459,7 @@ impl Problem {
         for datum in &self.data {
             let reflection = self.scene.reflection(&surface, datum.point);
             let (index, difference) = match datum.kind {
-                Kind::Dolp => (0, self.dolp(reflection.dolp, parameters.ks) - datum.measured),
+                Kind::Dolp => (0, reflection.dolp - datum.measured),
                 Kind::Brdf => (1, reflection.brdf - datum.measured),
                 Kind::LogBrdf => (1, reflection.brdf - libm::exp(datum.measured)),
             };
@@ -517,23 +498,33 @@ impl Problem {
         dolp().step_by(step).map(|datum| (datum.point, datum.measured)).collect()
     }
 
-    /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, in its consistent reading.
+    /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, by the consistent formula.
     #[must_use]
     pub fn knows_only_ratios(&self) -> bool {
-        !self.wanted.brdf && self.choices.eq17 == DolpFormula::Consistent
+        !self.wanted.brdf && self.model.dolp_formula == DolpFormula::Consistent
+    }
+}
+
+/// Derivative of what is predicted by a parameter.
+fn derivative(kind: Kind, parameter: Parameter, (reflection, gradient): &(Reflection, Gradient)) -> f64 {
+    let j = parameter as usize;
+    match kind {
+        Kind::Dolp => gradient.dolp[j],
+        Kind::Brdf => gradient.brdf[j],
+        Kind::LogBrdf => gradient.brdf[j] / reflection.brdf,
     }
 }
 
 /// The parameters that a fit changes unless told otherwise: all of the model, but with DoLP alone k_s stays (only ratios of
-/// weights enter), and so do those that DoLP does not depend on.
+/// weights enter the consistent formula), and so do those that DoLP does not depend on.
 #[must_use]
 pub fn free_by_default(model: Model, measurement: &Measurement, choices: &FitOptions) -> ParameterSet {
     if measurement.has_brdf() && !choices.dolp_only {
         return model.parameters();
     }
     let set = model.dolp_parameters();
-    match choices.eq17 {
+    match model.dolp_formula {
         DolpFormula::Consistent => set.without(Parameter::Ks),
-        DolpFormula::AsPrinted => set.with(Parameter::Ks),
+        DolpFormula::AsPrinted => set,
     }
 }

@@ -1,4 +1,4 @@
-//! The choices of a fit: what a residual is, what divides it, how it counts, which reading of Eq. (17) predicts.
+//! The choices of a fit: what a residual is, what divides it, how it counts.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,18 +40,6 @@ pub enum Loss {
     SoftL1,
 }
 
-/// Which reading of Eq. (17) predicts DoLP.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DolpFormula {
-    /// k_s inside the numerator, as Eqs. (14, 15) have it.
-    #[default]
-    Consistent,
-    /// k_s missing from the numerator, as printed: the consistent value divided by k_s.
-    #[serde(alias = "printed")]
-    AsPrinted,
-}
-
 /// The choices of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
@@ -65,8 +53,6 @@ pub struct FitOptions {
     /// Scale of the loss, in units of X − Xm (or of what else the residual is before Eq. (18) scales it; in standard deviations
     /// where these weigh); without, 1.345 × the normalised median absolute deviation of the residuals of a fit with the squared loss.
     pub loss_scale: Option<f64>,
-    /// Which reading of Eq. (17).
-    pub eq17: DolpFormula,
     /// Leave measured BRDFs aside: the model does not predict them.
     pub dolp_only: bool,
 }

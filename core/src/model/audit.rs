@@ -15,7 +15,7 @@
 //! by Gauss–Legendre quadrature between all kinks of G u; the estimated error is the difference to half the nodes. The Minnaert term has
 //! `2 cos^c θi/(c + 2)` for unit k_d, infinite for c ≤ −2, Hyde's `k_s (1 − ρ_perfect)`, the volume term `2π ∫ F^v sin θr cos θr dθr`.
 
-use crate::model::{Diffuse, Model, Parameters, Pbrdf, lost_by_single_reflection};
+use crate::model::{Diffuse, DolpFormula, Model, Parameters, Pbrdf, lost_by_single_reflection};
 use crate::optics::{Degrees, Facet, Fresnel, Geometry, Grooves, Order, SlopeDistribution, reduced_slope_sq};
 use std::f64::consts::PI;
 
@@ -106,9 +106,10 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// Looks at a surface.
+    /// Looks at a surface, its DoLP by the consistent formula: the Fresnel limit is one of that.
     #[must_use]
     pub fn new(surface: &Pbrdf) -> Self {
+        let surface = &surface.with_dolp_formula(DolpFormula::Consistent);
         let model = surface.model();
         let reflectance: Vec<Reflectance> = INCIDENCES.iter().map(|&theta_i| surface.reflectance(Degrees(theta_i))).collect();
         let mut findings = Vec::new();

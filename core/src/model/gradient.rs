@@ -3,9 +3,10 @@
 //! With the lobes of unit weight U (specular, without reflectance), D and V, the mean reflectance R and `b = (k_d D + k_v V)/U`:
 //!
 //! - `BRDF = k_s R U + k_d D + k_v V`
-//! - `DoLP = DoLP_s r`, `r = k_s R/(k_s R + b)`, `1 − r = b/(k_s R + b)`
+//! - `DoLP = DoLP_s s`, `s = κ R/(k_s R + b)`, κ = k_s (consistent) or 1 (as printed); `1 − r = b/(k_s R + b)` is the depolarised share
 //!
-//! so that `∂r = r (1 − r) ∂ln(k_s R U)` by what is specular and `∂r = −r ∂b/(k_s R + b)` by what is not; products are
+//! so that `∂s = s (1 − r) ∂ln(R U)` by the specular lobe and `∂s = −s ∂b/(k_s R + b)` by the others; by k_s it is
+//! `(1 − r) R/(k_s R + b)` in the consistent formula and `−s R/(k_s R + b)` as printed. Products are
 //! formed so that none of them is 0/0 at k_s, k_d, k_v, k = 0 or N = 1, nor where a lobe underflows. At k, k_d, k_v = 0 the
 //! derivatives are one-sided; one beyond f64 is infinite.
 
@@ -13,7 +14,7 @@ use crate::model::hyde_diffuse::SingleScatteringLoss;
 use crate::model::lobes::Lobe;
 use crate::model::pbrdf::{Lobes, Pbrdf, Reflection};
 use crate::model::prepared::PreparedGeometry;
-use crate::model::{Diffuse, Parameter, ParameterSet};
+use crate::model::{Diffuse, DolpFormula, Parameter, ParameterSet};
 use crate::optics::{Facet, Fresnel, FresnelGradient};
 
 /// Partial derivatives of BRDF (sr⁻¹ per unit of the parameter) and DoLP, in the order of [`Parameter::ALL`].
@@ -61,7 +62,7 @@ struct Mixture {
     mean: f64,
     /// DoLP_s.
     limit: f64,
-    /// r, the specular share of the radiance.
+    /// s = DoLP/DoLP_s: the specular share of the radiance, over k_s as printed.
     share: f64,
     /// 1 − r, formed without a difference.
     rest: f64,
@@ -118,10 +119,10 @@ impl Pbrdf {
     /// Specular and depolarised light.
     fn mixture(&self, lobes: &Lobes, fresnel: &Fresnel, mean: f64) -> Mixture {
         let depolarised = self.depolarised_over_specular(lobes);
-        let share = self.specular_share(mean, depolarised);
+        let share = self.polarised_share(mean, depolarised);
         let total = self.raised(self.parameters().ks) * mean + depolarised;
         let rest = if depolarised == 0.0 {
-            1.0 - share
+            if self.reflects_specularly() { 0.0 } else { 1.0 }
         } else if total.is_finite() {
             depolarised / total
         } else {
@@ -198,12 +199,12 @@ impl Pbrdf {
         let p = self.parameters();
         let &Mixture { mean, limit, share, rest, total } = mixture;
         let distribution = self.model().distribution;
-        // ∂r/∂R and ∂r/∂k_s, without r/R or r/k_s, which are 0/0 in the dark.
-        let by_mean = fading(rest * self.raised(p.ks), 1.0 / total);
+        // ∂s/∂R and ∂s/∂k_s, without s/R or s/k_s, which are 0/0 in the dark.
+        let by_mean = fading(rest * self.polarised_weight(), 1.0 / total);
         for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
             out[parameter as usize] = fading(share, by_index.dolp[j]) + fading(limit * by_mean, by_index.mean[j]);
         }
-        out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
+        out[Parameter::Ks as usize] = self.raised(fading(limit * self.ks_factor(rest, share) * mean, 1.0 / total));
         let both = limit * (share * rest);
         out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         if by.contains(Parameter::Q) {
@@ -227,10 +228,18 @@ impl Pbrdf {
                 let balance = darken(lobes.diffuse, p.ks);
                 join(&mut out[Parameter::Sigma as usize], fading(balance, loss.by_sigma));
                 join(&mut out[Parameter::Q as usize], fading(balance, loss.by_q));
-                // Specular lobe and balance rise together: against the volume lobe alone k_s counts.
+                // Specular lobe and balance rise together with k_s: in the consistent formula k_s counts against the
+                // volume lobe alone.
                 let others = lobes.volume.scaled(self.raised(p.kv)).over(lobes.specular);
                 let rest = if others == 0.0 { 0.0 } else { (others / total).min(1.0) };
-                out[Parameter::Ks as usize] = self.raised(fading(limit * rest * mean, 1.0 / total));
+                out[Parameter::Ks as usize] = match self.model().dolp_formula {
+                    DolpFormula::Consistent => self.raised(fading(limit * rest * mean, 1.0 / total)),
+                    // −DoLP ∂ln(k_s R + b)/∂k_s
+                    DolpFormula::AsPrinted => {
+                        let ratio = lobes.diffuse.over(lobes.specular);
+                        self.raised(fading(-limit * share * (mean + ratio), 1.0 / total))
+                    }
+                };
             }
         }
         if self.model().volume {
@@ -241,6 +250,14 @@ impl Pbrdf {
 }
 
 impl Pbrdf {
+    /// `∂s/∂k_s` over `R/(k_s R + b)`.
+    fn ks_factor(&self, rest: f64, share: f64) -> f64 {
+        match self.model().dolp_formula {
+            DolpFormula::Consistent => rest,
+            DolpFormula::AsPrinted => -share,
+        }
+    }
+
     /// What single reflection loses, for Hyde's term.
     fn loss(&self, facet: &Facet) -> SingleScatteringLoss {
         SingleScatteringLoss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)

@@ -29,5 +29,5 @@ pub use hemisphere::{Hemisphere, HemisphereMap};
 pub(crate) use hyde_diffuse::lost_by_single_reflection;
 pub use lobes::Lobe;
 pub use parameters::{Domain, Parameter, ParameterError, ParameterSet, Parameters};
-pub use pbrdf::{Diffuse, Model, Pbrdf, Reflection};
+pub use pbrdf::{Diffuse, DolpFormula, Model, Pbrdf, Reflection};
 pub use presets::{PRESETS, Preset};

@@ -2,7 +2,7 @@
 //!
 //! `F = k_s F^s + k_d F^d + k_v F^v` (3, 14). For unpolarised light in, BRDF = F00 and, (17) with k_s where
 //! (14) has it, `DoLP = √(F10² + F20²)/F00 = DoLP_s / (1 + (k_d F^d + k_v F^v)/(k_s F^s00))`: no rotation, no difference,
-//! and right even where the specular term underflows.
+//! and right even where the specular term underflows. [`DolpFormula`] chooses between that and (17) as printed.
 
 use crate::model::far_tail::Logarithms;
 use crate::model::hyde_diffuse::SingleScatteringLoss;
@@ -29,6 +29,18 @@ pub enum Diffuse {
     Hyde,
 }
 
+/// What Eq. (17) divides by F00 to give DoLP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DolpFormula {
+    /// The polarised radiance with k_s inside, as Eqs. (14, 15) have it: DoLP is 0 to 1.
+    #[default]
+    Consistent,
+    /// The polarised radiance without k_s, as Eq. (17) is printed: the consistent value divided by k_s, which may exceed 1.
+    #[serde(alias = "printed")]
+    AsPrinted,
+}
+
 /// Which distribution and which terms there are. A term that is absent is not evaluated and has no parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Model {
@@ -42,13 +54,29 @@ pub struct Model {
     pub diffuse: Diffuse,
     /// Whether there is a volume lobe.
     pub volume: bool,
+    /// How DoLP is formed, Eq. (17).
+    #[serde(default)]
+    pub dolp_formula: DolpFormula,
 }
 
 impl Model {
     /// All terms, with that distribution.
     #[must_use]
     pub const fn full(distribution: SlopeDistribution) -> Self {
-        Self { distribution, masking: true, specular: true, diffuse: Diffuse::Minnaert, volume: true }
+        Self {
+            distribution,
+            masking: true,
+            specular: true,
+            diffuse: Diffuse::Minnaert,
+            volume: true,
+            dolp_formula: DolpFormula::Consistent,
+        }
+    }
+
+    /// The same terms with DoLP by that formula.
+    #[must_use]
+    pub const fn with_dolp_formula(self, dolp_formula: DolpFormula) -> Self {
+        Self { dolp_formula, ..self }
     }
 
     /// The parameters that play a part in it.
@@ -72,18 +100,22 @@ impl Model {
         set
     }
 
-    /// Whether its DoLP depends on those parameters at all: a lone specular lobe has the DoLP of its facets,
-    /// whatever their distribution, and then σ, q and k_s show in the BRDF only; beside Hyde's term alone k_s cancels.
+    /// The parameters that its DoLP depends on.
+    ///
+    /// A lone specular lobe has the DoLP of its facets, whatever their distribution: σ and q show in the BRDF only. In the
+    /// consistent formula k_s cancels there and beside Hyde's term alone; as printed, DoLP is inversely proportional to k_s.
     #[must_use]
     pub fn dolp_parameters(&self) -> ParameterSet {
         if !self.specular {
-            ParameterSet::EMPTY
-        } else if self.diffuse == Diffuse::Absent && !self.volume {
-            [Parameter::N, Parameter::K].into_iter().collect()
-        } else if self.diffuse == Diffuse::Hyde && !self.volume {
-            self.parameters().without(Parameter::Ks)
-        } else {
-            self.parameters()
+            return ParameterSet::EMPTY;
+        }
+        let is_alone = self.diffuse == Diffuse::Absent && !self.volume;
+        let set = if is_alone { [Parameter::N, Parameter::K].into_iter().collect() } else { self.parameters() };
+        let ks_cancels = is_alone || (self.diffuse == Diffuse::Hyde && !self.volume);
+        match self.dolp_formula {
+            DolpFormula::Consistent if ks_cancels => set.without(Parameter::Ks),
+            DolpFormula::Consistent => set,
+            DolpFormula::AsPrinted => set.with(Parameter::Ks),
         }
     }
 }
@@ -93,7 +125,7 @@ impl Model {
 pub struct Reflection {
     /// BRDF, F00, in sr⁻¹.
     pub brdf: f64,
-    /// Degree of linear polarisation, 0 to 1.
+    /// Degree of linear polarisation, 0 to 1; as printed it may exceed 1 ([`DolpFormula`]).
     pub dolp: f64,
     /// Specular part of the BRDF, k_s F^s, in sr⁻¹.
     pub specular: f64,
@@ -167,6 +199,12 @@ impl Pbrdf {
         Ok(Self { model, parameters, index, weight_scale, logarithms })
     }
 
+    /// The same surface with DoLP by that formula.
+    #[must_use]
+    pub fn with_dolp_formula(self, dolp_formula: DolpFormula) -> Self {
+        Self { model: self.model.with_dolp_formula(dolp_formula), ..self }
+    }
+
     /// Which terms there are.
     #[must_use]
     pub fn model(&self) -> Model {
@@ -198,7 +236,7 @@ impl Pbrdf {
             let fresnel = at.fresnel(self.index);
             let mean = fresnel.mean();
             reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
-            reflection.dolp = fresnel.dolp() * self.specular_share(mean, self.depolarised_over_specular(&lobes));
+            reflection.dolp = fresnel.dolp() * self.polarised_share(mean, self.depolarised_over_specular(&lobes));
         }
         reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
         reflection
@@ -217,10 +255,10 @@ impl Pbrdf {
         }
         let fresnel = at.fresnel(self.index);
         if self.model.diffuse == Diffuse::Absent && !self.model.volume {
-            return if self.reflects_specularly() { fresnel.dolp() } else { 0.0 };
+            return fresnel.dolp() * self.polarised_share(fresnel.mean(), 0.0);
         }
         let lobes = self.lobes(at);
-        fresnel.dolp() * self.specular_share(fresnel.mean(), self.depolarised_over_specular(&lobes))
+        fresnel.dolp() * self.polarised_share(fresnel.mean(), self.depolarised_over_specular(&lobes))
     }
 
     /// The whole Mueller matrix between the meridian bases of the incident and the reflected ray.
@@ -302,14 +340,26 @@ impl Pbrdf {
         diffuse.over(lobes.specular) + volume.over(lobes.specular)
     }
 
-    /// The specular part of the radiance, `k_s R/(k_s R + b)`, for the mean reflectance R and b.
-    pub(crate) fn specular_share(&self, mean: f64, depolarised: f64) -> f64 {
+    /// The (raised) weight of the polarised radiance in the numerator of Eq. (17): k_s, or 1 as printed.
+    pub(crate) fn polarised_weight(&self) -> f64 {
+        self.raised(match self.model.dolp_formula {
+            DolpFormula::Consistent => self.parameters.ks,
+            DolpFormula::AsPrinted => 1.0,
+        })
+    }
+
+    /// DoLP over the Fresnel limit, `κ R/(k_s R + b)`, for the mean reflectance R and b; κ is [`Self::polarised_weight`].
+    /// Without any light it is 0.
+    pub(crate) fn polarised_share(&self, mean: f64, depolarised: f64) -> f64 {
         if depolarised == 0.0 {
-            // Nothing else, or nothing else that f64 can tell from nothing.
-            return if self.reflects_specularly() { 1.0 } else { 0.0 };
+            // No depolarised light, or less than f64 can tell from none.
+            return match self.model.dolp_formula {
+                _ if !self.reflects_specularly() => 0.0,
+                DolpFormula::Consistent => 1.0,
+                DolpFormula::AsPrinted => 1.0 / self.parameters.ks,
+            };
         }
-        let specular = self.raised(self.parameters.ks) * mean;
-        specular / (specular + depolarised)
+        self.polarised_weight() * mean / (self.raised(self.parameters.ks) * mean + depolarised)
     }
 
     /// Whether any light leaves by the specular lobe.

@@ -1,6 +1,6 @@
 //! The ladder of models to compare: one core, different terms switched on.
 
-use crate::model::{Diffuse, Model};
+use crate::model::{Diffuse, DolpFormula, Model};
 use crate::optics::SlopeDistribution;
 use crate::optics::SlopeDistribution::{Cauchy, Gauss};
 
@@ -20,7 +20,7 @@ pub struct Preset {
 }
 
 const fn model(distribution: SlopeDistribution, masking: bool, diffuse: Diffuse, volume: bool) -> Model {
-    Model { distribution, masking, specular: true, diffuse, volume }
+    Model { distribution, masking, specular: true, diffuse, volume, dolp_formula: DolpFormula::Consistent }
 }
 
 /// All presets, from the fewest terms to the most.
@@ -104,9 +104,9 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.key == key)
     }
 
-    /// The first preset with exactly these terms.
+    /// The last preset with exactly these terms, whatever the formula of DoLP.
     #[must_use]
     pub fn of(model: Model) -> Option<&'static Self> {
-        PRESETS.iter().rev().find(|preset| preset.model == model)
+        PRESETS.iter().rev().find(|preset| preset.model.with_dolp_formula(model.dolp_formula) == model)
     }
 }

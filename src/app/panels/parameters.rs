@@ -47,7 +47,7 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
             for preset in &PRESETS {
                 let chosen = current.is_some_and(|current| current.key == preset.key);
                 if ui.selectable_label(chosen, translated(preset.name)).on_hover_text(translated(preset.citation)).clicked() {
-                    settings.model = preset.model;
+                    settings.model = preset.model.with_dolp_formula(settings.model.dolp_formula);
                 }
             }
         });

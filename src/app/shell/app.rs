@@ -37,10 +37,10 @@ use crate::app::work::model_fit::ModelFit;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
 use crate::app::work::workspace::{Setup, Workspace};
-use pbrdf::fit::{DolpFormula, FitOptions, FitResult, Problem};
+use pbrdf::fit::{FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::measurement::formats::ImportNote;
-use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
+use pbrdf::model::{DolpFormula, FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -333,8 +333,9 @@ impl App {
         let Self { work: Workspace { settings, document, .. }, .. } = self;
         let problems = PRESETS.iter().map(|preset| {
             let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
-            let free = pbrdf::fit::free_by_default(preset.model, &document.measurement, &choices);
-            let problem = problem(settings, &document.measurement, preset.model, free, choices);
+            let model = preset.model.with_dolp_formula(settings.model.dolp_formula);
+            let free = pbrdf::fit::free_by_default(model, &document.measurement, &choices);
+            let problem = problem(settings, &document.measurement, model, free, choices);
             (preset, problem)
         });
         let problems = problems.collect();
@@ -456,7 +457,8 @@ impl App {
 
     fn use_model(&mut self, key: &str) {
         let preset = PRESETS.iter().find(|preset| preset.key == key);
-        self.work.settings.model = preset.map_or(self.work.settings.model, |preset| preset.model);
+        let current = self.work.settings.model;
+        self.work.settings.model = preset.map_or(current, |preset| preset.model.with_dolp_formula(current.dolp_formula));
     }
 
     /// The table of the pane Data to the clipboard.
@@ -505,7 +507,7 @@ impl App {
         let (has_brdf, planned) = (self.work.document.measurement.has_brdf(), self.work.settings.plan.has_brdf());
         let locked = match self.work.settings.locked {
             locked if has_brdf == planned => locked,
-            locked if planned || self.work.settings.choices.eq17 == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
+            locked if planned || self.work.settings.model.dolp_formula == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
             locked => locked.with(Parameter::Ks),
         };
         self.free_with(planned).without_all(locked)
@@ -513,14 +515,7 @@ impl App {
 
     fn free_with(&self, has_brdf: bool) -> ParameterSet {
         let model = self.work.settings.model;
-        match self.work.settings.choices.eq17 {
-            _ if has_brdf => model.parameters(),
-            DolpFormula::Consistent => model.dolp_parameters(),
-            // As printed, k_s is a gain of its own.
-            DolpFormula::AsPrinted => {
-                model.dolp_parameters().union(model.parameters().intersection(ParameterSet::EMPTY.with(Parameter::Ks)))
-            }
-        }
+        if has_brdf { model.parameters() } else { model.dolp_parameters() }
     }
 
     /// Sliders, model and results as an earlier fit left them.

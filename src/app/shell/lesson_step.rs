@@ -63,7 +63,8 @@ impl App {
 
 /// What a step sets; what it does not name stays.
 fn apply(step: &Step, settings: &mut Settings) {
-    settings.model = step.preset.map_or(settings.model, |preset| preset.model);
+    let current = settings.model;
+    settings.model = step.preset.map_or(current, |preset| preset.model.with_dolp_formula(current.dolp_formula));
     for &(parameter, value) in &step.set {
         settings.parameters[parameter] = value;
     }

@@ -4,6 +4,7 @@
 //! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
 //! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
 
+use crate::app::storage::earlier_keys::{EarlierFile, EarlierKeys};
 use crate::app::storage::fit_record::{FitRecord, on_one_line};
 use crate::app::work::document::{Mask, masked_rows};
 use crate::app::work::fit_history::FitEntry;
@@ -157,10 +158,12 @@ impl SavedFit {
 
     /// A fit of a file, if it can be one of this measurement.
     fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, String> {
+        let earlier = EarlierKeys::deserialize(&value).map_err(|error| error.to_string());
         let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| match error.path().to_string().as_str() {
             "." => error.inner().to_string(),
             place => format!("{place}: {}", error.inner()),
         })?;
+        earlier?.apply(&mut recipe.model);
         // Some files have an account that tells of the mask alone.
         if let Some(account) = recipe.account.take_if(|account| account.is_empty()) {
             recipe.masked = Some(account.into_mask());
@@ -270,8 +273,10 @@ impl Session {
             _ => return Err(SessionError::Format),
         }
         let mut json = serde_json::Deserializer::from_str(text);
-        let contents: Contents<serde_json::Value> =
+        let mut contents: Contents<serde_json::Value> =
             serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
+        let earlier: EarlierFile = serde_json::from_str(text).map_err(|error| SessionError::json("settings", &error))?;
+        earlier.settings.apply(&mut contents.settings.model);
         if let Some(fault) = contents.settings.fault() {
             return Err(SessionError::Settings(fault));
         }

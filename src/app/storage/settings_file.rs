@@ -1,5 +1,6 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
+use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::text::i18n::Language;
 use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::{SettingsFile, WindowSettings};
@@ -37,7 +38,7 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
                 Some(tr!("The settings of the last session cannot be read ({}); the defaults are used.", error.localized())),
             );
         }
-        Ok(bytes) => match serde_json::from_slice::<SettingsFile>(&bytes) {
+        Ok(bytes) => match read(&bytes) {
             Ok(settings) => match settings.fault() {
                 None => return (settings, None),
                 Some(fault) => fault,
@@ -54,6 +55,12 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
         SettingsFile::default(),
         Some(tr!("The settings file {0} is damaged ({1}); {2}, and the defaults are used.", path.display(), reason, kept)),
     )
+}
+
+fn read(bytes: &[u8]) -> serde_json::Result<SettingsFile> {
+    let mut file: SettingsFile = serde_json::from_slice(bytes)?;
+    serde_json::from_slice::<EarlierFile>(bytes)?.settings.apply(&mut file.settings.model);
+    Ok(file)
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.

@@ -9,8 +9,8 @@ use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::{DolpFormula, Loss, Starts};
-use pbrdf::model::{Parameter, Parameters, Preset};
+use pbrdf::fit::{Loss, Starts};
+use pbrdf::model::{DolpFormula, Parameter, Parameters, Preset};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -141,7 +141,7 @@ fn settings_view(settings: &Settings) -> Value {
         "brdf_residuals": settings.choices.brdf_residuals,
         "loss": loss(settings.choices.loss),
         "loss_scale": settings.choices.loss_scale,
-        "dolp_formula": formula(settings.choices.eq17),
+        "dolp_formula": formula(settings.model.dolp_formula),
         "dolp_only": settings.choices.dolp_only,
         "starts": match settings.starts { Starts::One => json!("one"), Starts::Automatic => json!("automatic"), Starts::Exactly(n) => json!(n) },
         "seed": settings.seed,
@@ -193,7 +193,7 @@ fn view(window: &App) -> Value {
             "std_errors": report.estimates.iter().map(|e| e.std_error).collect::<Vec<_>>(),
             "loss": loss(fit.problem.choices().loss),
             "loss_scales": report.loss_scales,
-            "dolp_formula": formula(fit.problem.choices().eq17),
+            "dolp_formula": formula(fit.problem.model().dolp_formula),
             "brdf_residuals": fit.problem.choices().brdf_residuals,
             "stop_reason": report.stop_reason,
             "residuals": fit.problem.len(),

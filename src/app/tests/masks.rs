@@ -134,7 +134,7 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
     }
     harness.get_by_label("Mask row 1000000");
     let view = &explorer(&mut harness).views.table;
-    let (_, _, _, _, seen) = view.predicted.key().expect("what is seen is evaluated");
+    let (_, _, _, seen) = view.predicted.key().expect("what is seen is evaluated");
     assert_eq!(seen.end, 1_000_000);
     assert!(seen.len() < 100, "{seen:?}");
     assert_eq!(view.predicted.get().map(Vec::len), Some(seen.len()));

@@ -7,8 +7,8 @@ use crate::app::work::settings::{Settings, SettingsFile};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use pbrdf::fit::{DolpFormula, Loss, Starts, Weights};
-use pbrdf::model::{Parameter, Parameters};
+use pbrdf::fit::{Loss, Starts, Weights};
+use pbrdf::model::{DolpFormula, Parameter, Parameters};
 
 fn fit(harness: &mut Harness<'static, Option<App>>) {
     explorer(harness).commands.push(Command::StartFit);
@@ -110,7 +110,7 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
     harness.run();
     choose(&mut harness, "Eq. (17)", "as printed");
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.work.settings.choices.eq17, DolpFormula::AsPrinted);
+    assert_eq!(explorer.work.settings.model.dolp_formula, DolpFormula::AsPrinted);
     assert!(explorer.free().contains(Parameter::Ks));
     assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[0][40].y, consistent / 0.5);
     harness.get_by_label("Default options").click();

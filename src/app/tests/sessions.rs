@@ -7,11 +7,12 @@ use crate::app::shell::docking::PaneId;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
+use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::Loss;
-use pbrdf::model::Parameter;
+use pbrdf::model::{DolpFormula, Parameter};
 use std::path::{Path, PathBuf};
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
@@ -275,6 +276,33 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         let (fits, shown) = (other.work.fit_history.len(), other.work.shown_fit.as_ref().map(|fit| fit.problem.choices().loss));
         assert_eq!((fits, shown), (1, Some(Loss::Squared)), "{place}");
     }
+}
+
+#[test]
+fn files_that_have_eq_17_among_the_choices_of_the_fit_keep_its_meaning() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut source = worked_in();
+    explorer(&mut source).work.settings.model.dolp_formula = DolpFormula::AsPrinted;
+    order(&mut source, Command::StartFit);
+    let mut session: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
+    for (place, formula) in [("/settings", "printed"), ("/fits/0", "printed"), ("/fits/1", "consistent")] {
+        let object = session.pointer_mut(place).expect("the place");
+        object["model"].as_object_mut().expect("a model").remove("dolp_formula").expect("a formula");
+        object["choices"].as_object_mut().expect("choices").insert("eq17".to_owned(), formula.into());
+    }
+    let path = folder.path().join("earlier.pbrdf.json");
+    std::fs::write(&path, session.to_string()).expect("a file");
+    let mut other = harness();
+    order(&mut other, Command::OpenSession(path));
+    assert_eq!(explorer(&mut other).work.settings, explorer(&mut source).work.settings);
+    let formulas: Vec<DolpFormula> = explorer(&mut other).work.fit_history.iter().map(|fit| fit.problem.model().dolp_formula).collect();
+    assert_eq!(formulas, [DolpFormula::AsPrinted, DolpFormula::Consistent]);
+
+    let path = folder.path().join("settings.json");
+    std::fs::write(&path, serde_json::json!({ "settings": session["settings"] }).to_string()).expect("a file");
+    let (file, notice) = load_from(&path);
+    assert_eq!((&file.settings, notice), (&explorer(&mut source).work.settings, None));
 }
 
 #[test]

@@ -4,9 +4,8 @@ use crate::app::plots::Ribbon;
 use crate::app::views::curves::{BrdfScale, DECADES, directions, drawn};
 use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_setup::dolp_gain;
-use pbrdf::fit::{DolpFormula, FitResult};
-use pbrdf::model::Pbrdf;
+use pbrdf::fit::FitResult;
+use pbrdf::model::{DolpFormula, Pbrdf};
 use pbrdf::optics::Facet;
 
 /// What a band depends on: the fit by its number in the session, the document, whether the backscatter side is drawn, how the BRDF is
@@ -24,14 +23,12 @@ pub fn band_key(fit: Option<&FitEntry>, document: &Document, backscatter: bool, 
 
 /// Around the fitted DoLP along each series.
 pub fn dolp_bands(report: &FitResult, document: &Document, backscatter: bool) -> Vec<Ribbons> {
-    let eq17 = report.band.eq17();
-    let gain = dolp_gain(eq17, &report.parameters);
-    // By either reading no DoLP is below 0; as printed it may exceed 1.
-    let most = if eq17 == DolpFormula::Consistent { 1.0 } else { f64::MAX };
+    // By either formula no DoLP is below 0; as printed it may exceed 1.
+    let most = if report.model.dolp_formula == DolpFormula::Consistent { 1.0 } else { f64::MAX };
     along_series(report, document, backscatter, |surface, facets, _| {
         let errors = report.band.dolp(facets);
         let ends = |(facet, error): (&Facet, Option<f64>)| {
-            let value = gain * surface.dolp(facet);
+            let value = surface.dolp(facet);
             error.map(|error| ((value - error).max(0.0), (value + error).min(most)))
         };
         facets.iter().zip(errors).map(ends).collect()

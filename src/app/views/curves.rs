@@ -2,10 +2,8 @@
 
 use crate::app::plots::Range;
 use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
-use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Settings;
 use egui_plot::PlotPoint;
-use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::{Degrees, Facet};
 use tr::tr;
@@ -98,7 +96,6 @@ pub struct CurveKey {
     pub theta_i: f64,
     pub dphi: f64,
     pub brdf: BrdfScale,
-    pub eq17: DolpFormula,
     /// Whether the backscatter side is drawn.
     pub backscatter: bool,
     pub generation: u64,
@@ -112,7 +109,6 @@ impl CurveKey {
             theta_i: settings.theta_i,
             dphi: settings.dphi,
             brdf: BrdfScale::new(settings),
-            eq17: settings.choices.eq17,
             backscatter: settings.show_backscatter || document.has_backscatter(),
             generation: document.generation,
         }
@@ -143,7 +139,7 @@ impl CurveSet {
         };
         let plane = key.dphi.rem_euclid(360.0);
         let own = IncidenceSeries { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        let curves = |series: &IncidenceSeries| Curves::new(&surface, key.eq17, series, key.backscatter, key.brdf);
+        let curves = |series: &IncidenceSeries| Curves::new(&surface, series, key.backscatter, key.brdf);
         let series: Vec<Curves> = drawn(document).map(curves).collect();
         let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
@@ -229,8 +225,7 @@ fn marks(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> O
 }
 
 impl Curves {
-    pub fn new(surface: &Pbrdf, eq17: DolpFormula, series: &IncidenceSeries, backscatter: bool, scale: BrdfScale) -> Self {
-        let gain = dolp_gain(eq17, surface.parameters());
+    pub fn new(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool, scale: BrdfScale) -> Self {
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles
             .into_iter()
@@ -243,7 +238,7 @@ impl Curves {
             |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, scale.coordinate(*x, value(reflection)))));
         let model = surface.model();
         Self {
-            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(gain * reflection.dolp)))),
+            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.dolp)))),
             limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Polyline::new() },
             total: brdf(|reflection| reflection.brdf),
             specular: if model.specular { brdf(|reflection| reflection.specular) } else { Polyline::new() },

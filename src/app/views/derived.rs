@@ -5,7 +5,7 @@ use crate::app::views::curves::{BrdfScale, CurveKey, CurveSet, MarkSet};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::{DolpFormula, FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
+use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
@@ -15,8 +15,8 @@ pub struct Derived {
     pub marks: Memo<(u64, BrdfScale), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
-    problem: Memo<(u64, Model, DolpFormula), Option<Problem>>,
-    delta_e: Memo<(Parameters, u64, Model, DolpFormula), Option<f64>>,
+    problem: Memo<(u64, Model), Option<Problem>>,
+    delta_e: Memo<(Parameters, u64, Model), Option<f64>>,
     /// Whether every value that counts comes with its standard deviation, by generation of the document.
     states_sigmas: Memo<u64, bool>,
     fault: Memo<(Parameters, Model), Option<ParameterError>>,
@@ -35,14 +35,13 @@ impl Derived {
     pub fn refresh_status(&mut self, settings: &Settings, document: &Document) {
         let Settings { parameters, model, .. } = *settings;
         self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err());
-        // Of a fit's choices the reading of Eq. (17) alone matters to ΔE.
-        let eq17 = settings.choices.eq17;
-        self.problem.refresh((document.generation, model, eq17), |_| {
-            problem(settings, &document.measurement, model, ParameterSet::EMPTY, FitOptions { eq17, ..FitOptions::default() }).ok()
+        // ΔE does not depend on the options of a fit.
+        self.problem.refresh((document.generation, model), |_| {
+            problem(settings, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
         });
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
         let problem = self.problem.get().and_then(Option::as_ref);
-        self.delta_e.refresh((parameters, document.generation, model, eq17), |_| problem?.delta_e(&parameters));
+        self.delta_e.refresh((parameters, document.generation, model), |_| problem?.delta_e(&parameters));
     }
 
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.

@@ -20,7 +20,6 @@ use crate::app::work::settings::{Overlay, Settings};
 use crate::app::work::workspace::Workspace;
 use egui::{Color32, Ui};
 use egui_plot::{AxisHints, HoverPosition, LineStyle};
-use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution;
 use std::collections::BTreeSet;
@@ -41,8 +40,8 @@ pub struct DolpView {
     hidden: BTreeSet<Line>,
 }
 
-/// Another surface than the sliders', the reading of Eq. (17), the generation of the document, whether the backscatter side is drawn.
-type SurfaceKey = (Parameters, Model, DolpFormula, u64, bool);
+/// Another surface than the sliders', the generation of the document, whether the backscatter side is drawn.
+type SurfaceKey = (Parameters, Model, u64, bool);
 impl DolpView {
     /// Ends of the axis of DoLP.
     pub fn range(&self) -> Option<Range> {
@@ -67,13 +66,12 @@ pub fn dolp_refresh(explorer: &mut App) {
     let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
     let view = &mut views.dolp;
 
-    let eq17 = settings.choices.eq17;
-    let key_of = |parameters, model, eq17| (parameters, model, eq17, document.generation, key.backscatter);
-    let of_sliders = key_of(settings.parameters, settings.model, eq17);
-    let fitted = last_fit.as_ref().map(|fit| key_of(fit.report.parameters, fit.report.model, fit.problem.choices().eq17));
+    let key_of = |parameters, model| (parameters, model, document.generation, key.backscatter);
+    let of_sliders = key_of(settings.parameters, settings.model);
+    let fitted = last_fit.as_ref().map(|fit| key_of(fit.report.parameters, fit.report.model));
     let ghost = fitted.filter(|key| *key != of_sliders);
     view.ghost.refresh(ghost, |key| along_series(key.as_ref(), document));
-    let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model, eq17));
+    let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model));
     view.overlay.refresh(other, |key| along_series(key.as_ref(), document));
     let fit = last_fit.as_deref();
     let band_key = band_key(fit, document, key.backscatter, BrdfScale::default(), settings.show_band);
@@ -95,9 +93,9 @@ pub fn dolp_refresh(explorer: &mut App) {
 
 /// DoLP of a surface along each series.
 fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Polyline> {
-    let Some(&(parameters, model, eq17, _, backscatter)) = key else { return Vec::new() };
+    let Some(&(parameters, model, _, backscatter)) = key else { return Vec::new() };
     let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
-    drawn(document).map(|series| Curves::new(&surface, eq17, series, backscatter, BrdfScale::default()).dolp).collect()
+    drawn(document).map(|series| Curves::new(&surface, series, backscatter, BrdfScale::default()).dolp).collect()
 }
 
 /// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.

@@ -12,12 +12,10 @@ use crate::app::plots::{BAR_ROOM, BarLabels, BarMarks, ColorScale, Following, Ra
 use crate::app::shell::app::App;
 use crate::app::views::curves::{DECADES, MOST_POINTS, SETS_AXES};
 use crate::app::work::document::Document;
-use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Quantity;
 use crate::app::work::workspace::Workspace;
 use crate::figure::ColorMap;
 use egui::{Align2, Color32, ColorImage, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, vec2};
-use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
 use pbrdf::optics::{Degrees, Geometry};
 use std::sync::Arc;
@@ -39,8 +37,8 @@ pub struct HemisphereView {
     measured: Memo<(u64, f64), Vec<Vec2>>,
 }
 
-/// Parameters, model, θi, the reading of Eq. (17).
-type MapKey = (Parameters, Model, f64, DolpFormula);
+/// Parameters, model, θi.
+type MapKey = (Parameters, Model, f64);
 
 /// What the job makes.
 pub struct Made {
@@ -53,12 +51,10 @@ pub struct Made {
 }
 
 impl Made {
-    fn new(surface: &Pbrdf, theta_i: f64, eq17: DolpFormula, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
+    fn new(surface: &Pbrdf, theta_i: f64, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
         let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, stopped).ok()??));
         let hemisphere = before.or_else(prepared)?;
         let mut map = hemisphere.map(surface, stopped)?;
-        let gain = dolp_gain(eq17, surface.parameters());
-        map.dolp.iter_mut().for_each(|dolp| *dolp *= gain);
         // Coloured by its decades.
         map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
         let extremes = Quantity::ALL.map(|quantity| extremes(values(&map, quantity)));
@@ -217,14 +213,14 @@ fn measured(document: &Document, theta_i: f64) -> Vec<Vec2> {
 pub fn hemisphere_refresh(explorer: &mut App) {
     let App { work: Workspace { settings, document, .. }, views, background, dragging, .. } = explorer;
     let view = &mut views.hemisphere;
-    let (parameters, model, theta_i, eq17) = (settings.parameters, settings.model, settings.theta_i, settings.choices.eq17);
+    let (parameters, model, theta_i) = (settings.parameters, settings.model, settings.theta_i);
     let Ok(surface) = Pbrdf::new(model, parameters) else {
         // Values that are not numbers differ from themselves: a job would follow a job for ever.
         view.job = AsyncMemo::default();
         return;
     };
     let before = view.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
-    view.job.refresh(background, &(parameters, model, theta_i, eq17), move |stopped| Made::new(&surface, theta_i, eq17, before, stopped));
+    view.job.refresh(background, &(parameters, model, theta_i), move |stopped| Made::new(&surface, theta_i, before, stopped));
     view.measured.refresh((document.generation, theta_i), |_| measured(document, theta_i));
     let (Some(key), Some(Some(made))) = (view.job.key(), view.job.get()) else { return };
     let quantity = settings.shown.hemisphere;
@@ -402,14 +398,13 @@ impl Disc {
 #[cfg(test)]
 mod tests {
     use super::{ColorScale, Made, Quantity, Range, SIZE, extremes, index, place, values, wanted};
-    use pbrdf::fit::DolpFormula;
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
 
     #[test]
     fn the_image_has_the_values_of_the_map_with_y_upwards() {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
-        let made = Made::new(&surface, 50.0, DolpFormula::Consistent, None, &|| false).expect("a map");
+        let made = Made::new(&surface, 50.0, None, &|| false).expect("a map");
         // On either side of the plane of incidence the angle of polarisation has the other sign.
         let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
         let image = made.image(Quantity::Angle, scale);

@@ -13,13 +13,13 @@ use crate::app::work::document::Document;
 use crate::app::work::settings::Settings;
 use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::{DolpFormula, Undetermined, is_poorly_determined};
+use pbrdf::fit::{Undetermined, is_poorly_determined};
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
 
 /// What predictions depend on, the language of their words included.
-type Key = (Parameters, Model, DolpFormula, ParameterSet, Plan, u64, Language);
+type Key = (Parameters, Model, ParameterSet, Plan, u64, Language);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -31,8 +31,8 @@ pub struct PlannerView {
 pub fn planner_refresh(explorer: &mut App) {
     let free = explorer.free_in_plan();
     let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let Settings { parameters, model, choices, ref plan, .. } = *settings;
-    let key = (parameters, model, choices.eq17, free, plan.clone(), document.generation, i18n::current());
+    let Settings { parameters, model, ref plan, .. } = *settings;
+    let key = (parameters, model, free, plan.clone(), document.generation, i18n::current());
     views
         .planner
         .predictions

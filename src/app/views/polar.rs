@@ -16,7 +16,6 @@ use crate::app::work::document::IncidenceSeries;
 use crate::app::work::workspace::Workspace;
 use egui::{Align2, Color32, RichText, Ui, Vec2};
 use egui_plot::{Arrows, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Text};
-use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Degrees;
 use tr::tr;
@@ -52,7 +51,7 @@ pub fn polar_refresh(explorer: &mut App) {
     view.curves.refresh(key, |&(parameters, model, theta_i, plane, log)| {
         let Ok(surface) = Pbrdf::new(model, parameters) else { return Curves::default() };
         let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        Curves::new(&surface, DolpFormula::Consistent, &series, true, BrdfScale { log, times_cosine: false })
+        Curves::new(&surface, &series, true, BrdfScale { log, times_cosine: false })
     });
     let Some(curves) = view.curves.get() else { return };
     let values = || axis_values(&curves.total);

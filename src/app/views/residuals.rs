@@ -8,11 +8,9 @@ use crate::app::shell::app::App;
 use crate::app::shell::theme;
 use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
 use crate::app::work::document::{DataPoint, Document};
-use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::settings::Settings;
 use egui::Ui;
 use egui_plot::{AxisHints, HLine, HoverPosition, PlotPoint, PlotPoints, Points};
-use pbrdf::fit::DolpFormula;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use tr::tr;
@@ -22,7 +20,7 @@ use tr::tr;
 pub struct Residuals {
     axes: Axes,
     /// DoLP of the model less the measured one, of each series; masked points left out.
-    pub of_series: Memo<(Parameters, Model, DolpFormula, u64), Vec<Vec<PlotPoint>>>,
+    pub of_series: Memo<(Parameters, Model, u64), Vec<Vec<PlotPoint>>>,
     range: Following,
     is_there: bool,
 }
@@ -32,7 +30,7 @@ const EXACT: f64 = 0.01;
 
 impl Residuals {
     pub fn refresh(&mut self, settings: &Settings, document: &Document, dragging: bool) {
-        let key = (settings.parameters, settings.model, settings.choices.eq17, document.generation);
+        let key = (settings.parameters, settings.model, document.generation);
         self.of_series.refresh(key, |_| of_all(settings, document));
         self.is_there = document.series.iter().any(|series| !series.dolp.is_empty());
         let largest = self.of_series.get().into_iter().flatten().flatten().map(|point| point.y.abs()).fold(0.0, f64::max);
@@ -53,13 +51,12 @@ impl Residuals {
 
 fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<PlotPoint>> {
     let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return Vec::new() };
-    let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
     let of_one = |series: &crate::app::work::document::IncidenceSeries| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
         let residual = |mark: &DataPoint| {
             let facet = Facet::new(series.geometry(mark.theta_r)?);
-            Some(PlotPoint::new(mark.theta_r, gain * surface.dolp(&facet) - mark.quantity.value))
+            Some(PlotPoint::new(mark.theta_r, surface.dolp(&facet) - mark.quantity.value))
         };
         used.filter_map(residual).collect()
     };

@@ -7,11 +7,9 @@ use crate::app::shell::commands::Command;
 use crate::app::text::glossary::{mask_help, short};
 use crate::app::text::i18n::translated;
 use crate::app::work::document::{Document, IncidenceSeries};
-use crate::app::work::fit_setup::dolp_gain;
 use crate::app::work::workspace::Workspace;
 use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
-use pbrdf::fit::DolpFormula;
 use pbrdf::measurement::{Quantity, Row, exact};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -26,7 +24,7 @@ pub struct Predicted {
 }
 
 /// What the model in the seen rows depends on: the sliders, the reading of Eq. (17), the document's generation, the rows.
-type PredictedKey = (Parameters, Model, DolpFormula, u64, Range<usize>);
+type PredictedKey = (Parameters, Model, u64, Range<usize>);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -43,13 +41,12 @@ pub fn table_refresh(explorer: &mut App) {
     let view = &mut views.table;
     let rows = &document.measurement.rows;
     let visible = view.visible.start.min(rows.len())..view.visible.end.min(rows.len());
-    let key = (settings.parameters, settings.model, settings.choices.eq17, document.generation, visible);
-    view.predicted.refresh(key, |(parameters, model, eq17, _, visible)| {
+    let key = (settings.parameters, settings.model, document.generation, visible);
+    view.predicted.refresh(key, |(parameters, model, _, visible)| {
         let Ok(surface) = Pbrdf::new(*model, *parameters) else { return Vec::new() };
-        let gain = dolp_gain(*eq17, parameters);
         let predict = |row: &Row| {
             let reflection = surface.reflection(&Facet::new(row.geometry));
-            Predicted { dolp: gain * reflection.dolp, brdf: reflection.brdf }
+            Predicted { dolp: reflection.dolp, brdf: reflection.brdf }
         };
         rows[visible.clone()].iter().map(predict).collect()
     });
@@ -60,7 +57,6 @@ pub fn table_text(explorer: &App) -> String {
     let App { work: Workspace { settings, document, .. }, .. } = explorer;
     let measurement = &document.measurement;
     let surface = Pbrdf::new(settings.model, settings.parameters).ok();
-    let gain = dolp_gain(settings.choices.eq17, &settings.parameters);
     let shown = [("DoLP", measurement.has_dolp()), ("BRDF", measurement.has_brdf())];
     let mut headings: Vec<String> = ["row", "mask"].map(translated).into();
     headings.extend(ANGLES.map(|(heading, ..)| heading.to_owned()));
@@ -74,7 +70,7 @@ pub fn table_text(explorer: &App) -> String {
         let mut cells = vec![(index + 1).to_string(), u8::from(row.masked).to_string()];
         cells.extend([geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0].map(exact));
         let reflection = surface.as_ref().map(|surface| surface.reflection(&Facet::new(geometry)));
-        let dolp = (row.dolp, reflection.map(|reflection| gain * reflection.dolp));
+        let dolp = (row.dolp, reflection.map(|reflection| reflection.dolp));
         let brdf = (row.brdf, reflection.map(|reflection| reflection.brdf));
         for (measured, model) in [dolp, brdf].into_iter().zip(shown).filter(|(_, (_, is_there))| *is_there).map(|(values, _)| values) {
             let value = measured.map(|measured| measured.value);
@@ -197,9 +193,9 @@ fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, u
                 let index = line.index();
                 let seen = visible.get_or_insert(index..index);
                 *seen = seen.start.min(index)..seen.end.max(index + 1);
-                let predicted = view.predicted.key().filter(|key| key.4.contains(&index)).and_then(|key| {
+                let predicted = view.predicted.key().filter(|key| key.3.contains(&index)).and_then(|key| {
                     let values = view.predicted.get()?;
-                    values.get(index - key.4.start).copied()
+                    values.get(index - key.3.start).copied()
                 });
                 line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp, has_brdf), commands);
             });

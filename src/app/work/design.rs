@@ -145,14 +145,7 @@ impl Prediction {
         if geometries.is_empty() {
             return Err(tr!("There is no angle: add one of incidence and one of view."));
         }
-        let plan = fit::Design {
-            model: settings.model,
-            parameters: settings.parameters,
-            geometries,
-            noise: settings.plan.noise(),
-            free,
-            eq17: settings.choices.eq17,
-        };
+        let plan = fit::Design { model: settings.model, parameters: settings.parameters, geometries, noise: settings.plan.noise(), free };
         let fit::DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
         Ok(Self { errors, open: undetermined })
     }

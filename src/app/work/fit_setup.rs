@@ -2,7 +2,7 @@
 
 use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
-use pbrdf::fit::{Bounds, DolpFormula, FitOptions, Problem, ProblemError};
+use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, ParameterSet, Parameters};
 use tr::tr;
@@ -45,14 +45,6 @@ pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
             None => tr!("row {0}: {1}", row + 1, error.localized()),
         },
         _ => error.localized(),
-    }
-}
-
-/// What the model's DoLP is multiplied by to give the chosen reading of Eq. (17).
-pub fn dolp_gain(eq17: DolpFormula, parameters: &Parameters) -> f64 {
-    match eq17 {
-        DolpFormula::Consistent => 1.0,
-        DolpFormula::AsPrinted => 1.0 / parameters.ks,
     }
 }
 

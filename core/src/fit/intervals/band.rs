@@ -7,8 +7,7 @@
 
 use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::objective::Problem;
-use crate::fit::options::DolpFormula;
-use crate::model::{Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
+use crate::model::{Gradient, GradientRequest, Model, ParameterSet, Parameters, Pbrdf};
 use crate::optics::Facet;
 
 /// What is needed to say how far a fitted curve can be trusted.
@@ -16,7 +15,6 @@ use crate::optics::Facet;
 pub struct PredictionBand {
     model: Model,
     parameters: Parameters,
-    eq17: DolpFormula,
     uncertainty: Uncertainty,
 }
 
@@ -24,7 +22,7 @@ impl PredictionBand {
     /// Around the curves of those parameters, given what the problem's data determine there.
     #[must_use]
     pub fn new(problem: &Problem, parameters: &Parameters, uncertainty: Uncertainty) -> Self {
-        Self { model: problem.model(), parameters: *parameters, eq17: problem.choices().eq17, uncertainty }
+        Self { model: problem.model(), parameters: *parameters, uncertainty }
     }
 
     /// What the data determine.
@@ -33,46 +31,26 @@ impl PredictionBand {
         &self.uncertainty
     }
 
-    /// The reading of Eq. (17) that [`Self::dolp`] speaks of.
-    #[must_use]
-    pub fn eq17(&self) -> DolpFormula {
-        self.eq17
-    }
-
-    /// Standard errors of the predicted DoLP (by the fit's reading of Eq. (17)) at prepared geometries; none where the data leave the
-    /// curve open or no degree of freedom is left.
+    /// Standard errors of the predicted DoLP at prepared geometries; none where the data leave the curve open or no degree of
+    /// freedom is left.
     #[must_use]
     pub fn dolp(&self, facets: &[Facet]) -> Vec<Option<f64>> {
-        self.errors(facets, GradientRequest { by: self.by(), brdf: false, dolp: true }, |at| {
-            dolp_gradient(at, self.eq17, self.parameters.ks)
-        })
+        self.errors(facets, GradientRequest { by: self.by(), brdf: false, dolp: true }, |gradient| gradient.dolp)
     }
 
     /// Standard errors of the predicted BRDF, in sr⁻¹, the same way.
     #[must_use]
     pub fn brdf(&self, facets: &[Facet]) -> Vec<Option<f64>> {
-        self.errors(facets, GradientRequest { by: self.by(), brdf: true, dolp: false }, |(_, gradient)| gradient.brdf)
+        self.errors(facets, GradientRequest { by: self.by(), brdf: true, dolp: false }, |gradient| gradient.brdf)
     }
 
     fn by(&self) -> ParameterSet {
         self.uncertainty.analysed.iter().copied().collect()
     }
 
-    fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&(Reflection, Gradient)) -> [f64; 9]) -> Vec<Option<f64>> {
+    fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&Gradient) -> [f64; 9]) -> Vec<Option<f64>> {
         let Ok(surface) = Pbrdf::new(self.model, self.parameters) else { return vec![None; facets.len()] };
-        let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted)));
+        let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted).1));
         facets.iter().map(error).collect()
-    }
-}
-
-/// ∂DoLP/∂p by either reading of Eq. (17): as printed it is the consistent value over k_s.
-fn dolp_gradient((reflection, gradient): &(Reflection, Gradient), eq17: DolpFormula, ks: f64) -> [f64; 9] {
-    match eq17 {
-        DolpFormula::Consistent => gradient.dolp,
-        DolpFormula::AsPrinted => {
-            let mut printed = gradient.dolp.map(|derivative| derivative / ks);
-            printed[Parameter::Ks as usize] -= reflection.dolp / (ks * ks);
-            printed
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! What the kernels need of a surface, formed once.
 
-use crate::model::{Diffuse, Model, Parameters, Pbrdf};
+use crate::model::{Diffuse, DolpFormula, Model, Parameters, Pbrdf};
 use crate::optics::SlopeDistribution;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -30,6 +30,8 @@ pub(crate) struct Coefficients {
     pub minus_over_sigma_v_sq: f64,
     /// k_s E h/8πσ²: the specular lobe is that times H e^(−x) / (W² Z), over the geometric factor.
     pub specular: f64,
+    /// DoLP over the consistent value: 1, or 1/k_s as printed.
+    pub dolp_gain: f64,
     /// 1/π and 1/(√(2π) σ_v).
     pub diffuse_height: f64,
     pub volume_height: f64,
@@ -70,6 +72,10 @@ impl Coefficients {
             specular,
             diffuse_height: FRAC_1_PI,
             volume_height,
+            dolp_gain: match model.dolp_formula {
+                DolpFormula::Consistent => 1.0,
+                DolpFormula::AsPrinted => 1.0 / p.ks,
+            },
             diffuse_over_specular: FRAC_1_PI / specular,
             volume_over_specular: volume_height / specular,
         };

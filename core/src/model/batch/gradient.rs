@@ -6,12 +6,14 @@
 //! - by n and k: `r ∂DoLP_s + DoLP_s r (1 − r) ∂ln R`
 //! - by σ, q, k_s: `DoLP_s r (1 − r)` times the logarithmic slope of the specular lobe
 //! - by k_d, k_v: `−DoLP T₁/(H + T)`, T₁ being T of the lobe of unit weight; by c and σ_v that times weight and logarithmic slope
+//!
+//! DoLP [as printed](DolpFormula::AsPrinted) is 1/k_s times the consistent value, and so are its derivatives, but by k_s: `−DoLP r/k_s`.
 
-use crate::model::Parameter;
 use crate::model::batch::coefficients::Coefficients;
 use crate::model::batch::elementary::exp;
 use crate::model::batch::kernels::{Fresnel, MINNAERT, NONE, STEEPEST, Slopes, diffuse_exponent, over_geometric, volume_exponent};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
+use crate::model::{DolpFormula, Parameter};
 use fearless_simd::prelude::*;
 
 /// Depolarised terms beyond this multiple of the specular one go the scalar way: their products near the end of f64.
@@ -47,8 +49,9 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for D
         let depolarised = diffuse.mul_add(number(simd, p.kd), volume * p.kv);
         let total = fresnel.h + depolarised;
         let one_over = number(simd, 1.0) / total;
-        let dolp = fresnel.polarised * one_over;
-        let share = fresnel.h * one_over;
+        let dolp = fresnel.polarised * one_over * of.dolp_gain;
+        let specular = fresnel.h * one_over;
+        let share = specular * of.dolp_gain;
         let rest = depolarised * one_over;
         let both = dolp * rest;
 
@@ -57,7 +60,10 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for D
         let ([mean_n, mean_k], [limit_n, limit_k]) = index_slopes(simd, &fresnel, of);
         out[column(Parameter::N)] = share.mul_add(limit_n, both * mean_n);
         out[column(Parameter::K)] = share.mul_add(limit_k, both * mean_k);
-        out[column(Parameter::Ks)] = both * (1.0 / p.ks);
+        out[column(Parameter::Ks)] = match of.model.dolp_formula {
+            DolpFormula::Consistent => both * (1.0 / p.ks),
+            DolpFormula::AsPrinted => dolp * specular * (-1.0 / p.ks),
+        };
         if CAUCHY {
             let slope = number(simd, p.q - 1.0).mul_sub(slopes.w, number(simd, 1.0)) / (slopes.w + 1.0);
             out[column(Parameter::Sigma)] = both * slope * (2.0 / p.sigma);

@@ -132,7 +132,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<1> for Do
         let of = self.0;
         let fresnel = Fresnel::new(simd, points, of);
         if DIFFUSE == NONE && !VOLUME {
-            return ([fresnel.polarised / fresnel.h], Mask::<S>::splat(simd, false));
+            return ([fresnel.polarised / fresnel.h * of.dolp_gain], Mask::<S>::splat(simd, false));
         }
         let slopes = Slopes::new::<CAUCHY>(simd, points, of);
         let mut steepest = slopes.exponent;
@@ -150,7 +150,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<1> for Do
         }
         let b = b * over_geometric(points, of);
         let dolp = fresnel.polarised / b.mul_add(fresnel.w_sq_z(), fresnel.h);
-        ([dolp], steepest.simd_gt(number(simd, STEEPEST)))
+        ([dolp * of.dolp_gain], steepest.simd_gt(number(simd, STEEPEST)))
     }
 }
 
@@ -185,7 +185,7 @@ impl<const DOLP: bool, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool
         } else {
             fresnel.polarised * specular_over_h / brdf
         };
-        ([dolp, brdf, specular], steepest.simd_gt(number(simd, STEEPEST)))
+        ([dolp * of.dolp_gain, brdf, specular], steepest.simd_gt(number(simd, STEEPEST)))
     }
 }
 

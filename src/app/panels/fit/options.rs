@@ -4,9 +4,9 @@ use crate::app::shell::theme;
 use crate::app::text::i18n::translated;
 use crate::app::work::settings::Settings;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
-use pbrdf::fit::{BrdfResiduals, DolpFormula, FitOptions, Loss, Starts, Weights};
+use pbrdf::fit::{BrdfResiduals, FitOptions, Loss, Starts, Weights};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::Parameter;
+use pbrdf::model::{DolpFormula, Parameter};
 use tr::tr;
 
 /// Starts that can be asked for at most.
@@ -15,7 +15,9 @@ const MOST_STARTS: usize = 100_000;
 const SOME_STARTS: usize = 100;
 
 pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sigmas: bool, ui: &mut Ui) {
-    let are_defaults = settings.choices == FitOptions::default() && settings.starts == Starts::Automatic;
+    let are_defaults = settings.choices == FitOptions::default()
+        && settings.starts == Starts::Automatic
+        && settings.model.dolp_formula == DolpFormula::default();
     let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
         Grid::new("fit options").num_columns(2).show(ui, |ui| {
@@ -30,6 +32,7 @@ pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sig
         }
         if ui.add_enabled(!are_defaults, egui::Button::new(tr!("Default options"))).clicked() {
             settings.choices = FitOptions::default();
+            settings.model.dolp_formula = DolpFormula::default();
             settings.starts = Starts::Automatic;
             settings.seed = 1;
             keep_ks_where_only_ratios_count(settings, measurement.has_brdf());
@@ -102,7 +105,7 @@ fn eq17_ui(settings: &mut Settings, has_brdf: bool, ui: &mut Ui) {
         "Eq. (17)",
         "Consistent: k_s in the numerator, as Eqs. (14, 15) have it. As printed: without it, so that k_s is a gain of its own and DoLP \
          may exceed 1.",
-        &mut settings.choices.eq17,
+        &mut settings.model.dolp_formula,
         &[(DolpFormula::Consistent, "consistent"), (DolpFormula::AsPrinted, "as printed")],
     );
     if changed {
@@ -112,7 +115,7 @@ fn eq17_ui(settings: &mut Settings, has_brdf: bool, ui: &mut Ui) {
 
 /// As printed k_s counts by itself; in the consistent reading DoLP alone knows only ratios to it.
 fn keep_ks_where_only_ratios_count(settings: &mut Settings, has_brdf: bool) {
-    let only_ratios = settings.choices.eq17 == DolpFormula::Consistent && !has_brdf;
+    let only_ratios = settings.model.dolp_formula == DolpFormula::Consistent && !has_brdf;
     settings.locked = if only_ratios { settings.locked.with(Parameter::Ks) } else { settings.locked.without(Parameter::Ks) };
 }
 

@@ -1,0 +1,31 @@
+//! Keys of files of earlier releases that mean the same under another key now.
+
+use pbrdf::model::{DolpFormula, Model};
+use serde::Deserialize;
+
+/// Earlier keys of settings, and of a fit of a session: the formula of DoLP stood under `choices.eq17`.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+pub struct EarlierKeys {
+    choices: EarlierChoices,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct EarlierChoices {
+    eq17: Option<DolpFormula>,
+}
+
+/// A file with settings: a session or the settings file.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+pub struct EarlierFile {
+    pub settings: EarlierKeys,
+}
+
+impl EarlierKeys {
+    /// Puts the values where they stand now.
+    pub fn apply(&self, model: &mut Model) {
+        model.dolp_formula = self.choices.eq17.unwrap_or(model.dolp_formula);
+    }
+}
