@@ -90,6 +90,8 @@ pub struct Series {
     pub name: String,
     /// Its colour; the next of [`SERIES`] without.
     pub color: Option<Rgb>,
+    /// From 0, which is not seen, to 1.
+    pub opacity: f64,
     /// What it is.
     pub drawn: Drawn,
 }
@@ -122,6 +124,11 @@ pub enum Drawn {
     Band {
         /// x, low and high.
         points: Vec<[f64; 3]>,
+    },
+    /// The inside of a closed curve.
+    Area {
+        /// x and y of its corners; values that are not finite separate areas.
+        points: Vec<[f64; 2]>,
     },
     /// Bars that stand on an axis: x and height.
     Bars {
@@ -164,6 +171,8 @@ pub enum Dash {
     Dashed,
     /// In dots.
     Dotted,
+    /// In dots far apart.
+    Sparse,
 }
 
 /// How a point looks.
@@ -215,6 +224,25 @@ impl Default for Panel {
     }
 }
 
+impl Panel {
+    /// The colour of each series: its own, that of an earlier one of its name, or the next of [`SERIES`].
+    #[must_use]
+    pub fn colors(&self) -> Vec<Rgb> {
+        let mut names: Vec<(&str, Rgb)> = Vec::new();
+        let mut next = SERIES.into_iter().cycle();
+        let mut colors = Vec::new();
+        for series in &self.series {
+            let known = names.iter().find(|(name, _)| !name.is_empty() && *name == series.name).map(|(_, color)| *color);
+            let color = series.color.or(known).or_else(|| next.next()).unwrap_or(SERIES[0]);
+            if known.is_none() {
+                names.push((&series.name, color));
+            }
+            colors.push(color);
+        }
+        colors
+    }
+}
+
 impl Axis {
     /// A linear axis.
     pub fn linear(label: impl Into<String>, unit: impl Into<String>) -> Self {
@@ -248,7 +276,7 @@ impl Axis {
 
 impl Series {
     fn new(name: impl Into<String>, drawn: Drawn) -> Self {
-        Self { name: name.into(), color: None, drawn }
+        Self { name: name.into(), color: None, opacity: 1.0, drawn }
     }
 
     /// A curve.
@@ -282,6 +310,16 @@ impl Series {
         Self::new(name, Drawn::Band { points })
     }
 
+    /// The inside of a closed curve.
+    pub fn area(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
+        Self::new(name, Drawn::Area { points })
+    }
+
+    /// A curve of that width in points of paper.
+    pub fn stroke(name: impl Into<String>, points: Vec<[f64; 2]>, width: f64, dash: Dash) -> Self {
+        Self::new(name, Drawn::Line { points, width, dash })
+    }
+
     /// Bars of that width on the horizontal axis.
     pub fn bars(name: impl Into<String>, points: Vec<[f64; 2]>, width: f64) -> Self {
         Self::new(name, Drawn::Bars { points, width })
@@ -307,6 +345,12 @@ impl Series {
     #[must_use]
     pub fn labels(labels: Vec<([f64; 2], String)>) -> Self {
         Self::new("", Drawn::Labels(labels))
+    }
+
+    /// Fainter: an opacity from 0 to 1.
+    #[must_use]
+    pub fn faded(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
     }
 
     /// In that colour.

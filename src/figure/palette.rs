@@ -7,6 +7,19 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Rgb(pub u8, pub u8, pub u8);
 
+impl Rgb {
+    /// The colour that shows on white paper at that opacity, from 0 to 1.
+    #[must_use]
+    pub fn on_white(self, opacity: f64) -> Self {
+        if opacity >= 1.0 {
+            return self;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+        let mix = |byte: u8| (255.0 + opacity.max(0.0) * (f64::from(byte) - 255.0)).round() as u8;
+        Self(mix(self.0), mix(self.1), mix(self.2))
+    }
+}
+
 /// Colours of series on a light background, in their order.
 pub const SERIES: [Rgb; 12] = [
     Rgb(0, 92, 160),

@@ -29,7 +29,7 @@ pub fn color(map: &HeatMap) -> (f64, f64) {
 
 fn xs(drawn: &Drawn) -> Vec<f64> {
     match drawn {
-        Drawn::Line { points, .. } | Drawn::Steps { points } => points.iter().map(|[x, _]| *x).collect(),
+        Drawn::Line { points, .. } | Drawn::Steps { points } | Drawn::Area { points } => points.iter().map(|[x, _]| *x).collect(),
         Drawn::Points { points, .. } => points.iter().map(|point| point.x).collect(),
         Drawn::Band { points } => points.iter().map(|[x, ..]| *x).collect(),
         Drawn::Bars { points, width } => points.iter().flat_map(|[x, _]| [x - 0.6 * width, x + 0.6 * width]).collect(),
@@ -42,7 +42,7 @@ fn xs(drawn: &Drawn) -> Vec<f64> {
 
 fn ys(drawn: &Drawn) -> Vec<f64> {
     match drawn {
-        Drawn::Line { points, .. } | Drawn::Steps { points } => points.iter().map(|[_, y]| *y).collect(),
+        Drawn::Line { points, .. } | Drawn::Steps { points } | Drawn::Area { points } => points.iter().map(|[_, y]| *y).collect(),
         Drawn::Points { points, .. } => points
             .iter()
             .flat_map(|point| {

@@ -24,6 +24,7 @@ fn dashes(dash: Dash, width: f64) -> Option<(f64, f64)> {
         Dash::Solid => None,
         Dash::Dashed => Some((4.0 * width, 2.5 * width)),
         Dash::Dotted => Some((1.2 * width, 2.0 * width)),
+        Dash::Sparse => Some((1.2 * width, 5.0 * width)),
     }
 }
 
@@ -79,6 +80,12 @@ pub fn draw(canvas: &mut Canvas<'_>, placed: &Placed, series: &Series, color: Rg
         Drawn::Band { points } => {
             for piece in points.split(|[x, low, high]| !(x.is_finite() && low.is_finite() && high.is_finite())) {
                 canvas.path(&band(&map, piece), Paint::Fill(color, BAND));
+            }
+        }
+        Drawn::Area { points } => {
+            for piece in points.split(|point| !point.iter().all(|coordinate| coordinate.is_finite())) {
+                let outline: Vec<(f64, f64)> = piece.iter().filter_map(|[x, y]| Some((map.x(*x)?, map.y_within(*y)?))).collect();
+                canvas.path(&if outline.len() < 3 { String::new() } else { polyline(&outline) + "Z" }, Paint::Fill(color, BAND));
             }
         }
         Drawn::Bars { points, width } => canvas.path(&bars(&map, points, *width), Paint::Fill(color, 1.0)),
@@ -300,7 +307,7 @@ pub fn draw_sample(canvas: &mut Canvas<'_>, series: &Series, color: Rgb, (left, 
             }
             canvas.path(&symbol_at(*symbol, center, middle), symbol_paint(*symbol, color));
         }
-        Drawn::Band { .. } => canvas.path(&rectangle(left, middle - 3.0, width, 6.0), Paint::Fill(color, BAND)),
+        Drawn::Band { .. } | Drawn::Area { .. } => canvas.path(&rectangle(left, middle - 3.0, width, 6.0), Paint::Fill(color, BAND)),
         Drawn::Bars { .. } => canvas.path(&rectangle(left + 4.0, middle - 3.0, width - 8.0, 6.0), Paint::Fill(color, 1.0)),
         Drawn::HeatMap(_) | Drawn::Labels(_) => {}
     }

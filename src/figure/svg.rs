@@ -5,7 +5,7 @@ use crate::figure::layout;
 use crate::figure::layout::{Frame, GAP, LABEL, LEGEND_LINE, LEGEND_SAMPLE, LETTER_HEIGHT, Placed, Ruled, SMALL, TICK, TITLE, place};
 use crate::figure::shapes::{draw, draw_color_bar, draw_sample};
 use crate::figure::text::Font;
-use crate::figure::{Figure, Panel, Rgb, SERIES, Series};
+use crate::figure::{Figure, Panel, Rgb, Series};
 
 /// Sides of a page in millimetres.
 const SMALLEST: f64 = 20.0;
@@ -33,24 +33,8 @@ impl Figure {
     }
 }
 
-/// Colours of a panel's series: one name, one colour.
-fn colors(panel: &Panel) -> Vec<Rgb> {
-    let mut names: Vec<(&str, Rgb)> = Vec::new();
-    let mut next = SERIES.into_iter().cycle();
-    let mut colors = Vec::new();
-    for series in &panel.series {
-        let known = names.iter().find(|(name, _)| !name.is_empty() && *name == series.name).map(|(_, color)| *color);
-        let color = series.color.or(known).or_else(|| next.next()).unwrap_or(INK);
-        if known.is_none() {
-            names.push((&series.name, color));
-        }
-        colors.push(color);
-    }
-    colors
-}
-
 fn draw_panel(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed) {
-    let colors = colors(panel);
+    let colors: Vec<Rgb> = panel.series.iter().zip(panel.colors()).map(|(series, color)| color.on_white(series.opacity)).collect();
     let heat_map = layout::heat_map(panel);
     if heat_map.is_none() {
         draw_grid(canvas, placed);

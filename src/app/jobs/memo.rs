@@ -1,16 +1,22 @@
 //! A value kept with the inputs it was made from.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 /// A derived value that is made anew only when its inputs are others than before.
 ///
 /// The key holds every input: what is left out of it shows stale.
 #[derive(Debug)]
 pub struct Memo<K, V> {
     made: Option<(K, V)>,
+    stamp: u64,
 }
+
+/// The stamp of the value that was made last.
+static LAST_STAMP: AtomicU64 = AtomicU64::new(0);
 
 impl<K, V> Default for Memo<K, V> {
     fn default() -> Self {
-        Self { made: None }
+        Self { made: None, stamp: 0 }
     }
 }
 
@@ -22,6 +28,7 @@ impl<K: PartialEq, V> Memo<K, V> {
         }
         let value = make(&key);
         self.made = Some((key, value));
+        self.stamp = LAST_STAMP.fetch_add(1, Ordering::Relaxed) + 1;
         true
     }
 
@@ -35,9 +42,15 @@ impl<K: PartialEq, V> Memo<K, V> {
         self.made.as_ref().map(|(key, _)| key)
     }
 
+    /// Another number for every value that was ever made, 0 without one: what is made from this value has it in its key.
+    pub fn stamp(&self) -> u64 {
+        self.stamp
+    }
+
     /// Lets go of the value, where nobody looks at it any more.
     pub fn clear(&mut self) {
         self.made = None;
+        self.stamp = 0;
     }
 }
 

@@ -1,9 +1,9 @@
 //! The dialog that asks the questions of a foreign file, with the first rows of the measurement.
 
+use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::import_dialog::{ImportDialog, Slices};
-use crate::app::shell::theme;
 use crate::app::storage::import::note_text;
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::{phrase, translated};

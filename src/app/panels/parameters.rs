@@ -2,9 +2,9 @@
 
 use crate::app::panels::beside::Beside as _;
 use crate::app::panels::stepping::{Step, step_with_arrows};
+use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::lessons::Lessons;
-use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;

@@ -1,8 +1,8 @@
 //! The line under the plots, and sentences over them.
 
+use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::text::glossary;
 use crate::app::text::messages::Localized as _;

@@ -2,7 +2,7 @@
 
 use crate::app::plots::Range;
 use crate::app::plots::axis::{decimal, marks};
-use crate::app::shell::theme;
+use crate::app::plots::theme;
 use crate::figure::{ColorMap, Rgb};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use egui_plot::GridInput;

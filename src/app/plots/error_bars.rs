@@ -1,9 +1,16 @@
 //! Error bars, which `egui_plot` lacks: one item with a cap at either end of each bar.
 
-use crate::app::views::curves::ErrorBar;
 use egui::{Color32, Shape, Stroke, Ui, pos2};
 use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotPoint, PlotTransform};
 use std::ops::RangeInclusive;
+
+/// The ends of an error bar, in plot coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorBar {
+    pub x: f64,
+    pub low: f64,
+    pub high: f64,
+}
 
 /// Bars of one colour.
 pub struct ErrorBars<'a> {

@@ -1,30 +1,41 @@
-//! What plots have in common: axes, ranges, curves in pieces, measured points with error bars.
+//! Plots of egui: figures painted on the screen, their axes, names, colours and ranges.
 
 pub mod axis;
 mod color_scale;
 pub mod contours;
-mod drawing;
 mod error_bars;
+mod figure_plot;
 mod key_line;
-mod marks;
-mod picking;
-pub mod print;
+mod plot_axis;
+mod plot_item;
 mod range;
-mod ribbon;
+pub mod theme;
 
 pub use color_scale::{BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar, ink_on};
-pub use drawing::Drawing;
-pub use error_bars::ErrorBars;
+pub use figure_plot::{FigurePlot, PanelPlot, PanelStyle};
 pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui};
-pub use marks::marks_in;
-pub use picking::{MASK_HINT, clicked_mask};
-pub use range::{Following, Range, round_up};
-pub use ribbon::{Ribbon, ribbons_in};
+pub use plot_item::finite;
+pub use range::{AutoRange, Range, nice_ceiling};
 
-use crate::app::shell::theme;
-use crate::app::views::curves::Polyline;
 use egui::{Role, Ui, WidgetInfo};
-use egui_plot::{AxisHints, Corner, Legend, Line, LineStyle, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, Line, LineStyle, Plot, PlotBounds, PlotPoint, PlotPoints, PlotResponse, PlotUi};
+
+/// A curve as figures have it: x and y; a point that is not finite is a gap.
+pub type Polyline = Vec<[f64; 2]>;
+
+/// The pieces of a curve between its gaps, in the coordinates of a plot.
+pub fn split_at_gaps(points: impl Iterator<Item = Option<PlotPoint>>) -> Vec<Vec<PlotPoint>> {
+    let mut pieces = vec![Vec::new()];
+    for point in points {
+        match (point, pieces.last_mut()) {
+            (Some(point), Some(piece)) => piece.push(point),
+            (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
+            _ => {}
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
 
 /// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
 #[derive(Debug, Default)]
@@ -51,7 +62,7 @@ impl Axes {
     }
 
     /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the plot answered.
-    pub fn listen<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
+    pub fn track_interaction<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         self.seen = Some(*response.transform.bounds());
         let zoomed = response.response.hovered() && ui.input(|input| input.zoom_delta() != 1.0);
@@ -69,7 +80,7 @@ pub fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints
     Plot::new(name)
         .height(height)
         .custom_x_axes(vec![x])
-        .custom_y_axes(vec![y.min_thickness(72.0)])
+        .custom_y_axes(vec![y])
         .x_grid_spacer(|input| axis::marks(&input, 7.0, 0.0))
         .grid_color(theme::grid(ui.visuals().dark_mode))
         .grid_fade(0.0)
@@ -79,11 +90,6 @@ pub fn plot<'a>(name: &str, ui: &Ui, height: f32, x: AxisHints<'a>, y: AxisHints
         .allow_scroll(false)
 }
 
-/// Where the names of curves stand: in the corner that lobes and DoLP seldom reach.
-pub fn legend() -> Legend {
-    Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.85)
-}
-
 /// A line that is as wide where it is steep: `egui_plot` draws points that are less than a pixel apart as a band, which is as high
 /// everywhere as the line is wide.
 pub fn line<'a>(name: &str, points: &'a [PlotPoint]) -> Line<'a> {
@@ -91,25 +97,15 @@ pub fn line<'a>(name: &str, points: &'a [PlotPoint]) -> Line<'a> {
 }
 
 /// A curve in its pieces, under one name.
-pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a Polyline, name: &str, color: egui::Color32, style: Option<LineStyle>, width: f32) {
+pub fn curve<'a>(plot: &mut PlotUi<'a>, pieces: &'a [Vec<PlotPoint>], name: &str, color: egui::Color32, style: LineStyle, width: f32) {
     for piece in pieces {
-        let line = line(name, piece).color(color).width(width);
-        plot.line(if let Some(style) = style { line.style(style) } else { line });
-    }
-}
-
-/// The same, filled down to that height.
-pub fn filled<'a>(plot: &mut PlotUi<'a>, pieces: &'a Polyline, name: &str, color: egui::Color32, floor: f64) {
-    #[expect(clippy::cast_possible_truncation, reason = "egui_plot takes a height as f32")]
-    let floor = floor as f32;
-    for piece in pieces {
-        plot.line(line(name, piece).color(color).width(1.5).fill(floor).fill_alpha(0.25));
+        plot.line(line(name, piece).color(color).width(width).style(style));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Axes, AxisHints, Plot, PlotBounds, Range, curve, plot};
+    use super::{Axes, AxisHints, LineStyle, Plot, PlotBounds, Range, curve, plot};
     use egui::{Color32, Shape};
     use egui_kittest::Harness;
     use egui_plot::PlotPoint;
@@ -127,7 +123,7 @@ mod tests {
         let frame = |ui: &mut egui::Ui, State { axes, plot, seen }: &mut State| {
             let range = Some(Range { low: 3.0, high: 7.0 });
             let response = Plot::new(*plot).auto_bounds([false, false]).show(ui, |plot| axes.apply(plot, range, range));
-            axes.listen(&response, "plot", ui);
+            axes.track_interaction(&response, "plot", ui);
             *seen = response.transform.bounds().min();
         };
         let mut harness = Harness::builder().build_ui_state(frame, State::default());
@@ -168,7 +164,7 @@ mod tests {
         let point = |i: i32| PlotPoint::new(f64::from(i), 1.0 / f64::from(2001 - i));
         let pieces = vec![(0..=2000).map(point).collect::<Vec<_>>()];
         let harness = Harness::new_ui(|ui| {
-            Plot::new("plot").show(ui, |plot| curve(plot, &pieces, "curve", Color32::RED, None, 1.5));
+            Plot::new("plot").show(ui, |plot| curve(plot, &pieces, "curve", Color32::RED, LineStyle::Solid, 1.5));
         });
         let path = |shape: &Shape| matches!(shape, Shape::Path(path) if path.points.len() > 2000 && path.stroke.width == 1.5);
         assert!(harness.output().shapes.iter().any(|clipped| path(&clipped.shape)));

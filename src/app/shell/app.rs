@@ -8,7 +8,7 @@ use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::command_palette::{Palette, palette_ui};
 use crate::app::shell::commands;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{Dock, PaneId, panes_ui};
+use crate::app::shell::docking::{Dock, panes_ui};
 use crate::app::shell::file_dialogs::DialogUnavailable;
 use crate::app::shell::frame_times::FrameTimes;
 use crate::app::shell::help::Help;
@@ -26,21 +26,23 @@ use crate::app::storage::{export, settings_file};
 use crate::app::text::i18n;
 use crate::app::text::i18n::phrase;
 use crate::app::text::messages::Localized as _;
-use crate::app::views::Views;
 use crate::app::views::derived::Derived;
+use crate::app::views::{Cx, Views};
 use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::document::{Document, EXAMPLES};
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_setup::{problem, reason};
+use crate::app::work::fit_setup::{free, problem, reason};
 use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
 use crate::app::work::workspace::{Setup, Workspace};
+use crate::figure::Figure;
 use pbrdf::fit::{FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::measurement::formats::ImportNote;
-use pbrdf::model::{DolpFormula, FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
+use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -210,12 +212,35 @@ impl App {
         let free = self.free();
         self.derived.refresh_outlook(&self.work.settings, &self.work.document, free, self.show_predicted_errors);
         self.refresh_import();
-        self.panes.settle();
+        self.panes.activate_tabs();
         let on_screen = self.panes.on_screen();
-        self.views.rest(&on_screen);
-        for pane in on_screen {
-            (pane.entry().refresh)(self);
-        }
+        let (mut cx, views, _) = self.split();
+        views.refresh(&on_screen, &mut cx);
+    }
+
+    /// What panes get to see, the panes, and where they lie.
+    fn split(&mut self) -> (Cx<'_>, &mut Views, &mut Dock) {
+        let Workspace { settings, document, shown_fit, fit_history, model_comparison, .. } = &mut self.work;
+        let cx = Cx {
+            settings,
+            document,
+            fit: shown_fit.as_ref(),
+            fits: fit_history,
+            comparison: model_comparison,
+            derived: &mut self.derived,
+            background: &self.background,
+            worker: &self.worker,
+            benchmarks: &mut self.reports,
+            actions: &mut self.commands,
+            interacting: self.dragging,
+        };
+        (cx, &mut self.views, &mut self.panes)
+    }
+
+    /// The figure of a pane, for files and the clipboard.
+    pub fn figure(&mut self, pane: PaneId) -> Option<Figure> {
+        let (cx, views, _) = self.split();
+        views.figure(pane, &cx)
     }
 
     pub(crate) fn receive(&mut self, event: Event) {
@@ -355,7 +380,7 @@ impl App {
             Command::OpenSession(path) => self.worker.open_session(path)?,
             Command::SaveSession => self.save_session(ctx)?,
             Command::Export(what, path) => self.export(what, path)?,
-            Command::CopyPlot(pane) => ctx.copy_image(export::image(self, pane)?),
+            Command::CopyPlot(pane) => ctx.copy_image(export::image(self.figure(pane))?),
             Command::CopyTable => self.copy_table(ctx),
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
             Command::SaveMeasurement(path) => self.worker.save(path, self.work.document.measurement.clone())?,
@@ -430,7 +455,8 @@ impl App {
 
     fn export(&mut self, what: ExportKind, path: PathBuf) -> Result<(), String> {
         what.check(&path)?;
-        let write = what.taken_from(self)?;
+        let figure = if let ExportKind::Plot(pane) = what { self.figure(pane) } else { None };
+        let write = what.taken_from(self, figure)?;
         self.worker.export(what, path, write)
     }
 
@@ -463,7 +489,7 @@ impl App {
 
     /// The table of the pane Data to the clipboard.
     fn copy_table(&mut self, ctx: &egui::Context) {
-        ctx.copy_text(crate::app::views::table_text(self));
+        ctx.copy_text(crate::app::views::table_text(&self.work.settings, &self.work.document));
         self.notices.info(tr!("{} rows are copied; paste them into a spreadsheet.", self.work.document.measurement.rows.len()));
     }
 
@@ -499,23 +525,7 @@ impl App {
 
     /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
     pub fn free(&self) -> ParameterSet {
-        self.free_with(self.work.document.measurement.has_brdf()).without_all(self.work.settings.locked)
-    }
-
-    /// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
-    pub fn free_in_plan(&self) -> ParameterSet {
-        let (has_brdf, planned) = (self.work.document.measurement.has_brdf(), self.work.settings.plan.has_brdf());
-        let locked = match self.work.settings.locked {
-            locked if has_brdf == planned => locked,
-            locked if planned || self.work.settings.model.dolp_formula == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
-            locked => locked.with(Parameter::Ks),
-        };
-        self.free_with(planned).without_all(locked)
-    }
-
-    fn free_with(&self, has_brdf: bool) -> ParameterSet {
-        let model = self.work.settings.model;
-        if has_brdf { model.parameters() } else { model.dolp_parameters() }
+        free(&self.work.settings, self.work.document.measurement.has_brdf())
     }
 
     /// Sliders, model and results as an earlier fit left them.
@@ -637,7 +647,10 @@ impl App {
         egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
             panels::lesson_panel(self, ui);
             let room = ui.available_rect_before_wrap();
-            panes_ui(self, ui);
+            {
+                let (mut cx, views, dock) = self.split();
+                panes_ui(dock, views, &mut cx, ui);
+            }
             panels::notices_ui(self, ui, room);
         });
         palette_ui(self, ui);
@@ -662,7 +675,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         if let Some(seconds) = frame.info().cpu_usage {
-            self.frame_times.push(seconds, self.views.frames_behind(&self.panes.on_screen()));
+            self.frame_times.push(seconds, self.views.lag(&self.panes.on_screen()));
         }
         Self::ui(self, ui);
     }

@@ -1,10 +1,11 @@
 //! The reports of the program about itself, made in the background one after the other, since each measures times, and kept until they are made again.
 
 use crate::app::jobs::worker::{Job, Worker};
-use crate::app::plots::Drawing;
-use crate::app::shell::docking::PaneId;
+use crate::app::plots::FigurePlot;
 use crate::app::text::i18n::{self, Language};
 use crate::app::text::messages::WindowWording;
+#[cfg(test)]
+use crate::app::work::pane_id::PaneId;
 use crate::export::{machine, now};
 use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
@@ -19,20 +20,17 @@ pub enum BenchmarkId {
 }
 
 impl BenchmarkId {
+    #[cfg(test)]
     pub const ALL: [Self; 3] = [Self::ErrorVsTime, Self::Stability, Self::Cost];
 
     /// Where it is shown.
+    #[cfg(test)]
     pub fn pane(self) -> PaneId {
         match self {
             Self::ErrorVsTime => PaneId::ErrorVsTime,
             Self::Stability => PaneId::Stability,
             Self::Cost => PaneId::Cost,
         }
-    }
-
-    /// The report shown in that pane.
-    pub fn of(pane: PaneId) -> Option<Self> {
-        Self::ALL.into_iter().find(|subject| subject.pane() == pane)
     }
 
     /// Makes it; takes seconds to a minute.
@@ -58,13 +56,11 @@ pub struct BenchmarkView<R> {
     /// Whether it was stopped before its end.
     pub is_part: bool,
     /// The language of its figures.
-    language: Language,
+    language: Option<Language>,
     /// The table, row by row.
     pub cells: Vec<Vec<String>>,
     /// Its figures.
-    figures: Vec<Figure>,
-    /// The same, ready to be painted.
-    pub drawings: Vec<Drawing>,
+    pub plots: Vec<FigurePlot<Language>>,
     /// 0 is the table, then the figures.
     pub page: usize,
 }
@@ -75,29 +71,30 @@ where
 {
     fn new(report: Report<R>, is_part: bool, page: usize) -> Self {
         let cells = report.rows.iter().map(|row| row.cells().iter().map(ToString::to_string).collect()).collect();
-        let mut view = Self { report, is_part, language: i18n::current(), cells, figures: Vec::new(), drawings: Vec::new(), page };
-        view.draw();
-        view.page = page.min(view.drawings.len());
+        let mut view = Self { report, is_part, language: None, cells, plots: Vec::new(), page };
+        view.refresh();
+        view.page = page.min(view.plots.len());
         view
     }
 
-    fn draw(&mut self) {
-        self.language = i18n::current();
-        self.figures = self.report.figures(&WindowWording).into_iter().map(|(_, figure)| figure).collect();
-        self.drawings = self.figures.iter().map(Drawing::new).collect();
-    }
-
-    /// Draws the figures again where the language of the window has changed.
+    /// Makes the figures again where the language of the window has changed.
     pub fn refresh(&mut self) {
-        if self.language != i18n::current() {
-            self.draw();
+        let language = i18n::current();
+        if self.language == Some(language) {
+            return;
+        }
+        self.language = Some(language);
+        let figures = self.report.figures(&WindowWording);
+        self.plots.resize_with(figures.len(), FigurePlot::default);
+        for (plot, (_, figure)) in self.plots.iter_mut().zip(figures) {
+            plot.refresh(language, |_| Some(figure));
         }
     }
 
     /// The figure that is in front.
     fn figure(&self) -> Option<&Figure> {
         // Of the table it is the first.
-        self.figures.get(self.page.saturating_sub(1))
+        self.plots.get(self.page.saturating_sub(1))?.figure()
     }
 }
 
@@ -175,6 +172,15 @@ impl Benchmarks {
             BenchmarkId::ErrorVsTime => self.error_vs_time.as_ref()?.figure(),
             BenchmarkId::Stability => self.stability.as_ref()?.figure(),
             BenchmarkId::Cost => self.cost.as_ref()?.figure(),
+        }
+    }
+
+    /// Puts the figures of a report into the language of the window.
+    pub fn refresh_plots(&mut self, subject: BenchmarkId) {
+        match subject {
+            BenchmarkId::ErrorVsTime => self.error_vs_time.iter_mut().for_each(BenchmarkView::refresh),
+            BenchmarkId::Stability => self.stability.iter_mut().for_each(BenchmarkView::refresh),
+            BenchmarkId::Cost => self.cost.iter_mut().for_each(BenchmarkView::refresh),
         }
     }
 

@@ -2,14 +2,15 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
-use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::shell::help::Help;
-use crate::app::storage::export::{ExportKind, PLOTS};
+use crate::app::storage::export::ExportKind;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
 use crate::app::views;
+use crate::app::views::spec;
 use crate::app::work::document::EXAMPLES;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use pbrdf::model::{FINISHES, PRESETS, Parameter, Preset};
@@ -137,7 +138,7 @@ impl Command {
     pub fn why_disabled(&self) -> Option<String> {
         match self {
             Self::ChooseExport(ExportKind::Plot(pane)) | Self::CopyPlot(pane) => {
-                Some(tr!("Open the pane {} first (menu View).", translated(pane.entry().title)))
+                Some(tr!("Open the pane {} first (menu View).", translated(spec(*pane).title)))
             }
             Self::ChooseExport(ExportKind::Fitted | ExportKind::Report) | Self::UseFit | Self::Back | Self::Bootstrap => {
                 Some(tr!("Fit first (F5)."))
@@ -354,8 +355,8 @@ fn finishes() -> impl Iterator<Item = Item> {
 
 /// Of the panes with a plot; possible for those on screen.
 fn plots(on_screen: &[PaneId]) -> impl Iterator<Item = Item> {
-    PLOTS.iter().flat_map(move |&pane| {
-        let title = translated(pane.entry().title);
+    PaneId::ALL.iter().filter(|pane| spec(**pane).has_figure).flat_map(move |&pane| {
+        let title = translated(spec(pane).title);
         let status = only_if(on_screen.contains(&pane));
         let export = tr!("Plot {} as SVG or PNG…", title);
         let copy = tr!("Copy plot {}", title);
@@ -408,14 +409,14 @@ pub fn items(explorer: &App) -> Vec<Item> {
         item(Command::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Status::Possible)
     });
     let on_screen = explorer.panes.on_screen();
-    let panes = PANES.iter().map(|entry| Item {
-        shortcut: entry.shortcut.and_then(ctrl),
+    let panes = PaneId::ALL.iter().map(|&pane| Item {
+        shortcut: spec(pane).shortcut.and_then(ctrl),
         ..item(
-            Command::TogglePane(entry.pane),
+            Command::TogglePane(pane),
             Menu::PaneId,
-            translated(entry.title).into(),
-            translated(entry.tooltip).into(),
-            switch(on_screen.contains(&entry.pane)),
+            translated(spec(pane).title).into(),
+            translated(spec(pane).tooltip).into(),
+            switch(on_screen.contains(&pane)),
         )
     });
     let current = Preset::of(explorer.work.settings.model).map(|preset| preset.key);

@@ -1,265 +1,13 @@
-//! The panes in the middle: one table of them, and the tiles that they lie in.
-//!
-//! A pane that is not on screen is not refreshed: what is not seen is not computed. To add one: a variant, a row in [`PANES`], a
-//! file in `views/` with its functions, and a field in [`crate::app::views::Views`] for what it keeps.
+//! The tiles that the panes in the middle lie in.
 
-use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n::translated;
-use crate::app::views;
+use crate::app::views::{Cx, Views, spec};
 use crate::app::work::layout::Layout;
-use egui::{Key, Ui, WidgetText};
+use crate::app::work::pane_id::PaneId;
+use egui::{Ui, WidgetText};
 use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
-use serde::{Deserialize, Serialize};
 use tr::tr;
-
-/// Which pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "&'static str")]
-pub enum PaneId {
-    Dolp,
-    Lobes,
-    PolarLobes,
-    Facets,
-    Convergence,
-    Data,
-    Planner,
-    Models,
-    Metals,
-    Hemisphere,
-    Mueller,
-    Landscape,
-    Audit,
-    ErrorVsTime,
-    Stability,
-    Cost,
-}
-
-/// Where a pane lies until the user moves it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    Upper,
-    Lower,
-}
-
-/// What there is to know of a pane.
-pub struct PaneSpec {
-    pub pane: PaneId,
-    /// Name in files.
-    pub key: &'static str,
-    pub title: &'static str,
-    pub tooltip: &'static str,
-    /// Shows it, together with Ctrl.
-    pub shortcut: Option<Key>,
-    pub place: Place,
-    /// Makes anew what it draws, where inputs are others; called before each frame that has it on screen, and at no other time.
-    pub refresh: fn(&mut App),
-    /// Draws it; evaluates nothing.
-    pub ui: fn(&mut App, &mut Ui),
-    /// What its *Show* menu holds, if it has one.
-    pub options: Option<fn(&mut App, &mut Ui)>,
-}
-
-/// All panes, in the order of the enumeration and of menus.
-pub static PANES: [PaneSpec; 16] = [
-    PaneSpec {
-        pane: PaneId::Dolp,
-        key: "dolp",
-        title: "DoLP",
-        tooltip: "Degree of linear polarisation against the angle of view, Eq. (17), with the measured points and what the model misses; Ctrl+click masks a point",
-        shortcut: Some(Key::Num1),
-        place: Place::Upper,
-        refresh: views::dolp_refresh,
-        ui: views::dolp_ui,
-        options: Some(views::dolp_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::Lobes,
-        key: "lobes",
-        title: "Lobes",
-        tooltip: "BRDF against the angle of view: specular, diffuse and volume lobe and their sum, Eq. (14)",
-        shortcut: Some(Key::Num2),
-        place: Place::Lower,
-        refresh: views::lobes_refresh,
-        ui: views::lobes_ui,
-        options: Some(views::lobes_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::PolarLobes,
-        key: "polar_lobes",
-        title: "Polar lobes",
-        tooltip: "The lobes around the point of incidence, with surface, incident ray and mirror direction",
-        shortcut: Some(Key::Num3),
-        place: Place::Lower,
-        refresh: views::polar_refresh,
-        ui: views::polar_ui,
-        options: Some(views::polar_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::Facets,
-        key: "facets",
-        title: "Facets",
-        tooltip: "Densities of facet tilts for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6)",
-        shortcut: Some(Key::Num4),
-        place: Place::Lower,
-        refresh: views::facets_refresh,
-        ui: views::facets_ui,
-        options: Some(views::facets_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::Convergence,
-        key: "convergence",
-        title: "Convergence",
-        tooltip: "The way of the last fit: ΔE, Eq. (18), against evaluations or time",
-        shortcut: None,
-        place: Place::Upper,
-        refresh: views::convergence_refresh,
-        ui: views::convergence_ui,
-        options: Some(views::convergence_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::Data,
-        key: "data",
-        title: "Data table",
-        tooltip: "The measurement row by row with the model's values; masks by row and by series; metadata",
-        shortcut: Some(Key::Num9),
-        place: Place::Lower,
-        refresh: views::table_refresh,
-        ui: views::table_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Planner,
-        key: "planner",
-        title: "Angle planner",
-        tooltip: "What a measurement at these angles would determine, before it is made",
-        shortcut: None,
-        place: Place::Lower,
-        refresh: views::planner_refresh,
-        ui: views::planner_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Models,
-        key: "models",
-        title: "Models",
-        tooltip: "The ladder of models side by side on the open measurement",
-        shortcut: None,
-        place: Place::Lower,
-        refresh: |_| (),
-        ui: views::comparison_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Metals,
-        key: "metals",
-        title: "Metals",
-        tooltip: "Tabulated n and k of metals against wavelength, all sources side by side, and surface finishes",
-        shortcut: None,
-        place: Place::Lower,
-        refresh: views::metals_refresh,
-        ui: views::metals_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Hemisphere,
-        key: "hemisphere",
-        title: "Hemisphere",
-        tooltip: "DoLP, angle of polarisation, BRDF or specular share over all directions of view, also outside the plane of incidence",
-        shortcut: Some(Key::Num5),
-        place: Place::Upper,
-        refresh: views::hemisphere_refresh,
-        ui: views::hemisphere_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Mueller,
-        key: "mueller",
-        title: "Mueller matrix",
-        tooltip: "All sixteen elements over m00 against θr, Eqs. (8, 9, 14), and as numbers at one direction",
-        shortcut: Some(Key::Num6),
-        place: Place::Upper,
-        refresh: views::mueller_refresh,
-        ui: views::mueller_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Landscape,
-        key: "landscape",
-        title: "Landscape",
-        tooltip: "The objective over any two parameters: valleys, ways of the last fits, minima; a click sets the sliders",
-        shortcut: None,
-        place: Place::Lower,
-        refresh: views::landscape_refresh,
-        ui: views::landscape_ui,
-        options: Some(views::landscape_options_ui),
-    },
-    PaneSpec {
-        pane: PaneId::Audit,
-        key: "audit",
-        title: "Audit",
-        tooltip: "What the physics says of the sliders: reciprocity, reflectance, DoLP against its limit, admissible Mueller matrices",
-        shortcut: Some(Key::Num7),
-        place: Place::Lower,
-        refresh: views::audit_refresh,
-        ui: views::audit_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::ErrorVsTime,
-        key: "error_vs_time",
-        title: "Error against time",
-        tooltip: "Error against run time of evaluations and of fits, measured on this machine",
-        shortcut: None,
-        place: Place::Upper,
-        refresh: |_| (),
-        ui: views::error_vs_time_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Stability,
-        key: "stability",
-        title: "Stability",
-        tooltip: "Stiff and extreme cases against 60 digits, beside the textbook form; a click on a case loads it",
-        shortcut: None,
-        place: Place::Upper,
-        refresh: |_| (),
-        ui: views::stability_ui,
-        options: None,
-    },
-    PaneSpec {
-        pane: PaneId::Cost,
-        key: "cost",
-        title: "Cost",
-        tooltip: "What a scene costs, and what is left out because it does not need it, measured on this machine",
-        shortcut: None,
-        place: Place::Upper,
-        refresh: |_| (),
-        ui: views::cost_ui,
-        options: None,
-    },
-];
-
-impl PaneId {
-    /// Its row in the table.
-    pub fn entry(self) -> &'static PaneSpec {
-        &PANES[self as usize]
-    }
-}
-
-impl From<PaneId> for &'static str {
-    fn from(pane: PaneId) -> Self {
-        pane.entry().key
-    }
-}
-
-impl TryFrom<String> for PaneId {
-    type Error = String;
-
-    fn try_from(key: String) -> Result<Self, String> {
-        PANES.iter().find(|entry| entry.key == key).map(|entry| entry.pane).ok_or_else(|| format!("there is no pane {key:?}"))
-    }
-}
 
 /// The panes and where they lie.
 pub struct Dock {
@@ -267,15 +15,15 @@ pub struct Dock {
     /// Those that the frame before drew.
     drawn: Vec<PaneId>,
     /// Those whose tabs are being brought into view, and for how many frames still.
-    revealed: Vec<(PaneId, u8)>,
+    scrolling: Vec<(PaneId, u8)>,
 }
 
 /// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of their room.
-const REVEALING: u8 = 4;
+const SCROLLING: u8 = 4;
 
 impl Dock {
     pub fn new(layout: &Layout) -> Self {
-        Self { tree: layout.tree(), drawn: Vec::new(), revealed: Vec::new() }
+        Self { tree: layout.tree(), drawn: Vec::new(), scrolling: Vec::new() }
     }
 
     /// The arrangement; none where all panes are closed.
@@ -288,8 +36,8 @@ impl Dock {
         self.tree.active_tiles().into_iter().filter_map(|tile| self.tree.tiles.get_pane(&tile).copied()).collect()
     }
 
-    /// Sees to it that every group of tabs has one in front, so that [`Dock::on_screen`] knows it before it is drawn.
-    pub fn settle(&mut self) {
+    /// Gives every group of tabs an active one, so that [`Dock::on_screen`] knows it before it is drawn.
+    pub fn activate_tabs(&mut self) {
         self.tree.simplify(&SIMPLIFICATION);
         let ids: Vec<TileId> = self.tree.tiles.tile_ids().filter(|tile| is_tabs(&self.tree.tiles, *tile)).collect();
         for id in ids {
@@ -300,11 +48,11 @@ impl Dock {
         }
     }
 
-    /// Remembers which tabs have come to the front since the last frame: they may lie outside their bar.
-    fn reveal(&mut self) {
+    /// Notes which tabs have come to the front since the last frame: they may lie outside their bar.
+    fn note_fresh_tabs(&mut self) {
         let on_screen = self.on_screen();
-        let fresh = on_screen.iter().filter(|pane| !self.drawn.contains(pane)).map(|pane| (*pane, REVEALING));
-        self.revealed.extend(fresh);
+        let fresh = on_screen.iter().filter(|pane| !self.drawn.contains(pane)).map(|pane| (*pane, SCROLLING));
+        self.scrolling.extend(fresh);
         self.drawn = on_screen;
     }
 
@@ -360,8 +108,8 @@ impl Dock {
     /// The tabs that a closed pane opens in: those with a pane of the same place, or else any.
     fn tabs_for(&self, pane: PaneId) -> Option<TileId> {
         let tiles = &self.tree.tiles;
-        let beside = PANES.iter().filter(|entry| entry.place == pane.entry().place);
-        let parent = beside.filter_map(|entry| tiles.parent_of(tiles.find_pane(&entry.pane)?)).find(|parent| is_tabs(tiles, *parent));
+        let beside = PaneId::ALL.iter().filter(|other| other.area() == pane.area());
+        let parent = beside.filter_map(|other| tiles.parent_of(tiles.find_pane(other)?)).find(|parent| is_tabs(tiles, *parent));
         parent.or_else(|| self.tree.active_tiles().into_iter().find(|tile| is_tabs(tiles, *tile)))
     }
 
@@ -388,34 +136,33 @@ fn is_tabs(tiles: &Tiles<PaneId>, tile: TileId) -> bool {
 }
 
 /// Draws the panes.
-pub fn panes_ui(explorer: &mut App, ui: &mut Ui) {
-    if explorer.panes.on_screen().is_empty() {
+pub fn panes_ui(dock: &mut Dock, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui) {
+    if dock.on_screen().is_empty() {
         ui.centered_and_justified(|ui| ui.label(tr!("All panes are closed. The View menu opens them again.")));
         return;
     }
-    // The panes draw from the explorer that holds their tiles.
-    explorer.panes.reveal();
-    let mut tree = std::mem::replace(&mut explorer.panes.tree, Tree::empty(egui::Id::unique("no panes")));
-    tree.ui(&mut PaneBehavior { explorer }, ui);
-    explorer.panes.tree = tree;
+    dock.note_fresh_tabs();
+    let Dock { tree, scrolling, .. } = dock;
+    tree.ui(&mut PaneBehavior { views, cx, scrolling }, ui);
 }
 
 /// How tiles look and behave.
-struct PaneBehavior<'a> {
-    explorer: &'a mut App,
+struct PaneBehavior<'a, 'c> {
+    views: &'a mut Views,
+    cx: &'a mut Cx<'c>,
+    scrolling: &'a mut Vec<(PaneId, u8)>,
 }
 
-impl PaneBehavior<'_> {
+impl PaneBehavior<'_, '_> {
     /// Brings the tab of a pane that has come to the front into view, if it is not.
-    fn reveal(&mut self, pane: PaneId, tab: &egui::Response) {
-        let revealed = &mut self.explorer.panes.revealed;
-        let Some(place) = revealed.iter().position(|(other, _)| *other == pane) else { return };
-        let frames = &mut revealed[place].1;
+    fn scroll_tab_into_view(&mut self, pane: PaneId, tab: &egui::Response) {
+        let Some(place) = self.scrolling.iter().position(|(other, _)| *other == pane) else { return };
+        let frames = &mut self.scrolling[place].1;
         *frames -= 1;
         let is_cut = tab.interact_rect.width() < tab.rect.width();
         // Not after the first: then the arrows know nothing of the tabs yet.
-        if *frames == 0 || (!is_cut && *frames + 1 < REVEALING) {
-            revealed.remove(place);
+        if *frames == 0 || (!is_cut && *frames + 1 < SCROLLING) {
+            self.scrolling.remove(place);
         }
         if is_cut {
             tab.scroll_to_me_animation(None, egui::style::ScrollAnimation::none());
@@ -424,22 +171,22 @@ impl PaneBehavior<'_> {
     }
 }
 
-impl Behavior<PaneId> for PaneBehavior<'_> {
+impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut PaneId) -> UiResponse {
         egui::Frame::new().inner_margin(egui::Margin { left: 4, right: 10, top: 8, bottom: 2 }).show(ui, |ui| {
-            (pane.entry().ui)(self.explorer, ui);
+            self.views.of(*pane).ui(self.cx, ui);
         });
         UiResponse::None
     }
 
     fn tab_title_for_pane(&mut self, pane: &PaneId) -> WidgetText {
-        translated(pane.entry().title).into()
+        translated(spec(*pane).title).into()
     }
 
     fn on_tab_button(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId, response: egui::Response) -> egui::Response {
         let Some(pane) = tiles.get_pane(&tile) else { return response };
-        self.reveal(*pane, &response);
-        response.on_hover_text(translated(pane.entry().tooltip))
+        self.scroll_tab_into_view(*pane, &response);
+        response.on_hover_text(translated(spec(*pane).tooltip))
     }
 
     fn is_tab_closable(&self, _tiles: &Tiles<PaneId>, _tile: TileId) -> bool {
@@ -449,17 +196,18 @@ impl Behavior<PaneId> for PaneBehavior<'_> {
     fn on_tab_close(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId) -> bool {
         // A group of tiles inside tabs is closed as a whole by the tiles themselves.
         let Some(pane) = tiles.get_pane(&tile) else { return true };
-        self.explorer.commands.push(Command::ClosePane(*pane));
+        self.cx.actions.push(Command::ClosePane(*pane));
         false
     }
 
     fn top_bar_right_ui(&mut self, tiles: &Tiles<PaneId>, ui: &mut Ui, _tile: TileId, tabs: &egui_tiles::Tabs, _scroll: &mut f32) {
-        let active = tabs.active.and_then(|tile| tiles.get_pane(&tile));
-        if let Some((pane, options)) = active.and_then(|pane| Some((pane, pane.entry().options?))) {
+        let active = tabs.active.and_then(|tile| tiles.get_pane(&tile)).filter(|pane| spec(**pane).has_options);
+        if let Some(pane) = active {
             // A switch is seldom set alone.
             let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-            let (button, _) = egui::containers::menu::MenuButton::new(tr!("Show")).config(config).ui(ui, |ui| options(self.explorer, ui));
-            let name = tr!("Show in {}", translated(pane.entry().title));
+            let button = egui::containers::menu::MenuButton::new(tr!("Show")).config(config);
+            let (button, _) = button.ui(ui, |ui| self.views.of(*pane).options_ui(self.cx, ui));
+            let name = tr!("Show in {}", translated(spec(*pane).title));
             button
                 .on_hover_text(tr!("Switches for what is drawn in this pane"))
                 .on_hover_text(tr!("In the plot: drag to move, Ctrl+wheel to zoom, a double click shows all"))
@@ -482,15 +230,14 @@ impl Behavior<PaneId> for PaneBehavior<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Dock, PANES, PaneId};
+    use super::{Dock, spec};
     use crate::app::work::layout::Layout;
+    use crate::app::work::pane_id::PaneId;
 
     #[test]
-    fn the_table_is_in_the_order_of_the_enumeration_and_names_are_unique() {
-        for (i, entry) in PANES.iter().enumerate() {
-            assert_eq!(entry.pane as usize, i);
-            assert_eq!(PaneId::try_from(entry.key.to_owned()), Ok(entry.pane));
-            assert_eq!(PANES.iter().filter(|other| other.title == entry.title || other.key == entry.key).count(), 1);
+    fn no_title_is_there_twice() {
+        for pane in PaneId::ALL {
+            assert_eq!(PaneId::ALL.iter().filter(|other| spec(**other).title == spec(*pane).title).count(), 1);
         }
     }
 
@@ -503,11 +250,11 @@ mod tests {
                     all.close(panes[1]);
                 }
                 all.show_together(&panes);
-                all.settle();
+                all.activate_tabs();
                 assert!(panes.iter().all(|pane| all.is_on_screen(*pane)), "{panes:?}, {closed}");
                 // None is there twice and none is lost.
-                let there = PANES.iter().filter(|entry| all.tree.tiles.find_pane(&entry.pane).is_some()).count();
-                assert_eq!((there, all.tree.tiles.tiles().filter(|tile| tile.is_pane()).count()), (PANES.len(), PANES.len()));
+                let there = PaneId::ALL.iter().filter(|pane| all.tree.tiles.find_pane(pane).is_some()).count();
+                assert_eq!((there, all.tree.tiles.tiles().filter(|tile| tile.is_pane()).count()), (PaneId::ALL.len(), PaneId::ALL.len()));
             }
         }
     }
@@ -515,14 +262,14 @@ mod tests {
     #[test]
     fn panes_are_closed_and_opened_again() {
         let mut panes = Dock::new(&Layout::default());
-        for entry in &PANES {
-            panes.close(entry.pane);
-            assert!(!panes.is_on_screen(entry.pane));
+        for pane in PaneId::ALL {
+            panes.close(*pane);
+            assert!(!panes.is_on_screen(*pane));
         }
         assert_eq!(panes.layout(), None);
-        for entry in &PANES {
-            panes.show(entry.pane);
-            assert!(panes.is_on_screen(entry.pane), "{}", entry.title);
+        for pane in PaneId::ALL {
+            panes.show(*pane);
+            assert!(panes.is_on_screen(*pane), "{pane:?}");
         }
     }
 }

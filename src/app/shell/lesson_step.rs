@@ -2,9 +2,9 @@
 //! user came to it and whatever was moved meanwhile.
 
 use crate::app::shell::app::App;
-use crate::app::shell::docking::PaneId;
 use crate::app::work::document::{EXAMPLES, Mask};
 use crate::app::work::lesson::{Data, Step};
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Settings;
 
 impl App {

@@ -93,6 +93,6 @@ impl Notices {
 
 impl Notice {
     pub fn color(&self, visuals: &egui::Visuals) -> Color32 {
-        if self.transient { visuals.text_color() } else { crate::app::shell::theme::warning(visuals.dark_mode) }
+        if self.transient { visuals.text_color() } else { crate::app::plots::theme::warning(visuals.dark_mode) }
     }
 }

@@ -1,25 +1,19 @@
 //! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
 
-use crate::app::plots::Ribbon;
-use crate::app::plots::print::{FOREGROUND, MUTED, points};
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::BenchmarkId;
-use crate::app::shell::docking::PaneId;
 use crate::app::storage::session::{SavedFit, Session};
-use crate::app::text::i18n::{label, translated};
+use crate::app::text::i18n::translated;
 use crate::app::text::messages::{Localized as _, WindowWording};
-use crate::app::views;
-use crate::app::views::curves::{Curves, Marks};
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::layout::Layout;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Settings;
 use crate::app::work::workspace::Workspace;
 use crate::export;
-use crate::figure::{Axis, Dash, Drawn, Figure, Panel, Point, Rgb, SERIES, Series, Symbol};
+use crate::figure::Figure;
 use crate::report::{FitDocument, Source, write_curves, write_fitted};
 use crate::write_file::write_file;
-use egui_plot::PlotPoint;
 use pbrdf::model::Pbrdf;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -39,23 +33,6 @@ pub enum ExportKind {
 
 /// Writes it into that file; the error is a sentence.
 pub type Write = Box<dyn FnOnce(&Path) -> Result<(), String> + Send>;
-
-/// The panes with a plot that can be exported.
-pub const PLOTS: [PaneId; 13] = [
-    PaneId::Dolp,
-    PaneId::Lobes,
-    PaneId::PolarLobes,
-    PaneId::Facets,
-    PaneId::Convergence,
-    PaneId::Metals,
-    PaneId::Hemisphere,
-    PaneId::Mueller,
-    PaneId::Landscape,
-    PaneId::Audit,
-    PaneId::ErrorVsTime,
-    PaneId::Stability,
-    PaneId::Cost,
-];
 
 /// Resolution of a plot on the clipboard.
 const SCREEN_DPI: f64 = 150.0;
@@ -87,7 +64,7 @@ impl ExportKind {
         let name = explorer.work.document.file_name();
         let stem = name.trim_end_matches(".csv");
         let what = match self {
-            Self::Plot(pane) => format!("-{}", pane.entry().key),
+            Self::Plot(pane) => format!("-{}", pane.key()),
             Self::Curves => "-curves".to_owned(),
             Self::Fitted => "-fitted".to_owned(),
             Self::Report => "-report".to_owned(),
@@ -115,11 +92,14 @@ impl ExportKind {
         fits.map_err(|reason| tr!("{}.", reason.localized()))
     }
 
-    /// What is needed to write it, taken from the window as it is now; the error is a sentence.
-    pub fn taken_from(self, explorer: &App) -> Result<Write, String> {
+    /// What is needed to write it, taken from the window as it is now, and of a plot its figure.
+    ///
+    /// # Errors
+    /// There is nothing to write; the error is a sentence.
+    pub fn taken_from(self, explorer: &App, figure: Option<Figure>) -> Result<Write, String> {
         match self {
-            Self::Plot(pane) => {
-                let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to export."))?;
+            Self::Plot(_) => {
+                let figure = figure.ok_or_else(|| tr!("There is no plot to export."))?;
                 Ok(Box::new(move |path| {
                     let kind = export::picture_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
                     export::write_picture(path, kind, &figure).map_err(|error| failure(path, &error))
@@ -209,119 +189,12 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &F
     }
 }
 
-/// The plot of a pane as an image for the clipboard.
-pub fn image(explorer: &App, pane: PaneId) -> Result<egui::ColorImage, String> {
-    let figure = figure(explorer, pane).ok_or_else(|| tr!("There is no plot to copy."))?;
+/// A plot as an image for the clipboard.
+///
+/// # Errors
+/// There is no plot, or it cannot be drawn; the error is a sentence.
+pub fn image(figure: Option<Figure>) -> Result<egui::ColorImage, String> {
+    let figure = figure.ok_or_else(|| tr!("There is no plot to copy."))?;
     let image = figure.image(SCREEN_DPI).map_err(|error| tr!("The plot cannot be drawn: {}.", error.localized()))?;
     Ok(egui::ColorImage::from_rgba_unmultiplied([image.width as usize, image.height as usize], &image.rgba))
-}
-
-/// The figure of a pane, of the same curves and points that are drawn, in the language of the window.
-pub fn figure(explorer: &App, pane: PaneId) -> Option<Figure> {
-    Some(plain_figure(explorer, pane)?.translate(&label))
-}
-
-fn plain_figure(explorer: &App, pane: PaneId) -> Option<Figure> {
-    match pane {
-        PaneId::Dolp => dolp(explorer),
-        PaneId::Lobes => lobes(explorer),
-        PaneId::PolarLobes => views::polar_figure(explorer),
-        PaneId::Facets => views::facets_figure(explorer),
-        PaneId::Convergence => views::convergence_figure(explorer),
-        PaneId::Metals => views::metals_figure(explorer),
-        PaneId::Hemisphere => views::hemisphere_figure(explorer),
-        PaneId::Mueller => views::mueller_figure(explorer),
-        PaneId::Landscape => views::landscape_figure(explorer),
-        PaneId::Audit => views::audit_figure(explorer),
-        _ => explorer.reports.figure(BenchmarkId::of(pane)?).cloned(),
-    }
-}
-
-fn measured(marks: &Marks, name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Vec<Series> {
-    let bar = |point: &PlotPoint| marks.bars.iter().find(|bar| bar.x == point.x && (bar.low..=bar.high).contains(&point.y));
-    let point = |point: &PlotPoint| Point { x: point.x, y: y(point.y), bar: bar(point).map(|bar| (y(bar.low), y(bar.high))) };
-    let used = Series::measured(name, marks.used.iter().map(point).collect(), Symbol::Disc).colored(color);
-    let masked = Series::measured("masked", marks.masked.iter().map(point).collect(), Symbol::Circle).colored(MUTED);
-    let is_there = |series: &Series| matches!(&series.drawn, Drawn::Points { points, .. } if !points.is_empty());
-    [used, masked].into_iter().filter(is_there).collect()
-}
-
-/// The band around a fitted curve; its pieces do not join.
-fn band(ribbons: &[Ribbon], name: &str, color: Rgb, y: impl Fn(f64) -> f64) -> Series {
-    let piece = |ribbon: &Ribbon| -> Vec<[f64; 3]> {
-        let ends = ribbon.low.iter().zip(&ribbon.high);
-        ribbon.x.iter().zip(ends).map(|(x, (low, high))| [*x, y(*low), y(*high)]).chain([[f64::NAN; 3]]).collect()
-    };
-    Series::band(name, ribbons.iter().flat_map(piece).collect()).colored(color)
-}
-
-fn dolp(explorer: &App) -> Option<Figure> {
-    let App { work: Workspace { settings, document, .. }, derived, views, .. } = explorer;
-    let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
-    let plain = |y: f64| y;
-    let limit = |curves: &Curves, color| Series::dashed("Fresnel limit", points(&curves.limit, plain), Dash::Dashed).colored(color);
-    let share = |curves: &Curves, color| Series::dashed("specular share", points(&curves.share, plain), Dash::Dotted).colored(color);
-    let mut series = Vec::new();
-    for (i, ((curves, marks), color)) in curves.series.iter().zip(&marks.series).zip(SERIES).enumerate() {
-        if settings.show_limit {
-            series.push(limit(curves, color));
-        }
-        if let Some(ribbons) = views.dolp.band.get().and_then(|bands| bands.get(i)) {
-            series.push(band(ribbons, &marks.name, color, plain));
-        }
-        series.push(Series::line(&marks.name, points(&curves.dolp, plain)).colored(color));
-        series.extend(measured(&marks.dolp, &marks.name, color, plain));
-        if settings.shown.share {
-            series.push(share(curves, color));
-        }
-    }
-    if curves.own_is_series.is_none() {
-        if settings.show_limit {
-            series.push(limit(&curves.own, FOREGROUND));
-        }
-        if settings.shown.share {
-            series.push(share(&curves.own, FOREGROUND));
-        }
-        let name = tr!("θi = {}° (slider)", settings.theta_i);
-        series.push(Series::line(name, points(&curves.own.dolp, plain)).colored(FOREGROUND));
-    }
-    let range = views.dolp.range()?;
-    let y = Axis::linear("DoLP", "").between(range.low, range.high);
-    let x = key.x();
-    let panel = Panel { x: Axis::linear("θr", "°").between(x.low, x.high), y, series, ..Panel::default() };
-    Some(Figure { title: document.name.clone(), panels: vec![panel], ..Figure::default() })
-}
-
-fn lobes(explorer: &App) -> Option<Figure> {
-    let App { work: Workspace { settings, document, .. }, derived, views, .. } = explorer;
-    let (curves, key, marks) = (derived.curves.get()?, derived.curves.key()?, derived.marks.get()?);
-    let log = key.brdf.log;
-    let quantity = if key.brdf.times_cosine { "BRDF × cos θr" } else { "BRDF" };
-    let value = |y: f64| if log { libm::exp10(y) } else { y };
-    let mut series = Vec::new();
-    let all = curves.series.iter().zip(&marks.series).zip(SERIES).enumerate();
-    for (i, ((curves, marks), color)) in all.filter(|(_, ((_, marks), _))| marks.brdf.is_there()) {
-        if let Some(ribbons) = views.lobes.band.get().and_then(|bands| bands.get(i)) {
-            series.push(band(ribbons, &marks.name, color, value));
-        }
-        series.push(Series::line(&marks.name, points(&curves.total, value)).colored(color));
-        series.extend(measured(&marks.brdf, &marks.name, color, value));
-    }
-    let own = &curves.own;
-    let terms = [("specular", &own.specular, 3), ("diffuse", &own.diffuse, 4), ("volume", &own.volume, 5)];
-    for (name, pieces, color) in terms.into_iter().filter(|(_, pieces, _)| !pieces.is_empty()) {
-        series.push(Series::dashed(name, points(pieces, value), Dash::Solid).colored(SERIES[color]));
-    }
-    series.push(Series::line("total", points(&own.total, value)).colored(FOREGROUND));
-    let range = views.lobes.range()?;
-    let axis = if log { Axis::log(quantity, "sr⁻¹") } else { Axis::linear(quantity, "sr⁻¹") };
-    let x = key.x();
-    let panel = Panel {
-        title: format!("θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi),
-        x: Axis::linear("θr", "°").between(x.low, x.high),
-        y: axis.between(value(range.low), value(range.high)),
-        series,
-        ..Panel::default()
-    };
-    Some(Figure { title: document.name.clone(), panels: vec![panel], ..Figure::default() })
 }

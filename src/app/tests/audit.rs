@@ -2,9 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::text::i18n::Language;
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
@@ -21,7 +20,7 @@ fn every_finding_has_its_number_verdict_and_reason() {
     let mut harness = shown();
     let settings = explorer(&mut harness).work.settings.clone();
     let audit = Audit::new(&Pbrdf::new(settings.model, settings.parameters).expect("the defaults"));
-    assert_eq!(explorer(&mut harness).views.audit.audit(), Some(&audit));
+    assert_eq!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit(), Some(&audit));
     for finding in &audit.findings {
         assert!(harness.query_all_by_label(finding.why()).next().is_some(), "{:?}", finding.check);
     }
@@ -41,7 +40,7 @@ fn findings_stand_below_each_other_in_narrow_and_wide_panes() {
     for size in [egui::vec2(1280.0, 800.0), egui::vec2(1920.0, 1080.0)] {
         harness.set_size(size);
         wait(&mut harness);
-        let audit = explorer(&mut harness).views.audit.audit().expect("an audit").clone();
+        let audit = explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit().expect("an audit").clone();
         let sentences = audit.findings.iter().map(pbrdf::model::Finding::why);
         let rects: Vec<egui::Rect> = sentences.map(|why| harness.get_by_label(why).rect()).collect();
         for pair in rects.windows(2) {
@@ -71,9 +70,9 @@ fn a_surface_that_shines_is_warned_of_and_terms_that_are_absent_are_not_judged()
 fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
     let mut harness = harness();
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.audit.audit().is_none());
+    assert!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit().is_none());
     let mut harness = shown();
     explorer(&mut harness).work.settings.parameters.q = f64::NAN;
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.audit.audit().is_none());
+    assert!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit().is_none());
 }

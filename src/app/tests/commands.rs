@@ -3,8 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Command, Status, Switch};
-use crate::app::storage::export::PLOTS;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
 use crate::app::work::settings::Theme;
 use egui::{Key, Modifiers};
@@ -152,7 +151,7 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
         harness.run();
     };
     open(&mut harness, "export");
-    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 3 + PLOTS.len());
+    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 3 + plots().count());
     harness.key_press(Key::Escape);
     harness.run();
     open(&mut harness, "");

@@ -1,9 +1,9 @@
 //! Dialogs of the desktop, where there are some and where there are none.
 
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::shell::file_dialogs::{DialogUnavailable, FileReply, FileRequest, ask_desktop};
 use crate::app::storage::export::ExportKind;
+use crate::app::work::pane_id::PaneId;
 use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::process::{Command as Process, Stdio};

@@ -96,7 +96,7 @@ fn settings_are_read() {
 /// Panes of a layout, in its order.
 fn panes_of(layout: &Layout, out: &mut Vec<&'static str>) {
     match layout {
-        Layout::PaneId(pane) => out.push(pane.entry().key),
+        Layout::PaneId(pane) => out.push(pane.key()),
         Layout::Tabs { parts, .. } => parts.iter().for_each(|part| panes_of(part, out)),
         Layout::Columns(parts) | Layout::Rows(parts) => parts.iter().for_each(|(_, part)| panes_of(part, out)),
     }
@@ -177,7 +177,7 @@ fn view(window: &App) -> Value {
     if let Some(layout) = window.panes.layout() {
         panes_of(&layout, &mut panes);
     }
-    let on_screen: Vec<&str> = window.panes.on_screen().iter().map(|pane| pane.entry().key).collect();
+    let on_screen: Vec<&str> = window.panes.on_screen().iter().map(|pane| pane.key()).collect();
     let rows = &work.document.measurement.rows;
     let fits: Vec<Value> = work.fit_history.iter().map(|fit| {
         let report = &fit.report;

@@ -14,7 +14,7 @@ mod damage;
 use crate::app::jobs::worker::OpenedSession;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{Dock, PANES};
+use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::Lessons;
 use crate::app::storage::export;
 use crate::app::storage::import;
@@ -24,6 +24,7 @@ use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, wait};
 use crate::app::work::layout::Layout;
 use crate::app::work::lesson::Lesson;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings, can_be_set};
 use damage::{fuzz, texts};
@@ -80,7 +81,7 @@ fn opened(bytes: &[u8]) -> Option<OpenedSession> {
 #[test]
 fn sessions() {
     let whole = session();
-    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::PaneId(PANES[0].pane), ..whole.clone() };
+    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::PaneId(PaneId::ALL[0]), ..whole.clone() };
     fuzz("session", &[text(&whole), text(&bare)], |bytes| {
         let Some(opened) = opened(bytes) else { return false };
         let Session { settings, layout, name, measurement, fits, .. } = &opened.session;
@@ -96,7 +97,7 @@ fn sessions() {
 #[test]
 fn sessions_in_every_view() {
     let whole = session();
-    let samples: Vec<Vec<u8>> = PANES.iter().map(|entry| text(&Session { layout: Layout::PaneId(entry.pane), ..whole.clone() })).collect();
+    let samples: Vec<Vec<u8>> = PaneId::ALL.iter().map(|pane| text(&Session { layout: Layout::PaneId(*pane), ..whole.clone() })).collect();
     let mut harness = harness();
     fuzz("session-in-views", &samples, |bytes| {
         let Some(opened) = opened(bytes) else { return false };
@@ -110,7 +111,7 @@ fn sessions_in_every_view() {
 fn settings() {
     let other = SettingsFile {
         settings: Settings { log_brdf: true, show_bounds: true, bounds: vec![(Parameter::K, 0.0, 5.0)], ..Settings::default() },
-        window: WindowSettings { theme: Theme::Dark, layout: Layout::PaneId(PANES[1].pane), ..WindowSettings::default() },
+        window: WindowSettings { theme: Theme::Dark, layout: Layout::PaneId(PaneId::ALL[1]), ..WindowSettings::default() },
     };
     let samples = [SettingsFile::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));
     let folder = tempfile::tempdir().expect("a folder for temporary files");

@@ -2,8 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Quantity;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -87,9 +87,9 @@ fn logic(harness: &mut Harness<'static, Option<App>>) {
 #[test]
 fn the_map_follows_a_slider_and_rests_when_nothing_moves() {
     let mut harness = shown();
-    let before = explorer(&mut harness).views.hemisphere.key().copied().expect("a map");
+    let before = explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().copied().expect("a map");
     logic(&mut harness);
-    assert!(!explorer(&mut harness).views.hemisphere.is_fresh(), "an idle frame changes no texture");
+    assert!(!explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().is_fresh(), "an idle frame changes no texture");
     harness.get_by_role_and_label(Role::Slider, "k").set_value_accesskit(4.5);
     // The slider moves in one frame, the job begins before the next.
     harness.step();
@@ -98,23 +98,23 @@ fn the_map_follows_a_slider_and_rests_when_nothing_moves() {
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     logic(&mut harness);
-    assert!(explorer(&mut harness).views.hemisphere.is_fresh(), "another surface, another texture");
-    let after = explorer(&mut harness).views.hemisphere.key().copied().expect("a map");
+    assert!(explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().is_fresh(), "another surface, another texture");
+    let after = explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().copied().expect("a map");
     assert_eq!((before.0.k, after.0.k), (pbrdf::model::Parameters::default().k, 4.5));
     wait(&mut harness);
     logic(&mut harness);
-    assert!(!explorer(&mut harness).views.hemisphere.is_fresh());
+    assert!(!explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().is_fresh());
 }
 
 #[test]
 fn no_map_is_made_behind_another_tab_and_none_of_values_that_are_no_surface() {
     let mut harness = harness();
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.hemisphere.key().is_none(), "not on screen");
+    assert!(explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().is_none(), "not on screen");
     let mut harness = shown();
     explorer(&mut harness).work.settings.parameters.sigma = f64::NAN;
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.hemisphere.key().is_none());
+    assert!(explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().is_none());
     assert_eq!(reading(&mut harness, egui::pos2(600.0, 250.0)), None);
 }
 

@@ -2,10 +2,10 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::{Language, translated};
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
 use pbrdf::measurement::formats::Question;
@@ -39,7 +39,7 @@ fn what_a_pointer_reads_on_the_landscape() {
     for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {
         explorer(&mut harness).commands.push(Command::SetLanguage(language));
         harness.run_steps(4);
-        let marks = explorer(&mut harness).views.landscape.marks().expect("marks");
+        let marks = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
         let text = marks.text(&translated("minima"), 0).expect("a minimum");
         assert!(text.contains(part), "{text}");
     }

@@ -2,8 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::fit::Weights;
@@ -23,16 +23,16 @@ fn shown() -> Harness<'static, Option<App>> {
 fn it_follows_every_slider_but_its_own_two() {
     let mut harness = shown();
     harness.get_by_label(HINT);
-    let before = explorer(&mut harness).views.landscape.key().cloned().expect("a landscape");
+    let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned().expect("a landscape");
     assert_eq!((before.across.count, before.up.count), (256, 256));
     explorer(&mut harness).work.settings.parameters.n = 1.3;
     explorer(&mut harness).work.settings.parameters.k = f64::NAN;
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).views.landscape.key(), Some(&before), "n and k are its axes");
+    assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key(), Some(&before), "n and k are its axes");
     explorer(&mut harness).work.settings.parameters.sigma = 0.2;
     wait(&mut harness);
-    assert_ne!(explorer(&mut harness).views.landscape.key(), Some(&before));
-    assert!(explorer(&mut harness).views.landscape.is_there());
+    assert_ne!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key(), Some(&before));
+    assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
 }
 
 #[test]
@@ -46,23 +46,23 @@ fn it_is_coarser_while_a_slider_is_dragged() {
     harness.run();
     harness.hover_at(at(50.0));
     wait(&mut harness);
-    let key = explorer(&mut harness).views.landscape.key().cloned().expect("a landscape");
+    let key = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned().expect("a landscape");
     assert_eq!(key.across.count, 128);
     harness.drop_at(at(50.0));
     wait(&mut harness);
-    let key = explorer(&mut harness).views.landscape.key().cloned().expect("a landscape");
+    let key = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned().expect("a landscape");
     assert_eq!(key.across.count, 256);
 }
 
 #[test]
 fn nothing_is_computed_off_screen() {
     let mut harness = shown();
-    let before = explorer(&mut harness).views.landscape.key().cloned();
+    let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
     explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     explorer(&mut harness).work.settings.parameters.sigma = 0.2;
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).views.landscape.key().cloned(), before);
+    assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned(), before);
 }
 
 #[test]
@@ -71,12 +71,16 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
         let mut harness = harness();
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
         wait(&mut harness);
-        let before = explorer(&mut harness).views.landscape.key().cloned();
+        let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         explorer(&mut harness).work.settings.parameters.sigma = 0.2;
         harness.step();
         let running = |harness: &mut Harness<'static, Option<App>>| {
             let views = &explorer(harness).views;
-            if pane == PaneId::Landscape { views.landscape.is_running() } else { views.hemisphere.is_running() }
+            if pane == PaneId::Landscape {
+                views.get::<crate::app::views::LandscapeView>().is_running()
+            } else {
+                views.get::<crate::app::views::HemisphereView>().is_running()
+            }
         };
         assert!(running(&mut harness), "{pane:?}");
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
@@ -84,7 +88,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
         assert!(!running(&mut harness), "{pane:?}");
         explorer(&mut harness).commands.push(Command::TogglePane(pane));
         wait(&mut harness);
-        let key = explorer(&mut harness).views.landscape.key().cloned();
+        let key = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         assert!(pane == PaneId::Hemisphere || key != before);
     }
 }
@@ -115,7 +119,7 @@ fn a_click_sets_both_sliders_in_one_step_of_undo() {
 #[test]
 fn ways_minima_and_metals_lie_on_it() {
     let mut harness = shown();
-    let marks = explorer(&mut harness).views.landscape.marks().expect("marks");
+    let marks = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
     let sources: usize = optics::metals()
         .expect("the bundled table is whole")
         .iter()
@@ -128,14 +132,17 @@ fn ways_minima_and_metals_lie_on_it() {
     let explorer = explorer(&mut harness);
     let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
     let (steps, minima) = (report.path.len(), report.minima.len());
-    let marks = explorer.views.landscape.marks().expect("marks");
+    let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
     assert_eq!((marks.ways.len(), marks.ways[0].len(), marks.minima.len()), (1, steps + 1, minima.min(24)));
     assert!(marks.text("way of the last fit", 0).expect("a text").contains("evaluation 1"));
     assert!(marks.text("minima", 0).expect("a text").contains("minimum 1"));
     // Metals have no place where the axes are others.
     explorer.work.settings.landscape.up = Parameter::Kd;
     wait(&mut harness);
-    assert_eq!(crate::app::tests::explorer(&mut harness).views.landscape.marks().expect("marks").metals.len(), 0);
+    assert_eq!(
+        crate::app::tests::explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks").metals.len(),
+        0
+    );
 }
 
 #[test]
@@ -145,7 +152,7 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
         let landscape = &mut explorer(&mut harness).work.settings.landscape;
         (landscape.across, landscape.up) = (across, if across == Parameter::Sigma { Parameter::Q } else { Parameter::Sigma });
         wait(&mut harness);
-        assert!(explorer(&mut harness).views.landscape.is_there(), "{}", across.key());
+        assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there(), "{}", across.key());
     }
     let landscape = &mut explorer(&mut harness).work.settings.landscape;
     (landscape.across, landscape.up) = (Parameter::N, Parameter::N);
@@ -154,10 +161,10 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
     explorer(&mut harness).work.settings.landscape.up = Parameter::K;
     explorer(&mut harness).work.settings.choices.weights = Weights::Sigma;
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.landscape.is_there());
+    assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
     explorer(&mut harness).work.settings.choices.loss = pbrdf::fit::Loss::Huber;
     wait(&mut harness);
-    assert!(explorer(&mut harness).views.landscape.is_there());
+    assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
 }
 
 #[test]
@@ -166,6 +173,6 @@ fn masked_rows_have_no_landscape() {
     let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
     explorer(&mut harness).commands.push(Command::Mask { rows, masked: true });
     wait(&mut harness);
-    assert!(!explorer(&mut harness).views.landscape.is_there());
+    assert!(!explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
     assert!(harness.query_by_label_contains("No landscape").is_some());
 }

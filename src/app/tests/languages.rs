@@ -2,11 +2,11 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::{Command, items};
-use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::shell::help::{DOI, Help, PAPER};
 use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::{Language, MISSED};
+use crate::app::work::pane_id::PaneId;
 use egui::Key;
 use egui::accesskit::{Action, Role};
 use egui_kittest::Harness;
@@ -26,8 +26,8 @@ fn chinese() -> Harness<'static, Option<App>> {
 
 /// Puts that pane alone on screen.
 fn alone(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
-    for other in &PANES {
-        explorer(harness).commands.push(Command::ClosePane(other.pane));
+    for other in PaneId::ALL.iter().copied() {
+        explorer(harness).commands.push(Command::ClosePane(other));
     }
     explorer(harness).commands.push(Command::TogglePane(pane));
     if pane == PaneId::Landscape {
@@ -127,8 +127,8 @@ fn is_english(text: &str) -> bool {
 fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
     let mut harness = chinese();
     let mut english = BTreeSet::new();
-    for entry in &PANES {
-        alone(&mut harness, entry.pane);
+    for pane in PaneId::ALL.iter().copied() {
+        alone(&mut harness, pane);
         english.extend(written(&harness).into_iter().filter(|text| is_english(text)));
     }
     for page in [Help::FirstSteps, Help::Words, Help::About] {
@@ -298,9 +298,9 @@ fn every_control_has_a_name() {
         let mut harness = chinese();
         explorer(&mut harness).commands.push(Command::SetLanguage(language));
         wait(&mut harness);
-        for entry in &PANES {
-            alone(&mut harness, entry.pane);
-            all.extend(nameless(&harness).into_iter().map(|node| format!("{}: {node}", entry.key)));
+        for pane in PaneId::ALL.iter().copied() {
+            alone(&mut harness, pane);
+            all.extend(nameless(&harness).into_iter().map(|node| format!("{}: {node}", pane.key())));
         }
     }
     assert!(all.is_empty(), "{all:#?}");

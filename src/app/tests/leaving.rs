@@ -4,9 +4,10 @@ use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, PaneId};
-use crate::app::storage::export::{ExportKind, PLOTS, figure};
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::storage::export::ExportKind;
+use crate::app::tests::{explorer, harness, plots, wait};
+use crate::app::views::spec;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Quantity;
 use crate::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
 use egui_kittest::Harness;
@@ -25,14 +26,13 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
     let mut harness = harness();
     order(&mut harness, Command::OpenExample(1));
     let explorer = explorer(&mut harness);
-    let dolp = figure(explorer, PaneId::Dolp).expect("a plot");
+    let dolp = explorer.figure(PaneId::Dolp).expect("a plot");
     let curves = explorer.derived.curves.get().expect("curves");
     let drawn = dolp.panels[0].series.iter().find_map(|series| match &series.drawn {
         Drawn::Line { points, .. } if series.name.starts_with("θi") => Some(points),
         _ => None,
     });
-    let first = &curves.series[0].dolp[0];
-    assert!(drawn.expect("a curve").iter().zip(first).all(|(exported, shown)| *exported == [shown.x, shown.y]));
+    assert_eq!(drawn.expect("a curve"), &curves.series[0].dolp);
     let marks = explorer.derived.marks.get().expect("points");
     let points: usize =
         dolp.panels[0]
@@ -42,7 +42,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
                 if let Drawn::Points { points, .. } = &series.drawn { points.iter().filter(|point| point.bar.is_some()).count() } else { 0 }
             })
             .sum();
-    assert_eq!(points, marks.series.iter().map(|marks| marks.dolp.bars.len()).sum::<usize>());
+    assert_eq!(points, marks.series.iter().map(|marks| marks.dolp.used.iter().filter(|point| point.bar.is_some()).count()).sum::<usize>());
     assert_eq!(dolp.panels[0].y.title(), "DoLP");
 }
 
@@ -75,12 +75,12 @@ const TITLES: [(PaneId, &[&str]); 13] = [
 fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
     // Tables and text.
     let without = [PaneId::Data, PaneId::Planner, PaneId::Models];
-    assert!(PANES.iter().all(|entry| PLOTS.contains(&entry.pane) != without.contains(&entry.pane)));
+    assert!(PaneId::ALL.iter().all(|pane| spec(*pane).has_figure != without.contains(pane)));
     let mut harness = harness();
     order(&mut harness, Command::StartFit);
     for (pane, titles) in TITLES.into_iter().filter(|(_, titles)| !titles.is_empty()) {
         show(&mut harness, pane);
-        let figure = figure(explorer(&mut harness), pane).expect("a plot");
+        let figure = explorer(&mut harness).figure(pane).expect("a plot");
         let svg = figure.svg();
         let svg = roxmltree::Document::parse(&svg).expect("XML");
         let words: Vec<&str> = svg.descendants().filter_map(|node| node.attribute("aria-label").or(node.text())).collect();
@@ -114,7 +114,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
         explorer(&mut harness).work.settings.shown.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        let exported = figure(explorer, PaneId::Hemisphere).expect("a map");
+        let exported = explorer.figure(PaneId::Hemisphere).expect("a map");
         let map = map_of(&exported);
         let (row, column) = (60, 170);
         let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
@@ -138,7 +138,7 @@ fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
     order(&mut harness, Command::StartFit);
     show(&mut harness, PaneId::Landscape);
     let explorer = explorer(&mut harness);
-    let exported = figure(explorer, PaneId::Landscape).expect("a map");
+    let exported = explorer.figure(PaneId::Landscape).expect("a map");
     let map = map_of(&exported);
     let fit = explorer.work.shown_fit.as_ref().expect("a fit");
     let [n, k] = [fit.report.parameters.n, fit.report.parameters.k];
@@ -159,12 +159,11 @@ fn a_logarithmic_plot_is_exported_with_its_values() {
     explorer(&mut harness).work.settings.log_brdf = true;
     harness.run();
     let explorer = explorer(&mut harness);
-    let panel = &figure(explorer, PaneId::Lobes).expect("a plot").panels[0];
+    let panel = &explorer.figure(PaneId::Lobes).expect("a plot").panels[0];
     assert_eq!((panel.y.scale, panel.y.title().as_str()), (Scale::Log, "BRDF / sr⁻¹"));
     let total = panel.series.last().expect("the total");
     let Drawn::Line { points, .. } = &total.drawn else { panic!("a curve") };
-    let shown = &explorer.derived.curves.get().expect("curves").own.total[0][0];
-    assert_eq!(points[0], [shown.x, libm::exp10(shown.y)]);
+    assert_eq!(*points, explorer.derived.curves.get().expect("curves").own.total);
 }
 
 #[test]
@@ -179,7 +178,7 @@ fn each_export_writes_its_file_and_says_so() {
     }
     let mut exports =
         vec![(ExportKind::Curves, "c.csv"), (ExportKind::Fitted, "f.csv"), (ExportKind::Report, "r.html"), (ExportKind::Report, "r.md")];
-    for pane in PLOTS {
+    for pane in plots() {
         show(&mut harness, pane);
         exports.extend([(ExportKind::Plot(pane), "p.svg"), (ExportKind::Plot(pane), "p.png")]);
     }

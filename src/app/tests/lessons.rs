@@ -2,7 +2,6 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::settings_file;
@@ -10,6 +9,7 @@ use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
 use crate::app::work::document::{EXAMPLES, Mask};
 use crate::app::work::layout::Layout;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Settings;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

@@ -3,9 +3,9 @@
 use crate::app::plots::Range;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::workspace::Workspace;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -35,7 +35,10 @@ fn a_row_is_masked_in_the_table_and_counts_no_more() {
     assert_eq!(masked(&mut harness), [2]);
     let explorer = explorer(&mut harness);
     assert_ne!(explorer.derived.delta_e(), before);
-    assert_eq!(explorer.views.dolp.residuals.of_series.get().into_iter().flatten().map(Vec::len).sum::<usize>(), 26);
+    assert_eq!(
+        explorer.views.get::<crate::app::views::DolpView>().residuals.of_series.get().into_iter().flatten().map(Vec::len).sum::<usize>(),
+        26
+    );
     assert_eq!(explorer.derived.marks.get().expect("marks").series.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
     assert!(explorer.work.document.description().contains("27 rows, 1 masked"));
 }
@@ -133,7 +136,7 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
         harness.step();
     }
     harness.get_by_label("Mask row 1000000");
-    let view = &explorer(&mut harness).views.table;
+    let view = explorer(&mut harness).views.get::<crate::app::views::DataView>();
     let (_, _, _, seen) = view.predicted.key().expect("what is seen is evaluated");
     assert_eq!(seen.end, 1_000_000);
     assert!(seen.len() < 100, "{seen:?}");
@@ -179,7 +182,7 @@ fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
 fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
     let rect = harness.get_by_label("Plot: BRDF against θr").rect();
     let App { work: Workspace { settings, .. }, derived, views, .. } = explorer(harness);
-    let (x, y) = (derived.curves.key().expect("curves").x(), views.lobes.range().expect("curves"));
+    let (x, y) = (derived.curves.key().expect("curves").x(), views.get::<crate::app::views::LobesView>().range().expect("curves"));
     let value = if settings.log_brdf { libm::log10(brdf) } else { brdf };
     let share = |range: Range, value: f64| (value - range.low) / (range.high - range.low);
     #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]

@@ -2,8 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::MetalSelection;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;

@@ -36,6 +36,8 @@ pub mod sources;
 mod typed;
 
 use crate::app::shell::app::App;
+use crate::app::views::spec;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui_kittest::Harness;
 use std::time::{Duration, Instant};
@@ -62,6 +64,11 @@ fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
     let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(frame, None);
     harness.run();
     harness
+}
+
+/// The panes with a plot.
+fn plots() -> impl Iterator<Item = PaneId> {
+    PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_figure)
 }
 
 fn explorer<'a>(harness: &'a mut Harness<'static, Option<App>>) -> &'a mut App {

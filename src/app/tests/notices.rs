@@ -2,10 +2,10 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::shell::file_dialogs::DialogUnavailable;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use egui::accesskit::{Live, Role};
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::Harness;

@@ -105,14 +105,14 @@ fn eq17_as_printed_frees_ks_and_divides_the_curve_by_it() {
     let mut harness = harness();
     explorer(&mut harness).work.settings.parameters.ks = 0.5;
     harness.run();
-    let consistent = explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[0][40].y;
+    let consistent = explorer(&mut harness).derived.curves.get().expect("curves").own.dolp[40][1];
     harness.get_by_label("Options").click();
     harness.run();
     choose(&mut harness, "Eq. (17)", "as printed");
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.work.settings.model.dolp_formula, DolpFormula::AsPrinted);
     assert!(explorer.free().contains(Parameter::Ks));
-    assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[0][40].y, consistent / 0.5);
+    assert_eq!(explorer.derived.curves.get().expect("curves").own.dolp[40][1], consistent / 0.5);
     harness.get_by_label("Default options").click();
     harness.run();
     assert!(!self::explorer(&mut harness).free().contains(Parameter::Ks));

@@ -1,10 +1,11 @@
 //! Dock: each opens, what is not on screen is not computed, and the layout survives a restart.
 
+use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, PaneId};
-use crate::app::shell::theme;
 use crate::app::tests::{explorer, harness, harness_of, wait};
+use crate::app::views::spec;
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -12,37 +13,37 @@ use egui_kittest::kittest::Queryable as _;
 
 #[test]
 fn every_pane_opens_alone_and_beside_the_others() {
-    for entry in &PANES {
+    for pane in PaneId::ALL.iter().copied() {
         let mut harness = harness();
-        for other in PANES.iter().filter(|other| other.pane != entry.pane) {
-            explorer(&mut harness).commands.push(Command::ClosePane(other.pane));
+        for other in PaneId::ALL.iter().filter(|other| **other != pane) {
+            explorer(&mut harness).commands.push(Command::ClosePane(*other));
         }
         wait(&mut harness);
-        if !explorer(&mut harness).panes.is_on_screen(entry.pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(entry.pane));
+        if !explorer(&mut harness).panes.is_on_screen(pane) {
+            explorer(&mut harness).commands.push(Command::TogglePane(pane));
         }
         wait(&mut harness);
-        assert_eq!(explorer(&mut harness).panes.on_screen(), [entry.pane]);
-        harness.get_by_label(entry.title);
+        assert_eq!(explorer(&mut harness).panes.on_screen(), [pane]);
+        harness.get_by_label(spec(pane).title);
         explorer(&mut harness).commands.push(Command::ResetLayout);
         wait(&mut harness);
-        if !explorer(&mut harness).panes.is_on_screen(entry.pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(entry.pane));
+        if !explorer(&mut harness).panes.is_on_screen(pane) {
+            explorer(&mut harness).commands.push(Command::TogglePane(pane));
             wait(&mut harness);
         }
-        assert!(explorer(&mut harness).panes.is_on_screen(entry.pane), "{}", entry.title);
+        assert!(explorer(&mut harness).panes.is_on_screen(pane), "{}", spec(pane).title);
     }
 }
 
 #[test]
 fn every_show_menu_opens() {
-    for entry in PANES.iter().filter(|entry| entry.options.is_some()) {
+    for pane in PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_options) {
         let mut harness = harness();
-        if !explorer(&mut harness).panes.is_on_screen(entry.pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(entry.pane));
+        if !explorer(&mut harness).panes.is_on_screen(pane) {
+            explorer(&mut harness).commands.push(Command::TogglePane(pane));
             wait(&mut harness);
         }
-        harness.get_by_label(&format!("Show in {}", entry.title)).click();
+        harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
         wait(&mut harness);
     }
 }
@@ -50,8 +51,8 @@ fn every_show_menu_opens() {
 #[test]
 fn what_is_not_on_screen_is_not_computed() {
     let mut harness = harness();
-    for entry in &PANES {
-        explorer(&mut harness).commands.push(Command::ClosePane(entry.pane));
+    for pane in PaneId::ALL.iter().copied() {
+        explorer(&mut harness).commands.push(Command::ClosePane(pane));
     }
     harness.run();
     let before = explorer(&mut harness).derived.curves.key().cloned();
@@ -99,7 +100,7 @@ fn every_option_of_every_pane_can_be_switched() {
             let before = explorer(&mut harness).work.settings.clone();
             // The menu may have closed.
             if harness.query_all_by_label(options[0]).next().is_none() {
-                harness.get_by_label(&format!("Show in {}", pane.entry().title)).click();
+                harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
                 harness.run();
             }
             // A legend may have an entry of the same name; that of the menu comes first.
@@ -124,8 +125,8 @@ fn views_draw_whatever_the_sliders_hold() {
         Parameters { n: 0.0, k: 0.0, ..ordinary },
         Parameters { c: -40.0, ..ordinary },
     ];
-    for entry in &PANES {
-        let mut harness = shown(entry.pane);
+    for pane in PaneId::ALL.iter().copied() {
+        let mut harness = shown(pane);
         for parameters in odd {
             for logarithmic in [false, true] {
                 for specular in [true, false] {
@@ -158,12 +159,12 @@ fn the_way_of_a_fit_is_drawn_after_it() {
 #[test]
 fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
     let mut harness = shown(PaneId::Landscape);
-    let before = explorer(&mut harness).views.landscape.seen().expect("axes");
+    let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen().expect("axes");
     explorer(&mut harness).commands.push(Command::ClosePane(PaneId::Landscape));
     wait(&mut harness);
     explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).views.landscape.seen(), Some(before));
+    assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen(), Some(before));
 }
 
 /// Whether a curve of that colour is drawn, longer than its sample beside the name.
@@ -176,7 +177,10 @@ fn is_drawn(harness: &Harness<'static, Option<App>>, color: fn(bool) -> egui::Co
 #[test]
 fn a_click_on_the_name_of_a_line_hides_it_and_another_shows_it() {
     let mut harness = harness();
-    for (name, color) in [("diffuse", theme::diffuse as fn(bool) -> egui::Color32), ("θi = 40°", |dark| theme::series(1, dark))] {
+    for (name, color) in [
+        ("diffuse", (|dark| theme::on_screen(crate::app::views::curves::Term::Diffuse.ink(), dark)) as fn(bool) -> egui::Color32),
+        ("θi = 40°", |dark| theme::series(1, dark)),
+    ] {
         for expected in [true, false, true] {
             assert_eq!(is_drawn(&harness, color), expected, "{name}");
             harness.get_by_role_and_label(Role::CheckBox, name).click();

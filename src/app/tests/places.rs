@@ -2,8 +2,9 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::{PANES, PaneId};
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::spec;
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -32,13 +33,13 @@ fn bar(harness: &Harness<'static, Option<App>>, tab: egui::Rect) -> egui::Rangef
 fn the_tab_of_a_pane_that_is_shown_is_in_view() {
     let mut harness = harness();
     // From the first to the last and back, so that bars are scrolled to either side.
-    for entry in PANES.iter().chain(PANES.iter().rev()) {
-        if !explorer(&mut harness).panes.is_on_screen(entry.pane) {
-            order(&mut harness, Command::TogglePane(entry.pane));
+    for &pane in PaneId::ALL.iter().chain(PaneId::ALL.iter().rev()) {
+        if !explorer(&mut harness).panes.is_on_screen(pane) {
+            order(&mut harness, Command::TogglePane(pane));
         }
-        let tab = harness.query_all_by_label(entry.title).next().expect("a tab").rect();
+        let tab = harness.query_all_by_label(spec(pane).title).next().expect("a tab").rect();
         let bar = bar(&harness, tab);
-        assert!(bar.contains(tab.left()) && bar.contains(tab.right()), "{}: {tab} outside {bar:?}", entry.title);
+        assert!(bar.contains(tab.left()) && bar.contains(tab.right()), "{}: {tab} outside {bar:?}", spec(pane).title);
     }
 }
 

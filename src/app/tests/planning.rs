@@ -17,7 +17,7 @@ fn planner() -> Harness<'static, Option<App>> {
 
 /// Predicted errors of n with the measured and with the planned angles.
 fn errors_of_n(harness: &mut Harness<'static, Option<App>>) -> [Option<f64>; 2] {
-    let predictions = explorer(harness).views.planner.predictions.get().expect("the planner is on screen");
+    let predictions = explorer(harness).views.get::<crate::app::views::PlannerView>().predictions.get().expect("the planner is on screen");
     [0, 1].map(|i| predictions[i].as_ref().expect("a prediction").error_of(Parameter::N))
 }
 
@@ -64,7 +64,8 @@ fn the_measured_angles_taken_over_predict_what_is_now() {
 fn a_planned_brdf_lets_ks_be_free() {
     let mut harness = planner();
     let free = |harness: &mut Harness<'static, Option<App>>| {
-        let predictions = explorer(harness).views.planner.predictions.get().expect("the planner is on screen");
+        let predictions =
+            explorer(harness).views.get::<crate::app::views::PlannerView>().predictions.get().expect("the planner is on screen");
         let planned = predictions[1].as_ref().expect("a prediction");
         planned.errors.iter().any(|(parameter, _)| *parameter == Parameter::Ks)
     };

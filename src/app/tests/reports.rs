@@ -4,9 +4,9 @@ use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
-use crate::app::storage::export::{ExportKind, figure};
+use crate::app::storage::export::ExportKind;
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::selftest::{Host, Setting};
@@ -163,7 +163,7 @@ fn the_figure_in_front_is_the_one_that_is_exported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = with_report(BenchmarkId::ErrorVsTime, 5);
     let title =
-        |harness: &mut Harness<'static, Option<App>>| figure(explorer(harness), BenchmarkId::ErrorVsTime.pane()).map(|figure| figure.title);
+        |harness: &mut Harness<'static, Option<App>>| explorer(harness).figure(BenchmarkId::ErrorVsTime.pane()).map(|figure| figure.title);
     let first = title(&mut harness).expect("a figure");
     harness.get_by_label("Performance profile").click();
     harness.run();

@@ -3,12 +3,12 @@
 use crate::app::jobs::worker::save_session;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::Loss;
@@ -102,7 +102,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let shown = |explorer: &App| explorer.work.shown_fit.as_ref().map(|fit| fit.id);
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));
     let marks = |explorer: &App| {
-        let marks = explorer.views.landscape.marks().expect("what lies on the map");
+        let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("what lies on the map");
         (marks.minima.len(), marks.ways.iter().map(|way| way.points.len()).collect::<Vec<_>>())
     };
     assert_eq!(marks(before), marks(after));

@@ -7,11 +7,10 @@ use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
-use crate::app::storage::export::{PLOTS, figure};
 use crate::app::tests::messages::english;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
+use crate::app::work::pane_id::PaneId;
 use crate::figure::{Figure, Image};
 use egui_kittest::Harness;
 use pbrdf::model::{Parameter, ParameterSet};
@@ -133,16 +132,16 @@ fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)>
             order(harness, Command::TogglePane(pane));
         }
         wait(harness);
-        (pane, figure(explorer(harness), pane).expect("a plot"))
+        (pane, explorer(harness).figure(pane).expect("a plot"))
     };
-    PLOTS.into_iter().map(&mut shown).collect()
+    plots().map(&mut shown).collect()
 }
 
 #[test]
 fn every_exported_plot_looks_as_it_did() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
     let figures = figures(&mut fitted());
-    let wrong: Vec<String> = figures.iter().filter_map(|(pane, figure)| compare(&folder(), pane.entry().key, figure, update)).collect();
+    let wrong: Vec<String> = figures.iter().filter_map(|(pane, figure)| compare(&folder(), pane.key(), figure, update)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -168,7 +167,7 @@ fn every_exported_plot_is_in_chinese_where_the_window_is() {
 fn another_picture_is_noticed_and_laid_beside_the_old_one() {
     let harness = &mut harness();
     let there = tempfile::tempdir().expect("a folder");
-    let mut plot = figure(explorer(harness), PaneId::Dolp).expect("a plot");
+    let mut plot = explorer(harness).figure(PaneId::Dolp).expect("a plot");
     assert!(compare(there.path(), "dolp", &plot, false).expect("a sentence").contains("no picture"));
     assert_eq!(compare(there.path(), "dolp", &plot, true), None);
     assert_eq!(compare(there.path(), "dolp", &plot, false), None, "the picture that was just written");

@@ -2,9 +2,9 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::docking::PaneId;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::work::pane_id::PaneId;
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;

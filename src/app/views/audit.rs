@@ -1,33 +1,38 @@
 //! What the physics says of the sliders' surface: each check with its number and verdict, and the reflectance against θi.
 
-mod figure;
-
-pub use figure::audit_figure;
-
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
-use crate::app::plots::axis;
-use crate::app::plots::axis::{axis, decimal};
-use crate::app::plots::{Axes, Following, Range, curve, legend, plot, round_up};
-use crate::app::shell::app::App;
-use crate::app::shell::theme;
+use crate::app::plots::theme::{ALARM, FOREGROUND, MUTED};
+use crate::app::plots::{AutoRange, FigurePlot, PanelPlot, PanelStyle, Polyline, Range, finite, nice_ceiling, theme};
 use crate::app::text::glossary::short;
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
 use crate::app::text::messages::Localized as _;
-use crate::app::views::curves::{Polyline, pieces};
-use crate::app::work::workspace::Workspace;
-use egui::{Label, ScrollArea, Ui};
-use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle};
+use crate::app::views::context::{Cx, PaneSpec, View};
+use crate::app::views::curves::Term;
+use crate::figure::{Axis, Figure, Panel, Series};
+use egui::{Key as Keyboard, Label, ScrollArea, Ui};
 use pbrdf::model::{Audit, Check, Diffuse, Finding, Model, Parameters, Pbrdf, Reflectance};
 use pbrdf::optics::Geometry;
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Audit",
+    tooltip: "What the physics says of the sliders: reciprocity, reflectance, DoLP against its limit, admissible Mueller matrices",
+    shortcut: Some(Keyboard::Num7),
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(AuditView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
 pub struct AuditView {
     job: AsyncMemo<Key, Audit>,
     curves: Memo<Key, Curves>,
-    axes: Axes,
-    range: Following,
+    range: AutoRange,
+    /// The stamp of the curves, the axis, the language.
+    plot: FigurePlot<(u64, Option<Range>, Language)>,
 }
 
 type Key = (Parameters, Model);
@@ -48,9 +53,8 @@ struct Curves {
 
 impl Curves {
     fn new(audit: &Audit, model: Model) -> Self {
-        let along = |value: fn(&Reflectance) -> f64, is_there: bool| {
-            let points = audit.reflectance.iter().map(|at| (at.theta_i, Some(value(at))));
-            if is_there { pieces(points) } else { Polyline::new() }
+        let along = |value: fn(&Reflectance) -> f64, is_there: bool| -> Polyline {
+            audit.reflectance.iter().filter(|_| is_there).map(|at| [at.theta_i, value(at)]).collect()
         };
         let totals: Vec<(f64, f64)> = audit.reflectance.iter().map(|at| (at.theta_i, at.total())).collect();
         let finite = audit.reflectance.iter().map(Reflectance::total).filter(|total| total.is_finite());
@@ -66,6 +70,23 @@ impl Curves {
     }
 }
 
+impl Curves {
+    fn describe(&self, title: String, range: &AutoRange) -> Figure {
+        let mut series = vec![Series::level("", 1.0).colored(MUTED)];
+        let terms = [(Term::Specular, &self.specular), (Term::Diffuse, &self.diffuse), (Term::Volume, &self.volume)];
+        for (term, curve) in terms.into_iter().filter(|(_, curve)| !curve.is_empty()) {
+            series.push(Series::line(term.name(), curve.clone()).colored(term.ink()));
+        }
+        series.push(Series::line(tr!("total"), self.total.clone()).colored(FOREGROUND));
+        if !self.above.is_empty() {
+            series.push(Series::line(tr!("above 1"), self.above.clone()).colored(ALARM));
+        }
+        let x = Axis::linear("θi", "°").between(0.0, 90.0);
+        let y = range.on(Axis::linear(tr!("directional-hemispherical reflectance"), ""));
+        Figure { title, panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
+    }
+}
+
 /// The parts of a curve above 1, from where it crosses that height.
 fn above_one(points: &[(f64, f64)]) -> Polyline {
     let mut above = Vec::new();
@@ -74,11 +95,11 @@ fn above_one(points: &[(f64, f64)]) -> Polyline {
             && (lower > 1.0) != (y > 1.0)
             && (y - lower).is_finite()
         {
-            above.push((before + (x - before) * (1.0 - lower) / (y - lower), Some(1.0)));
+            above.push([before + (x - before) * (1.0 - lower) / (y - lower), 1.0]);
         }
-        above.push((x, (y > 1.0).then_some(y)));
+        above.push([x, if y > 1.0 { y } else { f64::NAN }]);
     }
-    pieces(above.into_iter())
+    if finite(&above).next().is_none() { Polyline::new() } else { above }
 }
 
 impl AuditView {
@@ -89,23 +110,56 @@ impl AuditView {
     }
 }
 
-pub fn audit_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, .. }, views, background, dragging, .. } = explorer;
-    let view = &mut views.audit;
-    let key = (settings.parameters, settings.model);
-    let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else {
-        // Values that are not numbers differ from themselves: a job would follow a job for ever.
-        view.job = AsyncMemo::default();
-        view.curves.clear();
-        return;
-    };
-    view.job.refresh(background, &key, move |_| Audit::new(&surface));
-    let (Some(key), Some(audit)) = (view.job.key(), view.job.get()) else { return };
-    view.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
-    if let Some(curves) = view.curves.get() {
+impl View for AuditView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let key = (cx.settings.parameters, cx.settings.model);
+        let Ok(surface) = Pbrdf::new(key.1, key.0) else {
+            // Values that are not numbers differ from themselves: a job would follow a job for ever.
+            self.job = AsyncMemo::default();
+            self.curves.clear();
+            return;
+        };
+        self.job.refresh(cx.background, &key, move |_| Audit::new(&surface));
+        let (Some(key), Some(audit)) = (self.job.key(), self.job.get()) else { return };
+        self.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
+        let Some(curves) = self.curves.get() else { return };
         // The line at 1 is always in sight; what grows without end at grazing incidence is cut.
-        let high = round_up(curves.top.clamp(1.0, HIGHEST));
-        view.range.follow(Range { low: 0.0, high }, *dragging);
+        self.range.follow(Range { low: 0.0, high: nice_ceiling(curves.top.clamp(1.0, HIGHEST)) }, cx.interacting);
+        let range = &self.range;
+        let title = cx.document.title();
+        self.plot.refresh((self.curves.stamp(), range.get(), i18n::current()), |_| Some(curves.describe(title, range)));
+    }
+
+    fn ui(&mut self, _cx: &mut Cx<'_>, ui: &mut Ui) {
+        let Some(audit) = self.job.get() else {
+            ui.label("…");
+            return;
+        };
+        let (plot, above_from) = (&mut self.plot, self.curves.get().and_then(|curves| curves.above_from));
+        if ui.available_width() > SIDE_BY_SIDE {
+            let (width, height) = (ui.available_width(), ui.available_height());
+            ui.horizontal_top(|ui| {
+                let size = egui::vec2(0.56 * width, height);
+                ui.allocate_ui_with_layout(size, egui::Layout::top_down(egui::Align::Min), |ui| {
+                    ScrollArea::vertical().id_salt("findings").auto_shrink([false; 2]).show(ui, |ui| findings_ui(audit, ui));
+                });
+                ui.vertical(|ui| reflectance_ui(plot.panel(0), above_from, height, ui));
+            });
+        } else {
+            ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+                // Narrower, the names of the checks would be cut.
+                ui.set_width(ui.available_width().max(NARROWEST));
+                let top = ui.cursor().top();
+                findings_ui(audit, ui);
+                ui.add_space(6.0);
+                let left = ui.clip_rect().bottom() - top - (ui.cursor().top() - top);
+                reflectance_ui(plot.panel(0), above_from, left.max(PLOT_HEIGHT), ui);
+            });
+        }
+    }
+
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
     }
 }
 
@@ -117,35 +171,6 @@ const SIDE_BY_SIDE: f32 = 760.0;
 const NARROWEST: f32 = 500.0;
 /// Least height of the plot, in points.
 const PLOT_HEIGHT: f32 = 190.0;
-
-pub fn audit_ui(explorer: &mut App, ui: &mut Ui) {
-    let view = &mut explorer.views.audit;
-    let Some(audit) = view.job.get() else {
-        ui.label("…");
-        return;
-    };
-    let is_wide = ui.available_width() > SIDE_BY_SIDE;
-    if is_wide {
-        let (width, height) = (ui.available_width(), ui.available_height());
-        ui.horizontal_top(|ui| {
-            let size = egui::vec2(0.56 * width, height);
-            ui.allocate_ui_with_layout(size, egui::Layout::top_down(egui::Align::Min), |ui| {
-                ScrollArea::vertical().id_salt("findings").auto_shrink([false; 2]).show(ui, |ui| findings_ui(audit, ui));
-            });
-            ui.vertical(|ui| reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), height, ui));
-        });
-    } else {
-        ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-            // Narrower, the names of the checks would be cut.
-            ui.set_width(ui.available_width().max(NARROWEST));
-            let top = ui.cursor().top();
-            findings_ui(audit, ui);
-            ui.add_space(6.0);
-            let left = ui.clip_rect().bottom() - top - (ui.cursor().top() - top);
-            reflectance_ui(&mut view.axes, view.curves.get(), view.range.get(), left.max(PLOT_HEIGHT), ui);
-        });
-    }
-}
 
 /// Widths of numbers and of directions: no column moves with its digits.
 const NUMBER: f32 = 84.0;
@@ -246,48 +271,25 @@ fn angles(geometry: Geometry) -> (f64, f64, f64) {
     (geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0)
 }
 
-fn reflectance_ui(axes: &mut Axes, curves: Option<&Curves>, range: Option<Range>, height: f32, ui: &mut Ui) {
-    let Some(curves) = curves else { return };
-    let dark = ui.visuals().dark_mode;
+fn reflectance_ui(panel: Option<&mut PanelPlot>, above_from: Option<f64>, height: f32, ui: &mut Ui) {
+    let Some(panel) = panel else { return };
     let top = ui.cursor().top();
-    match curves.above_from {
+    match above_from {
         Some(theta_i) => {
             let sentence = tr!("More light leaves than falls on the surface from θi = {}° on.", theta_i);
-            ui.colored_label(theme::warning(dark), sentence)
+            ui.colored_label(theme::warning(ui.visuals().dark_mode), sentence)
         }
         None => ui.label(tr!("Reflectance into all directions, by terms")),
     };
+    panel.key_line_ui(ui);
     let height = height - (ui.cursor().top() - top) - ui.spacing().item_spacing.y;
-    let x = axis(AxisHints::new_x(), ui, "θi / °", decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "ρ", decimal);
-    let response = plot("reflectance", ui, height, x, y)
-        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
-        .legend(legend())
-        .label_formatter(|hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nθi = {:.1}°\nρ = {:.4}", position.x, position.y))
-            }
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            axes.apply(plot, Some(Range { low: 0.0, high: 90.0 }), range);
-            plot.hline(HLine::new("", 1.0).color(theme::muted(dark)).style(LineStyle::dashed_dense()).allow_hover(false));
-            for (pieces, name, color) in [
-                (&curves.specular, tr!("specular"), theme::specular(dark)),
-                (&curves.diffuse, tr!("diffuse"), theme::diffuse(dark)),
-                (&curves.volume, tr!("volume"), theme::volume(dark)),
-            ] {
-                curve(plot, pieces, &name, color, None, 1.5);
-            }
-            curve(plot, &curves.total, &tr!("total"), theme::foreground(dark), None, 2.5);
-            curve(plot, &curves.above, &tr!("above 1"), theme::warning(dark), None, 3.5);
-        });
-    axes.listen(&response, &tr!("Plot: reflectance against θi"), ui);
+    let hover = |name: &str, x: f64, y: f64| format!("{name}\nθi = {x:.1}°\nρ = {y:.4}");
+    panel.ui(&PanelStyle::new("reflectance", height, &hover).named(tr!("Plot: reflectance against θi")), ui);
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Audit, Curves, Parameters, Pbrdf, above_one};
+    use super::{Audit, Curves, Parameters, Pbrdf, above_one, finite};
     use pbrdf::model::Model;
     use pbrdf::optics::SlopeDistribution;
 
@@ -303,23 +305,26 @@ mod tests {
         // The Minnaert lobe of the defaults grows at grazing incidence.
         let bright = curves(Parameters::default());
         let from = bright.above_from.expect("above 1 somewhere");
-        let [first, rest @ ..] = &bright.above[0][..] else { panic!("no points") };
-        assert!(first.x < from && first.y == 1.0 && rest.iter().all(|point| point.x >= from && point.y > 1.0));
+        let above: Vec<[f64; 2]> = finite(&bright.above).collect();
+        let [first, rest @ ..] = &above[..] else { panic!("no points") };
+        assert!(first[0] < from && first[1] == 1.0 && rest.iter().all(|[x, y]| *x >= from && *y > 1.0));
         assert!(bright.top > 1.0);
     }
 
     #[test]
     fn a_curve_is_cut_where_it_crosses_one() {
         let above = above_one(&[(0.0, 0.5), (1.0, 1.5), (2.0, 1.25), (3.0, 0.75), (4.0, 2.0)]);
-        let points: Vec<Vec<(f64, f64)>> = above.iter().map(|piece| piece.iter().map(|point| (point.x, point.y)).collect()).collect();
-        assert_eq!(points, [vec![(0.5, 1.0), (1.0, 1.5), (2.0, 1.25), (2.5, 1.0)], vec![(3.2, 1.0), (4.0, 2.0)]]);
+        let points: Vec<[f64; 2]> = finite(&above).collect();
+        assert_eq!(points, [[0.5, 1.0], [1.0, 1.5], [2.0, 1.25], [2.5, 1.0], [3.2, 1.0], [4.0, 2.0]]);
+        assert!(above[5][1].is_nan(), "a gap between both");
         assert!(above_one(&[(0.0, f64::INFINITY), (1.0, f64::INFINITY)]).is_empty());
     }
 
     #[test]
     fn a_reflectance_without_bound_is_no_point_of_a_curve() {
         let endless = curves(Parameters { c: -2.5, ..Parameters::default() });
-        assert!(endless.total.is_empty() && endless.diffuse.is_empty() && endless.above_from == Some(0.0));
-        assert!(!endless.specular.is_empty());
+        let has_none = |curve| finite(curve).next().is_none();
+        assert!(has_none(&endless.total) && has_none(&endless.diffuse) && endless.above_from == Some(0.0));
+        assert!(!has_none(&endless.specular));
     }
 }

@@ -1,39 +1,38 @@
 //! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or time.
 
-mod figure;
-
-pub use figure::convergence_figure;
-
-use crate::app::jobs::memo::Memo;
-use crate::app::plots::axis;
-use crate::app::plots::axis::{axis, decimal, logarithmic};
-use crate::app::plots::{Axes, Range, curve, plot};
-use crate::app::shell::app::App;
-use crate::app::shell::theme;
+use crate::app::plots::axis::decimal;
+use crate::app::plots::{FigurePlot, PanelStyle};
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
 use crate::app::text::messages::Localized as _;
-use crate::app::views::curves::{Polyline, pieces};
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::workspace::Workspace;
+use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 use egui::Ui;
-use egui_plot::{AxisHints, HoverPosition, PlotPoints, Points};
-use pbrdf::fit::TracePoint;
 use std::sync::Arc;
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Convergence",
+    tooltip: "The way of the last fit: ΔE, Eq. (18), against evaluations or time",
+    shortcut: None,
+    has_options: true,
+    has_figure: true,
+    new: || Box::new(ConvergenceView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
 pub struct ConvergenceView {
-    way: Memo<Key, Way>,
-    axes: Axes,
+    plot: FigurePlot<Key>,
 }
 
-/// The fit that is drawn, by identity, and whether it is drawn against time.
-#[derive(Default)]
-struct Key(Option<Arc<FitEntry>>, bool);
+/// The fit that is drawn, by identity, whether it is drawn against time, and the language.
+struct Key(Option<Arc<FitEntry>>, bool, Language);
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        self.1 == other.1
+        (self.1, self.2) == (other.1, other.2)
             && match (&self.0, &other.0) {
                 (Some(a), Some(b)) => Arc::ptr_eq(a, b),
                 (a, b) => a.is_none() && b.is_none(),
@@ -41,113 +40,56 @@ impl PartialEq for Key {
     }
 }
 
-/// ΔE along the way, as its decimal logarithm.
-#[derive(Default)]
-struct Way {
-    steps: Polyline,
-    points: Polyline,
-    x: Option<Range>,
-    y: Option<Range>,
+/// ΔE against evaluations or milliseconds: it stays as it is until the next improvement, in steps.
+#[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
+fn describe(fit: &FitEntry, by_time: bool, title: String) -> Figure {
+    let trace = &fit.report.trace;
+    let points: Vec<[f64; 2]> =
+        trace.iter().map(|point| [if by_time { point.elapsed_ms } else { point.evaluations as f64 }, point.objective]).collect();
+    let series = vec![Series::steps("ΔE", points.clone()).colored(SERIES[0]), Series::points("ΔE", points).colored(SERIES[0])];
+    let x = if by_time { Axis::linear(tr!("time"), "ms") } else { Axis::linear(tr!("residual evaluations"), "") };
+    let panel = Panel { x, y: Axis::log("ΔE", ""), series, legend: false, ..Panel::default() };
+    Figure { title, panels: vec![panel], ..Figure::default() }
 }
 
-/// Room around the drawing, as a fraction of it.
-const AIR: f64 = 0.05;
+impl View for ConvergenceView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let key = Key(cx.fit.cloned(), cx.settings.shown.convergence_by_time, i18n::current());
+        self.plot.refresh(key, |Key(fit, by_time, _)| fit.as_ref().map(|fit| describe(fit, *by_time, cx.document.title())));
+    }
 
-impl Way {
-    #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
-    fn new(trace: &[TracePoint], by_time: bool) -> Self {
-        let x = |point: &TracePoint| if by_time { point.elapsed_ms } else { point.evaluations as f64 };
-        let y = |point: &TracePoint| Some(libm::log10(point.objective));
-        // ΔE stays as it is until the next improvement: steps, not slopes. Each edge is a piece of its own, since the corners of one
-        // long line are drawn as filled wedges.
-        let edges = |pair: &[TracePoint]| {
-            let ((from, high), (to, low)) = ((x(&pair[0]), y(&pair[0])), (x(&pair[1]), y(&pair[1])));
-            [(from, high), (to, high), (to, None), (to, high), (to, low), (to, None)]
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let Some(fit) = cx.fit else {
+            ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));
+            return;
         };
-        let steps = pieces(trace.windows(2).flat_map(edges));
-        let points = pieces(trace.iter().map(|point| (x(point), y(point))));
-        let mut heights = points.iter().flatten().map(|point| point.y);
-        let first = heights.next();
-        let (low, high) = heights.fold((first.unwrap_or(0.0), first.unwrap_or(0.0)), |(low, high), y| (low.min(y), high.max(y)));
-        let end = trace.last().map_or(1.0, x);
-        let air = if end > 0.0 { AIR * end } else { 1.0 };
-        Self {
-            steps,
-            points,
-            x: Some(Range { low: -air, high: end + air }),
-            y: Some(Range { low: low - AIR * (high - low) - 0.01, high: high + AIR * (high - low) + 0.01 }),
+        let report = &fit.report;
+        if report.minima.is_empty() {
+            ui.label(tr!("How this fit came about is not known: its session was saved by an older version."));
+            return;
+        }
+        if report.trace.is_empty() {
+            ui.label(tr!("The fit made no step: ΔE of its start was the best."));
+            return;
+        }
+        let starts = report.minima.iter().map(|minimum| minimum.reached).sum::<usize>();
+        ui.weak(tr!("Winning start of {0}; {1}", starts, report.stop_reason.localized()));
+        let title = if cx.settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
+        let hover = |_: &str, x: f64, y: f64| format!("{title}: {}\nΔE = {y:.6e}", decimal(x, 0.1));
+        let style = PanelStyle::new("convergence", ui.available_height(), &hover).named(tr!("Plot: ΔE of the last fit against {}", title));
+        if let Some(panel) = self.plot.panel(0) {
+            panel.ui(&style, ui);
         }
     }
-}
 
-pub fn convergence_refresh(explorer: &mut App) {
-    let App { work: Workspace { shown_fit: last_fit, settings, .. }, views, .. } = explorer;
-    views.convergence.way.refresh(Key(last_fit.clone(), settings.shown.convergence_by_time), |Key(fit, by_time)| {
-        fit.as_ref().map_or_else(Way::default, |fit| Way::new(&fit.report.trace, *by_time))
-    });
-}
-
-/// What is drawn in the pane.
-pub fn convergence_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let by_time = &mut explorer.work.settings.shown.convergence_by_time;
-    ui.radio_value(by_time, false, tr!("Against evaluations"))
-        .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
-    ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
-}
-
-pub fn convergence_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { shown_fit: last_fit, settings, .. }, views, .. } = explorer;
-    let view = &mut views.convergence;
-    let (Some(fit), Some(way)) = (last_fit, view.way.get()) else {
-        ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));
-        return;
-    };
-    if fit.report.minima.is_empty() {
-        ui.label(tr!("How this fit came about is not known: its session was saved by an older version."));
-        return;
+    fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let by_time = &mut cx.settings.shown.convergence_by_time;
+        ui.radio_value(by_time, false, tr!("Against evaluations"))
+            .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
+        ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
     }
-    if way.points.is_empty() {
-        ui.label(tr!("The fit made no step: ΔE of its start was the best."));
-        return;
-    }
-    let report = &fit.report;
-    ui.weak(tr!(
-        "Winning start of {0}; {1}",
-        report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(),
-        report.stop_reason.localized()
-    ));
-    let dark = ui.visuals().dark_mode;
-    let title = if settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
-    let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
-    let y = axis(AxisHints::new_y(), ui, "ΔE", logarithmic);
-    let response = plot("convergence", ui, ui.available_height(), x, y)
-        .y_grid_spacer(|input| axis::decades(&input, 5.0))
-        .label_formatter(|hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { position, .. } => {
-                Some(format!("{title}: {}\nΔE = {:.6e}", decimal(position.x, 0.1), libm::exp10(position.y)))
-            }
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            view.axes.apply(plot, way.x, way.y);
-            curve(plot, &way.steps, "", theme::series(0, dark), None, 1.5);
-            for piece in &way.points {
-                plot.points(Points::new("ΔE", PlotPoints::Borrowed(piece)).color(theme::series(0, dark)).radius(3.0));
-            }
-        });
-    view.axes.listen(&response, &tr!("Plot: ΔE of the last fit against {}", title), ui);
-}
 
-#[cfg(test)]
-mod tests {
-    use super::{TracePoint, Way};
-
-    #[test]
-    fn a_fit_that_reaches_zero_ends_where_a_logarithm_still_exists() {
-        let point = |evaluations, objective| TracePoint { elapsed_ms: 0.0, evaluations, objective };
-        let way = Way::new(&[point(1, 1e-2), point(2, 1e-9), point(3, 0.0)], false);
-        assert_eq!(way.points.iter().map(Vec::len).sum::<usize>(), 2);
-        let y = way.y.expect("a range");
-        assert!(y.low < -9.0 && y.high > -2.0);
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
     }
 }

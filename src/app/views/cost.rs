@@ -1,10 +1,11 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
-use crate::app::shell::app::App;
+use crate::app::plots::theme;
 use crate::app::shell::benchmarks::BenchmarkId;
-use crate::app::shell::theme;
 use crate::app::text::i18n::{label, translated};
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
+use crate::figure::Figure;
 use egui::{Rect, Sense, Ui, vec2};
 use pbrdf::selftest::Cost;
 use tr::tr;
@@ -24,37 +25,59 @@ const HEADINGS: [Heading; 9] = [
 /// Columns of the report that stand as they are, by place here.
 const PLAIN: [(usize, usize); 6] = [(2, 7), (4, 8), (5, 9), (6, 10), (7, 3), (8, 6)];
 
-pub fn cost_ui(explorer: &mut App, ui: &mut Ui) {
-    let about = tr!("Times scenes from the least to everything: some seconds");
-    run_ui(explorer, BenchmarkId::Cost, (&tr!("Measure costs"), &about), None, ui);
-    let Some(shown) = &mut explorer.reports.cost else {
-        ui.label(tr!("Nothing is measured yet."));
-        return;
-    };
-    // The figure is the same bars on paper: the table alone is shown.
-    shown.page = 0;
-    pages_ui(shown, &[], ui);
-    let rows = &shown.report.rows;
-    let times = || rows.iter().map(|row| row.time.median_ns);
-    let ends = (0.5 * times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
-    let cell = |row: usize, column: usize, ui: &mut Ui| {
-        let (row, cells) = (&rows[row], &shown.cells[row]);
-        match PLAIN.iter().find(|(here, _)| *here == column) {
-            Some((_, there)) => {
-                let text = label(&cells[*there]);
-                _ = ui.label(&text).on_hover_text(text);
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Cost",
+    tooltip: "What a scene costs, and what is left out because it does not need it, measured on this machine",
+    shortcut: None,
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(CostView),
+};
+
+/// The pane; what it shows are the benchmarks of the window.
+struct CostView;
+
+impl View for CostView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        cx.benchmarks.refresh_plots(BenchmarkId::Cost);
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let about = tr!("Times scenes from the least to everything: some seconds");
+        run_ui(cx, BenchmarkId::Cost, (&tr!("Measure costs"), &about), None, ui);
+        let Some(shown) = &mut cx.benchmarks.cost else {
+            ui.label(tr!("Nothing is measured yet."));
+            return;
+        };
+        // The figure is the same bars on paper: the table alone is shown.
+        shown.page = 0;
+        pages_ui(shown, &[], ui);
+        let rows = &shown.report.rows;
+        let times = || rows.iter().map(|row| row.time.median_ns);
+        let ends = (0.5 * times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
+        let cell = |row: usize, column: usize, ui: &mut Ui| {
+            let (row, cells) = (&rows[row], &shown.cells[row]);
+            match PLAIN.iter().find(|(here, _)| *here == column) {
+                Some((_, there)) => {
+                    let text = label(&cells[*there]);
+                    _ = ui.label(&text).on_hover_text(text);
+                }
+                None if column == 0 => {
+                    _ = ui.label(translated(row.scene)).on_hover_text(format!("{}, {}", row.distribution.key(), translated(&row.terms)));
+                }
+                None if column == 3 => bar_ui(row, ends, ui),
+                None => {
+                    let kernel = row.kernel;
+                    _ = ui.label(translated(kernel));
+                }
             }
-            None if column == 0 => {
-                _ = ui.label(translated(row.scene)).on_hover_text(format!("{}, {}", row.distribution.key(), translated(&row.terms)));
-            }
-            None if column == 3 => bar_ui(row, ends, ui),
-            None => {
-                let kernel = row.kernel;
-                _ = ui.label(translated(kernel));
-            }
-        }
-    };
-    table_ui("cost", &HEADINGS, rows.len(), cell, ui);
+        };
+        table_ui("cost", &HEADINGS, rows.len(), cell, ui);
+    }
+
+    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+        cx.benchmarks.figure(BenchmarkId::Cost).cloned()
+    }
 }
 
 /// A bar as long as the logarithm of the time.

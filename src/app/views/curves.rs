@@ -1,9 +1,11 @@
 //! What is drawn against θr: the model along every measured θi and at the sliders' own, and the measured points.
 
-use crate::app::plots::Range;
+use crate::app::plots::theme::MUTED;
+use crate::app::plots::{Polyline, Range, finite};
 use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
 use crate::app::work::settings::Settings;
-use egui_plot::PlotPoint;
+use crate::figure;
+use crate::figure::{Point, Rgb, SERIES, Symbol};
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::{Degrees, Facet};
 use tr::tr;
@@ -20,29 +22,42 @@ pub const DECADES: f64 = 8.0;
 /// Up to this θr, in degrees, curves take part in choosing the axes: a Minnaert lobe has no bound at the horizon.
 pub const SETS_AXES: f64 = 80.0;
 
-/// A curve in pieces: a value that is not finite ends one.
-pub type Polyline = Vec<Vec<PlotPoint>>;
-
-/// A measured value with the ends of its error bar, in plot coordinates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ErrorBar {
-    pub x: f64,
-    pub low: f64,
-    pub high: f64,
-}
-
 /// Measured points of one series and quantity.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Marks {
-    pub used: Vec<PlotPoint>,
-    pub masked: Vec<PlotPoint>,
-    pub bars: Vec<ErrorBar>,
+pub struct DataPoints {
+    /// With their error bars.
+    pub used: Vec<Point>,
+    /// Without.
+    pub masked: Vec<Point>,
 }
 
-impl Marks {
-    /// Whether anything was measured.
-    pub fn is_there(&self) -> bool {
-        !(self.used.is_empty() && self.masked.is_empty())
+impl DataPoints {
+    /// The measured values that are drawn.
+    fn new(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> f64) -> Self {
+        let mut points = Self::default();
+        for mark in measured.iter().step_by(step) {
+            let place = |value| coordinate(mark.theta_r, value);
+            let (x, y) = (mark.theta_r, place(mark.quantity.value));
+            if mark.masked {
+                points.masked.push(Point { x, y, bar: None });
+            } else {
+                let bar = mark.quantity.sigma.map(|sigma| (place(mark.quantity.value - sigma), place(mark.quantity.value + sigma)));
+                points.used.push(Point { x, y, bar });
+            }
+        }
+        points
+    }
+
+    /// Whether nothing was measured.
+    pub fn is_empty(&self) -> bool {
+        self.used.is_empty() && self.masked.is_empty()
+    }
+
+    /// The points in a figure, masked ones as grey circles.
+    pub fn series(&self, name: &str, color: Rgb) -> impl Iterator<Item = figure::Series> {
+        let used = figure::Series::measured(name, self.used.clone(), Symbol::Disc).colored(color);
+        let masked = figure::Series::measured(tr!("masked"), self.masked.clone(), Symbol::Circle).colored(MUTED);
+        [used, masked].into_iter().zip([&self.used, &self.masked]).filter(|(_, points)| !points.is_empty()).map(|(series, _)| series)
     }
 }
 
@@ -50,8 +65,32 @@ impl Marks {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesMarks {
     pub name: String,
-    pub dolp: Marks,
-    pub brdf: Marks,
+    pub dolp: DataPoints,
+    pub brdf: DataPoints,
+}
+
+/// A term of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Term {
+    Specular,
+    Diffuse,
+    Volume,
+}
+
+impl Term {
+    /// Its name in plots.
+    pub fn name(self) -> String {
+        match self {
+            Self::Specular => tr!("specular"),
+            Self::Diffuse => tr!("diffuse"),
+            Self::Volume => tr!("volume"),
+        }
+    }
+
+    /// The colour of its lobe.
+    pub fn ink(self) -> Rgb {
+        SERIES[3 + self as usize]
+    }
 }
 
 /// The model along one series.
@@ -67,25 +106,9 @@ pub struct Curves {
     pub share: Polyline,
 }
 
-/// How a BRDF is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BrdfScale {
-    pub log: bool,
-    /// Whether it is multiplied by cos θr: what a detector sees of a spot that it looks at as a whole.
-    pub times_cosine: bool,
-}
-
-impl BrdfScale {
-    pub fn new(settings: &Settings) -> Self {
-        Self { log: settings.log_brdf, times_cosine: settings.shown.times_cosine }
-    }
-
-    /// A value at θr (degrees) as its plot has it; none where a logarithm does not exist.
-    pub fn coordinate(self, theta_r: f64, value: f64) -> Option<f64> {
-        let value = if self.times_cosine { value * Degrees(theta_r.abs()).sin_cos().1 } else { value };
-        let y = if self.log { libm::log10(value) } else { value };
-        y.is_finite().then_some(y)
-    }
+/// A BRDF at θr (degrees) as it is drawn: times cos θr on demand, which is what a detector sees of a spot that it looks at as a whole.
+pub fn drawn_brdf(theta_r: f64, brdf: f64, times_cosine: bool) -> f64 {
+    if times_cosine { brdf * Degrees(theta_r.abs()).sin_cos().1 } else { brdf }
 }
 
 /// What the curves depend on.
@@ -95,7 +118,8 @@ pub struct CurveKey {
     pub model: Model,
     pub theta_i: f64,
     pub dphi: f64,
-    pub brdf: BrdfScale,
+    /// Whether BRDFs are multiplied by cos θr.
+    pub times_cosine: bool,
     /// Whether the backscatter side is drawn.
     pub backscatter: bool,
     pub generation: u64,
@@ -108,7 +132,7 @@ impl CurveKey {
             model: settings.model,
             theta_i: settings.theta_i,
             dphi: settings.dphi,
-            brdf: BrdfScale::new(settings),
+            times_cosine: settings.shown.times_cosine,
             backscatter: settings.show_backscatter || document.has_backscatter(),
             generation: document.generation,
         }
@@ -139,7 +163,7 @@ impl CurveSet {
         };
         let plane = key.dphi.rem_euclid(360.0);
         let own = IncidenceSeries { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        let curves = |series: &IncidenceSeries| Curves::new(&surface, series, key.backscatter, key.brdf);
+        let curves = |series: &IncidenceSeries| Curves::new(&surface, series, key.backscatter, key.times_cosine);
         let series: Vec<Curves> = drawn(document).map(curves).collect();
         let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
@@ -180,13 +204,13 @@ impl Decimation {
 }
 
 impl MarkSet {
-    pub fn new(document: &Document, scale: BrdfScale) -> Self {
+    pub fn new(document: &Document, times_cosine: bool) -> Self {
         let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
         let step = total.div_ceil(MOST_POINTS).max(1);
         let series = drawn(document).map(|series| SeriesMarks {
             name: series.name(),
-            dolp: marks(&series.dolp, step, |_, value| Some(value)),
-            brdf: marks(&series.brdf, step, |theta_r, value| scale.coordinate(theta_r, value)),
+            dolp: DataPoints::new(&series.dolp, step, |_, value| value),
+            brdf: DataPoints::new(&series.brdf, step, |theta_r, value| drawn_brdf(theta_r, value, times_cosine)),
         });
         let hidden = document.series.len().saturating_sub(MOST_SERIES);
         let left_out = match (hidden, step) {
@@ -199,8 +223,8 @@ impl MarkSet {
 }
 
 /// Values of a curve that take part in choosing an axis.
-pub fn axis_values(pieces: &Polyline) -> impl Iterator<Item = f64> {
-    pieces.iter().flatten().filter(|point| point.x.abs() <= SETS_AXES).map(|point| point.y)
+pub fn axis_values(curve: &Polyline) -> impl Iterator<Item = f64> {
+    finite(curve).filter(|[x, _]| x.abs() <= SETS_AXES).map(|[_, y]| y)
 }
 
 /// The series that are drawn.
@@ -208,24 +232,8 @@ pub fn drawn(document: &Document) -> impl Iterator<Item = &IncidenceSeries> {
     document.series.iter().take(MOST_SERIES)
 }
 
-fn marks(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> Option<f64>) -> Marks {
-    let mut marks = Marks::default();
-    for mark in measured.iter().step_by(step) {
-        let Some(y) = coordinate(mark.theta_r, mark.quantity.value) else { continue };
-        let points = if mark.masked { &mut marks.masked } else { &mut marks.used };
-        points.push(PlotPoint::new(mark.theta_r, y));
-        if let Some(sigma) = mark.quantity.sigma.filter(|_| !mark.masked) {
-            let high = coordinate(mark.theta_r, mark.quantity.value + sigma).unwrap_or(y);
-            // A bar that reaches 0 or below ends beneath any logarithmic axis.
-            let low = coordinate(mark.theta_r, mark.quantity.value - sigma).unwrap_or(y - 2.0 * DECADES);
-            marks.bars.push(ErrorBar { x: mark.theta_r, low, high });
-        }
-    }
-    marks
-}
-
 impl Curves {
-    pub fn new(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool, scale: BrdfScale) -> Self {
+    pub fn new(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool, times_cosine: bool) -> Self {
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles
             .into_iter()
@@ -234,34 +242,27 @@ impl Curves {
                 Some((angle, surface.reflection(&facet), surface.fresnel_limit(&facet)))
             })
             .collect();
-        let brdf =
-            |value: fn(&Reflection) -> f64| pieces(at.iter().map(|(x, reflection, _)| (*x, scale.coordinate(*x, value(reflection)))));
+        let along = |is_there: bool, value: &dyn Fn(&(f64, Reflection, f64)) -> f64| -> Polyline {
+            at.iter().filter(|_| is_there).map(|direction| [direction.0, value(direction)]).collect()
+        };
+        let brdf = |is_there, term: fn(&Reflection) -> f64| {
+            along(is_there, &|(theta_r, reflection, _)| drawn_brdf(*theta_r, term(reflection), times_cosine))
+        };
         let model = surface.model();
         Self {
-            dolp: pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.dolp)))),
-            limit: if model.specular { pieces(at.iter().map(|(x, _, limit)| (*x, Some(*limit)))) } else { Polyline::new() },
-            total: brdf(|reflection| reflection.brdf),
-            specular: if model.specular { brdf(|reflection| reflection.specular) } else { Polyline::new() },
-            diffuse: if model.diffuse == Diffuse::Absent { Polyline::new() } else { brdf(|reflection| reflection.diffuse) },
-            share: if model.specular {
-                pieces(at.iter().map(|(x, reflection, _)| (*x, Some(reflection.specular / reflection.brdf))))
-            } else {
-                Polyline::new()
-            },
-            volume: if model.volume { brdf(|reflection| reflection.volume) } else { Polyline::new() },
+            dolp: along(true, &|(_, reflection, _)| reflection.dolp),
+            limit: along(model.specular, &|(.., limit)| *limit),
+            total: brdf(true, |reflection| reflection.brdf),
+            specular: brdf(model.specular, |reflection| reflection.specular),
+            diffuse: brdf(model.diffuse != Diffuse::Absent, |reflection| reflection.diffuse),
+            volume: brdf(model.volume, |reflection| reflection.volume),
+            share: along(model.specular, &|(_, reflection, _)| reflection.specular / reflection.brdf),
         }
     }
-}
 
-pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>) -> Polyline {
-    let mut pieces = vec![Vec::new()];
-    for (x, y) in points {
-        match (y.filter(|y| y.is_finite()), pieces.last_mut()) {
-            (Some(y), Some(piece)) => piece.push(PlotPoint::new(x, y)),
-            (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
-            _ => {}
-        }
+    /// The terms that the model has.
+    pub fn terms(&self) -> impl Iterator<Item = (Term, &Polyline)> {
+        let terms = [(Term::Specular, &self.specular), (Term::Diffuse, &self.diffuse), (Term::Volume, &self.volume)];
+        terms.into_iter().filter(|(_, curve)| !curve.is_empty())
     }
-    pieces.retain(|piece| !piece.is_empty());
-    pieces
 }

@@ -1,7 +1,7 @@
 //! What more than one part of the window shows and none computes while it draws: curves, points, ΔE, what the data determine.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::views::curves::{BrdfScale, CurveKey, CurveSet, MarkSet};
+use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::settings::Settings;
@@ -11,8 +11,8 @@ use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, P
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
 pub struct Derived {
-    /// Measured points, by generation of the document and how a BRDF is drawn.
-    pub marks: Memo<(u64, BrdfScale), MarkSet>,
+    /// Measured points, by generation of the document and whether a BRDF is multiplied by cos θr.
+    pub marks: Memo<(u64, bool), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
     problem: Memo<(u64, Model), Option<Problem>>,
@@ -26,8 +26,8 @@ pub struct Derived {
 impl Derived {
     /// The measured points and the curves, for the panes that draw them.
     pub fn refresh_curves(&mut self, settings: &Settings, document: &Document) {
-        let scale = BrdfScale::new(settings);
-        self.marks.refresh((document.generation, scale), |_| MarkSet::new(document, scale));
+        let times_cosine = settings.shown.times_cosine;
+        self.marks.refresh((document.generation, times_cosine), |_| MarkSet::new(document, times_cosine));
         self.curves.refresh(CurveKey::new(settings, document), |key| CurveSet::new(key, document));
     }
 

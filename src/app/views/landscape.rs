@@ -2,21 +2,19 @@
 //! tabulated metals where the axes are n and k. It follows the sliders; a click puts them there.
 
 mod axes;
+mod describe;
 mod drawn;
-mod figure;
 mod legend;
 mod map;
 mod marks;
 
-pub use figure::landscape_figure;
-
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
-use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::settings::{LandscapeAxes, Settings};
-use crate::app::work::workspace::Workspace;
+use crate::figure::Figure;
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::Drawn;
 use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
@@ -26,6 +24,15 @@ use marks::{Marks, MarksKey};
 use pbrdf::fit::{Axis, FitOptions, Loss};
 use pbrdf::model::{Model, Parameter, Parameters};
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Landscape",
+    tooltip: "The objective over any two parameters: valleys, ways of the last fits, minima; a click sets the sliders",
+    shortcut: None,
+    has_options: true,
+    has_figure: true,
+    new: || Box::new(LandscapeView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -74,91 +81,101 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
     (evaluations / rows.max(1)).isqrt().clamp(LEAST, most)
 }
 
-pub fn landscape_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, document, shown_fit: last_fit, fit_history, .. }, views, background, dragging, .. } = explorer;
-    let view = &mut views.landscape;
-    let LandscapeAxes { across, up, .. } = settings.landscape;
-    let seen = view.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
-    if seen.is_none() {
-        view.wanted = Some([first(across), first(up)]);
-    }
-    let Some([x, y]) = view.wanted.or(seen) else { return };
-    view.marks.refresh(MarksKey::new(settings, document, fit_history, last_fit.as_deref()), |key| {
-        Marks::new(key, fit_history, last_fit.as_deref(), document)
-    });
-    let mut others = settings.parameters;
-    (others[across], others[up]) = (0.0, 0.0);
-    // A value that is not a number would differ from itself, and a job follow a job for ever.
-    if across == up || others.to_array().iter().any(|value| !value.is_finite()) {
-        view.job = AsyncMemo::default();
-        return;
-    }
-    let Settings { model, choices, .. } = *settings;
-    let fitted = last_fit.as_ref().filter(|fit| fit.report.model == model && *fit.problem.choices() == choices);
-    let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
-    let scale_at = is_scaled.then(|| fitted.map_or(settings.parameters, |fit| fit.report.parameters));
-    let rows = document.measurement.rows.len() - document.mask().len();
-    let key = |fine: bool| {
-        let count = if fine { nodes(rows, FINE, EVALUATIONS[0]) } else { nodes(rows, COARSE, EVALUATIONS[1]) };
-        let (across, up) = (axis_over(across, x, count)?, axis_over(up, y, count)?);
-        Some(Key { generation: document.generation, others, model, choices, scale_at, across, up })
-    };
-    let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
-    let key = if *dragging && view.job.key() != Some(&fine) { coarse.clone() } else { fine };
-    view.job.stop_if(|running| !running.is_of_use(&key, &coarse));
-    let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
-    view.job.refresh(background, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
-}
-
-/// What is drawn in the pane.
-pub fn landscape_options_ui(explorer: &mut App, ui: &mut Ui) {
-    let shown = &mut explorer.work.settings.landscape;
-    ui.checkbox(&mut shown.contours, tr!("Contours"));
-    ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
-        .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
-    ui.checkbox(&mut shown.minima, tr!("Minima of the last fit")).on_hover_text(tr!("Where its starts ended, each place once"));
-    ui.checkbox(&mut shown.metals, tr!("Tabulated metals"))
-        .on_hover_text(tr!("All sources at the wavelength of the metals pane, where the axes are n and k"));
-}
-
-pub fn landscape_ui(explorer: &mut App, ui: &mut Ui) {
-    axes_ui(explorer, ui);
-    let LandscapeAxes { across, up, .. } = explorer.work.settings.landscape;
-    let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
-    let height = (ui.available_height() - line).max(80.0);
-    let response = map_ui(explorer, height, ui);
-    let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
-    response.response.widget_info(name);
-    let App { commands, views, .. } = explorer;
-    let view = &mut views.landscape;
-    let bounds = response.transform.bounds();
-    let [x, y] = [0, 1].map(|side| Range { low: bounds.min()[side], high: bounds.max()[side] });
-    if view.seen != Some((across, up, [x, y])) {
-        view.seen = Some((across, up, [x, y]));
-        ui.ctx().request_repaint();
-    }
-    let rect = response.response.rect;
-    let drawn = view.job.get().and_then(Option::as_ref);
-    if let Some(drawn) = drawn {
-        let at = rect.right_top() + vec2(14.0, 20.0);
-        let labels = BarLabels { title: drawn.title, marks: BarMarks::Log };
-        color_bar(ui, at, (rect.height() - 24.0).max(20.0), drawn.scale, &labels, ui.visuals().text_color(), ui.visuals().dark_mode);
-    }
-    let pointed = response.response.hover_pos().map(|at| response.transform.value_from_position(at));
-    let values = |point: PlotPoint| [(across, point.x), (up, point.y)].map(|(parameter, place)| (parameter, tidy(value(parameter, place))));
-    if let Some(point) = pointed.filter(|_| response.response.clicked())
-        && values(point).iter().all(|(parameter, value)| parameter.domain().contains(*value))
-    {
-        commands.push(Command::SetParameters(values(point).to_vec()));
-    }
-    let reading = pointed.map(|point| {
-        let [x, y] = values(point).map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));
-        match drawn.and_then(|drawn| Some((drawn.title, drawn.at(point)?))) {
-            Some((title, objective)) => format!("{x}, {y}: {title} = {objective:.4e}"),
-            None => format!("{x}, {y}"),
+impl View for LandscapeView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let (settings, document) = (&*cx.settings, cx.document);
+        let LandscapeAxes { across, up, .. } = settings.landscape;
+        let fit = cx.fit.map(|fit| &**fit);
+        let seen = self.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
+        if seen.is_none() {
+            self.wanted = Some([first(across), first(up)]);
         }
-    });
-    ui.add(egui::Label::new(reading.unwrap_or_else(|| status(drawn.is_some(), across == up))).truncate());
+        let Some([x, y]) = self.wanted.or(seen) else { return };
+        self.marks.refresh(MarksKey::new(settings, document, cx.fits, fit), |key| Marks::new(key, cx.fits, fit, document));
+        let mut others = settings.parameters;
+        (others[across], others[up]) = (0.0, 0.0);
+        // A value that is not a number would differ from itself, and a job follow a job for ever.
+        if across == up || others.to_array().iter().any(|value| !value.is_finite()) {
+            self.job = AsyncMemo::default();
+            return;
+        }
+        let Settings { model, choices, .. } = *settings;
+        let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.choices() == choices);
+        let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
+        let scale_at = is_scaled.then(|| fitted.map_or(settings.parameters, |fit| fit.report.parameters));
+        let rows = document.measurement.rows.len() - document.mask().len();
+        let key = |fine: bool| {
+            let count = if fine { nodes(rows, FINE, EVALUATIONS[0]) } else { nodes(rows, COARSE, EVALUATIONS[1]) };
+            let (across, up) = (axis_over(across, x, count)?, axis_over(up, y, count)?);
+            Some(Key { generation: document.generation, others, model, choices, scale_at, across, up })
+        };
+        let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
+        let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
+        self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
+        let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
+        self.job.refresh(cx.background, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        self.axes_ui(cx, ui);
+        let LandscapeAxes { across, up, .. } = cx.settings.landscape;
+        let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+        let height = (ui.available_height() - line).max(80.0);
+        let response = map_ui(self, cx.settings, height, ui);
+        let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
+        response.response.widget_info(name);
+        let bounds = response.transform.bounds();
+        let [x, y] = [0, 1].map(|side| Range { low: bounds.min()[side], high: bounds.max()[side] });
+        if self.seen != Some((across, up, [x, y])) {
+            self.seen = Some((across, up, [x, y]));
+            ui.ctx().request_repaint();
+        }
+        let rect = response.response.rect;
+        let drawn = self.job.get().and_then(Option::as_ref);
+        if let Some(drawn) = drawn {
+            let at = rect.right_top() + vec2(14.0, 20.0);
+            let labels = BarLabels { title: drawn.title, marks: BarMarks::Log };
+            color_bar(ui, at, (rect.height() - 24.0).max(20.0), drawn.scale, &labels, ui.visuals().text_color(), ui.visuals().dark_mode);
+        }
+        let pointed = response.response.hover_pos().map(|at| response.transform.value_from_position(at));
+        let values =
+            |point: PlotPoint| [(across, point.x), (up, point.y)].map(|(parameter, place)| (parameter, tidy(value(parameter, place))));
+        if let Some(point) = pointed.filter(|_| response.response.clicked())
+            && values(point).iter().all(|(parameter, value)| parameter.domain().contains(*value))
+        {
+            cx.actions.push(Command::SetParameters(values(point).to_vec()));
+        }
+        let reading = pointed.map(|point| {
+            let [x, y] = values(point).map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));
+            match drawn.and_then(|drawn| Some((drawn.title, drawn.at(point)?))) {
+                Some((title, objective)) => format!("{x}, {y}: {title} = {objective:.4e}"),
+                None => format!("{x}, {y}"),
+            }
+        });
+        ui.add(egui::Label::new(reading.unwrap_or_else(|| status(drawn.is_some(), across == up))).truncate());
+    }
+
+    fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let shown = &mut cx.settings.landscape;
+        ui.checkbox(&mut shown.contours, tr!("Contours"));
+        ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
+            .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
+        ui.checkbox(&mut shown.minima, tr!("Minima of the last fit")).on_hover_text(tr!("Where its starts ended, each place once"));
+        ui.checkbox(&mut shown.metals, tr!("Tabulated metals"))
+            .on_hover_text(tr!("All sources at the wavelength of the metals pane, where the axes are n and k"));
+    }
+
+    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+        describe::describe(self, cx)
+    }
+
+    fn suspend(&mut self) {
+        self.job.stop_if(|_| true);
+    }
+
+    fn lag(&self) -> u64 {
+        self.job.frames_behind()
+    }
 }
 
 /// What stands under the map while nothing is pointed at.
@@ -172,42 +189,32 @@ fn status(is_there: bool, is_one: bool) -> String {
     }
 }
 
-fn axes_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { settings, .. }, views, .. } = explorer;
-    let used = settings.model.parameters();
-    let LandscapeAxes { across, up, .. } = &mut settings.landscape;
-    let mut is_reset = false;
-    ui.horizontal(|ui| {
-        for (id, name, parameter) in [("across", tr!("Across"), across), ("up", tr!("Up"), up)] {
-            let label = ui.label(name);
-            let combo = ComboBox::from_id_salt(id).width(60.0).selected_text(parameter.symbol());
-            let current = *parameter;
-            let combo = combo.show_ui(ui, |ui| {
-                for other in Parameter::ALL.into_iter().filter(|other| used.contains(*other) || *other == current) {
-                    ui.selectable_value(parameter, other, other.symbol()).on_hover_text(other.name());
-                }
-            });
-            combo.response.labelled_by(label.id);
-        }
-        is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
-    });
-    if is_reset {
-        let LandscapeAxes { across, up, .. } = settings.landscape;
-        views.landscape.wanted = Some([across, up].map(whole));
-        // The landscape over them is made before the next frame.
-        ui.ctx().request_repaint();
-    }
-}
-
 impl LandscapeView {
-    /// Stops the job on its way, where nobody looks.
-    pub fn rest(&mut self) {
-        self.job.stop_if(|_| true);
-    }
-
-    /// How many frames the landscape is behind the sliders.
-    pub fn frames_behind(&self) -> u64 {
-        self.job.frames_behind()
+    fn axes_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let settings = &mut *cx.settings;
+        let used = settings.model.parameters();
+        let LandscapeAxes { across, up, .. } = &mut settings.landscape;
+        let mut is_reset = false;
+        ui.horizontal(|ui| {
+            for (id, name, parameter) in [("across", tr!("Across"), across), ("up", tr!("Up"), up)] {
+                let label = ui.label(name);
+                let combo = ComboBox::from_id_salt(id).width(60.0).selected_text(parameter.symbol());
+                let current = *parameter;
+                let combo = combo.show_ui(ui, |ui| {
+                    for other in Parameter::ALL.into_iter().filter(|other| used.contains(*other) || *other == current) {
+                        ui.selectable_value(parameter, other, other.symbol()).on_hover_text(other.name());
+                    }
+                });
+                combo.response.labelled_by(label.id);
+            }
+            is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
+        });
+        if is_reset {
+            let LandscapeAxes { across, up, .. } = settings.landscape;
+            self.wanted = Some([across, up].map(whole));
+            // The landscape over them is made before the next frame.
+            ui.ctx().request_repaint();
+        }
     }
 }
 

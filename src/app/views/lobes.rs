@@ -1,174 +1,191 @@
 //! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::plots::axis;
-use crate::app::plots::axis::{axis, decimal, power_of_ten};
-use crate::app::plots::{
-    Axes, Following, KeyEntry, MASK_HINT, Range, clicked_mask, curve, filled, marks_in, plot, ribbons_in, round_up, switching_key_line_ui,
-};
-use crate::app::shell::app::App;
-use crate::app::shell::theme;
-use crate::app::text::i18n::translated;
-use crate::app::views::confidence_band::{BandKey, Ribbons, band_key, brdf_bands};
-use crate::app::views::curves::{BrdfScale, Curves, DECADES, MarkSet, Polyline, axis_values};
-use crate::app::work::workspace::Workspace;
-use egui::{Color32, Ui};
-use egui_plot::{AxisHints, HoverPosition, LineStyle};
+use crate::app::plots::theme::FOREGROUND;
+use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Range, nice_ceiling, switching_key_line_ui, theme};
+use crate::app::text::i18n;
+use crate::app::text::i18n::{Language, translated};
+use crate::app::views::confidence_band::{Band, BandKey, band_key, brdf_bands};
+use crate::app::views::context::{Cx, PaneSpec, View};
+use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
+use crate::app::views::picking::{MASK_HINT, clicked_mask};
+use crate::app::work::settings::ViewOptions;
+use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
+use egui::{Key, Ui};
+use egui_plot::LineStyle;
 use std::collections::BTreeSet;
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Lobes",
+    tooltip: "BRDF against the angle of view: specular, diffuse and volume lobe and their sum, Eq. (14)",
+    shortcut: Some(Key::Num2),
+    has_options: true,
+    has_figure: true,
+    new: || Box::new(LobesView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
 pub struct LobesView {
-    axes: Axes,
-    range: Following,
+    /// Of the axis of BRDF, in logarithms where that is logarithmic.
+    range: AutoRange,
     /// One standard error around the last fit along each series.
-    pub band: Memo<BandKey, Vec<Ribbons>>,
+    pub band: Memo<BandKey, Vec<Band>>,
+    plot: FigurePlot<FigureKey>,
     /// The curves that are not drawn.
     hidden: BTreeSet<Line>,
 }
+
+/// What the figure depends on: curves, points and band by their stamps; what is shown and what hidden; the axis; the language.
+type FigureKey = ([u64; 3], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
 /// A curve of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Line {
     /// A measured series by its number, with its points.
     Series(usize),
-    Specular,
-    Diffuse,
-    Volume,
+    Term(Term),
     Total,
 }
 
+/// Widths of the lines of terms and of their sum, in points of paper.
+const TERM: f64 = 0.9;
+const TOTAL: f64 = 1.2;
+
 impl LobesView {
     /// Ends of the axis of BRDF, in the coordinates of the plot.
+    #[cfg(test)]
     pub fn range(&self) -> Option<Range> {
         self.range.get()
     }
-}
 
-pub fn lobes_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, document, shown_fit: last_fit, .. }, derived, views, dragging, .. } = explorer;
-    derived.refresh_curves(settings, document);
-    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
-    let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| marks.brdf.is_there()).map(|(curves, _)| curves);
-    let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
-    let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
-    let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in of_curves.chain(of_marks) {
-        (bottom, top) = (bottom.min(value), top.max(value));
+    fn shows(&self, line: Line) -> bool {
+        !self.hidden.contains(&line)
     }
-    let wanted = if settings.log_brdf {
-        let high = if top.is_finite() { (top + 0.1).ceil() } else { 1.0 };
-        Range { low: bottom.floor().clamp(high - DECADES, high - 1.0), high }
-    } else {
-        Range { low: 0.0, high: round_up(top) }
-    };
-    views.lobes.range.follow(wanted, *dragging);
-    // Where no BRDF was measured there is no fitted lobe.
-    let shown = settings.show_band && document.measurement.has_brdf();
-    let fit = last_fit.as_deref();
-    let band_key = band_key(fit, document, key.backscatter, BrdfScale::new(settings), shown);
-    views.lobes.band.refresh(band_key, |key| match (key, fit) {
-        (Some((_, _, backscatter, scale)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *scale),
-        _ => Vec::new(),
-    });
-}
 
-/// What is drawn in the pane.
-pub fn lobes_options_ui(explorer: &mut App, ui: &mut Ui) {
-    ui.checkbox(&mut explorer.work.settings.log_brdf, tr!("Logarithmic BRDF"));
-    ui.checkbox(&mut explorer.work.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
-    ui.checkbox(&mut explorer.work.settings.shown.times_cosine, tr!("Times cos θr"))
-        .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
-    ui.checkbox(&mut explorer.work.settings.show_band, tr!("Confidence band"))
-        .on_hover_text(tr!("One standard error of the fitted curve to either side"));
-    ui.checkbox(&mut explorer.work.settings.show_backscatter, tr!("Backscatter side"))
-        .on_hover_text(tr!("Negative θr, also where nothing was measured"));
-}
+    /// The axis, over curves and points.
+    fn follow(&mut self, curves: &CurveSet, marks: &MarkSet, cx: &Cx<'_>) {
+        let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| !marks.brdf.is_empty()).map(|(curves, _)| curves);
+        let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
+        let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
+        let log = cx.settings.log_brdf;
+        let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in of_curves.chain(of_marks).map(|value| if log { libm::log10(value) } else { value }).filter(|value| value.is_finite()) {
+            (bottom, top) = (bottom.min(value), top.max(value));
+        }
+        let wanted = if log {
+            let high = if top.is_finite() { (top + 0.1).ceil() } else { 1.0 };
+            Range { low: bottom.floor().clamp(high - DECADES, high - 1.0), high }
+        } else {
+            Range { low: 0.0, high: nice_ceiling(top) }
+        };
+        self.range.follow(wanted, cx.interacting);
+    }
 
-/// A curve at the sliders' own θi.
-struct Term<'a> {
-    line: Line,
-    pieces: &'a Polyline,
-    name: String,
-    color: Color32,
-    width: f32,
-}
-
-/// Width of the line of a term, and of that of all together.
-const PART: f32 = 1.5;
-const TOTAL: f32 = 2.5;
-
-/// The terms that the model has, and last their sum.
-fn terms(own: &Curves, dark: bool) -> Vec<Term<'_>> {
-    let terms = [
-        Term { line: Line::Specular, pieces: &own.specular, name: tr!("specular"), color: theme::specular(dark), width: PART },
-        Term { line: Line::Diffuse, pieces: &own.diffuse, name: tr!("diffuse"), color: theme::diffuse(dark), width: PART },
-        Term { line: Line::Volume, pieces: &own.volume, name: tr!("volume"), color: theme::volume(dark), width: PART },
-        Term { line: Line::Total, pieces: &own.total, name: tr!("total"), color: theme::foreground(dark), width: TOTAL },
-    ];
-    terms.into_iter().filter(|term| !term.pieces.is_empty()).collect()
-}
-
-/// The measured series, then the terms.
-fn key_entries(marks: &MarkSet, terms: &[Term<'_>], dark: bool) -> Vec<(Line, KeyEntry)> {
-    let entry = |line, name: &str, color, width| (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width });
-    let measured = marks.series.iter().enumerate().filter(|(_, marks)| marks.brdf.is_there());
-    let measured = measured.map(|(i, marks)| entry(Line::Series(i), &marks.name, theme::series(i, dark), PART));
-    measured.chain(terms.iter().map(|term| entry(term.line, &term.name, term.color, term.width))).collect()
-}
-
-pub fn lobes_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { settings, document, .. }, derived, views, commands, .. } = explorer;
-    let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
-    let view = &mut views.lobes;
-    let dark = ui.visuals().dark_mode;
-    let log = settings.log_brdf;
-    let scale = BrdfScale::new(settings);
-    let title = tr!("θr / °  at θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
-    let x = axis(AxisHints::new_x(), ui, &title, decimal).min_thickness(40.0);
-    let times_cosine = settings.shown.times_cosine;
-    let quantity = if times_cosine { "BRDF × cos θr" } else { "BRDF" };
-    let y = axis(AxisHints::new_y(), ui, &format!("{quantity} / (1/sr)"), if log { power_of_ten } else { decimal });
-    let terms = terms(&curves.own, dark);
-    switching_key_line_ui(&key_entries(marks, &terms, dark), &mut view.hidden, ui);
-    let response = plot("lobes", ui, ui.available_height(), x, y)
-        .y_grid_spacer(move |input| axis::marks(&input, 5.0, if log { 1.0 } else { 0.0 }))
-        .label_formatter(move |hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                let brdf = if log { libm::exp10(position.y) } else { position.y };
-                Some(format!("{plot_name}\nθr = {:.2}°\n{quantity} = {brdf:.4e} 1/sr\n{}", position.x, translated(MASK_HINT)))
+    fn describe(&self, curves: &CurveSet, key: &CurveKey, marks: &MarkSet, cx: &Cx<'_>) -> Option<Figure> {
+        let settings = &*cx.settings;
+        let range = self.range.get()?;
+        let (quantity, unit) = (quantity(settings.shown.times_cosine), "sr⁻¹");
+        let y = if settings.log_brdf {
+            Axis::log(quantity, unit).between(libm::exp10(range.low), libm::exp10(range.high))
+        } else {
+            range.on(Axis::linear(quantity, unit))
+        };
+        let mut series = Vec::new();
+        let all = curves.series.iter().zip(&marks.series).zip(SERIES).enumerate();
+        for (i, ((curves, marks), color)) in all.filter(|(i, ((_, marks), _))| !marks.brdf.is_empty() && self.shows(Line::Series(*i))) {
+            if let Some(band) = self.band.get().and_then(|bands| bands.get(i)) {
+                series.push(Series::band(&marks.name, band.clone()).colored(color));
             }
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            view.axes.apply(plot, Some(key.x()), view.range.get());
-            for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
-                if marks.brdf.is_there() && !view.hidden.contains(&Line::Series(i)) {
-                    let color = theme::series(i, dark);
-                    if let Some(ribbons) = view.band.get().and_then(|bands| bands.get(i)) {
-                        ribbons_in(plot, ribbons, color);
-                    }
-                    curve(plot, &curves.total, &marks.name, color, None, 1.5);
-                    marks_in(plot, &marks.brdf, &marks.name, color, dark);
-                }
+            series.push(Series::line(&marks.name, curves.total.clone()).colored(color));
+            series.extend(marks.brdf.series(&marks.name, color));
+        }
+        for (term, curve) in curves.own.terms().filter(|(term, _)| self.shows(Line::Term(*term))) {
+            if settings.shown.filled {
+                let floor = y.range.map_or(0.0, |(low, _)| low);
+                series.push(Series::band(term.name(), curve.iter().map(|[x, y]| [*x, floor, *y]).collect()).colored(term.ink()));
             }
-            let floor = if log { view.range.get().map_or(0.0, |range| range.low) } else { 0.0 };
-            for Term { pieces, name, color, width, .. } in terms.iter().filter(|term| !view.hidden.contains(&term.line)) {
-                if settings.shown.filled && *width < TOTAL {
-                    filled(plot, pieces, name, *color, floor);
-                } else {
-                    curve(plot, pieces, name, *color, None, *width);
-                }
-            }
+            series.push(Series::stroke(term.name(), curve.clone(), TERM, Dash::Solid).colored(term.ink()));
+        }
+        if self.shows(Line::Total) {
+            series.push(Series::stroke(tr!("total"), curves.own.total.clone(), TOTAL, Dash::Solid).colored(FOREGROUND));
+        }
+        let title = tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
+        let panel = Panel { title, x: key.x().on(Axis::linear("θr", "°")), y, series, ..Panel::default() };
+        Some(Figure { title: cx.document.title(), panels: vec![panel], ..Figure::default() })
+    }
+
+    /// The measured series, then the terms.
+    fn key_entries(curves: &CurveSet, marks: &MarkSet, dark: bool) -> Vec<(Line, KeyEntry)> {
+        let entry = |line, name: &str, color, width| (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width });
+        let measured = marks.series.iter().enumerate().filter(|(_, marks)| !marks.brdf.is_empty());
+        let measured = measured.map(|(i, marks)| entry(Line::Series(i), &marks.name, theme::series(i, dark), 2.0));
+        let terms = curves.own.terms().map(|(term, _)| entry(Line::Term(term), &term.name(), theme::on_screen(term.ink(), dark), 1.5));
+        measured.chain(terms).chain([entry(Line::Total, &tr!("total"), theme::foreground(dark), 2.0)]).collect()
+    }
+}
+
+/// What is along the vertical axis.
+fn quantity(times_cosine: bool) -> &'static str {
+    if times_cosine { "BRDF × cos θr" } else { "BRDF" }
+}
+
+impl View for LobesView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        cx.derived.refresh_curves(cx.settings, cx.document);
+        let derived = &*cx.derived;
+        let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+        self.follow(curves, marks, cx);
+        // Where no BRDF was measured there is no fitted lobe.
+        let shown = cx.settings.show_band && cx.document.measurement.has_brdf();
+        let (fit, document) = (cx.fit.map(|fit| &**fit), cx.document);
+        let band_key = band_key(fit, document, key.backscatter, cx.settings.shown.times_cosine, shown);
+        self.band.refresh(band_key, |key| match (key, fit) {
+            (Some((_, _, backscatter, times_cosine)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *times_cosine),
+            _ => Vec::new(),
         });
-    view.axes.listen(&response, &tr!("Plot: BRDF against θr"), ui);
-    commands.extend(clicked_mask(
-        &response,
-        ui,
-        document,
-        // What is not drawn cannot be meant.
-        |i, series| if view.hidden.contains(&Line::Series(i)) { &[] } else { &series.brdf },
-        |mark| scale.coordinate(mark.theta_r, mark.quantity.value),
-    ));
+        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp()];
+        let figure_key = (stamps, cx.settings.shown, cx.settings.log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
+        let mut plot = std::mem::take(&mut self.plot);
+        plot.refresh(figure_key, |_| self.describe(curves, key, marks, cx));
+        self.plot = plot;
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
+        switching_key_line_ui(&Self::key_entries(curves, marks, ui.visuals().dark_mode), &mut self.hidden, ui);
+        let (log, times_cosine) = (cx.settings.log_brdf, cx.settings.shown.times_cosine);
+        let quantity = quantity(times_cosine);
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr\n{}", translated(MASK_HINT));
+        let style = PanelStyle::new("lobes", ui.available_height(), &hover).named(tr!("Plot: BRDF against θr"));
+        let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };
+        let place = |theta_r, brdf| {
+            let value = drawn_brdf(theta_r, brdf, times_cosine);
+            Some(if log { libm::log10(value) } else { value }).filter(|y| y.is_finite())
+        };
+        cx.actions.extend(clicked_mask(
+            &response,
+            ui,
+            cx.document,
+            // What is not drawn cannot be meant.
+            |i, series| if self.shows(Line::Series(i)) { &series.brdf } else { &[] },
+            |mark| place(mark.theta_r, mark.quantity.value),
+        ));
+    }
+
+    fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        ui.checkbox(&mut cx.settings.log_brdf, tr!("Logarithmic BRDF"));
+        ui.checkbox(&mut cx.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
+        ui.checkbox(&mut cx.settings.shown.times_cosine, tr!("Times cos θr"))
+            .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
+        ui.checkbox(&mut cx.settings.show_band, tr!("Confidence band"))
+            .on_hover_text(tr!("One standard error of the fitted curve to either side"));
+        ui.checkbox(&mut cx.settings.show_backscatter, tr!("Backscatter side"))
+            .on_hover_text(tr!("Negative θr, also where nothing was measured"));
+    }
+
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
+    }
 }

@@ -1,28 +1,30 @@
-//! MetalSelection metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
-
-mod figure;
-
-pub use figure::metals_figure;
+//! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::{Step, step_with_arrows};
-use crate::app::plots::axis;
-use crate::app::plots::axis::{axis, decimal};
-use crate::app::plots::{Axes, Following, Range, curve, plot, round_up};
-use crate::app::shell::app::App;
+use crate::app::plots::theme::{FOREGROUND, MUTED};
+use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice_ceiling, theme};
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
-use crate::app::text::i18n::translated;
-use crate::app::views::curves::{Polyline, pieces};
+use crate::app::text::i18n;
+use crate::app::text::i18n::{Language, translated};
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::settings::{MetalSelection, Settings};
-use crate::app::work::workspace::Workspace;
+use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
-use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, PlotPoint, PlotPoints, Points, VLine};
-use pbrdf::model::{FINISHES, Finish, Parameter};
+use pbrdf::model::{FINISHES, Finish, Parameter, Parameters};
 use pbrdf::optics;
 use pbrdf::optics::{Metal, RefractiveIndex, Sample, Source};
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Metals",
+    tooltip: "Tabulated n and k of metals against wavelength, all sources side by side, and surface finishes",
+    shortcut: None,
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(MetalsView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -31,10 +33,13 @@ pub struct MetalsView {
     found: Memo<(String, f64), Vec<Option<RefractiveIndex>>>,
     /// n and k of every source against the wavelength.
     lines: Memo<String, Vec<[Polyline; 2]>>,
-    axes: [Axes; 2],
-    wavelengths: Following,
-    ranges: [Following; 2],
+    wavelengths: AutoRange,
+    ranges: [AutoRange; 2],
+    plot: FigurePlot<FigureKey>,
 }
+
+/// What the figure depends on: both of the above by their stamps, the sliders n and k, the followed source, the axes, the language.
+type FigureKey = ([u64; 2], [f64; 2], Option<String>, [Option<Range>; 3], Language);
 
 /// n or k of an index.
 type Part = fn(RefractiveIndex) -> f64;
@@ -50,51 +55,114 @@ fn chosen(tabulated: &MetalSelection) -> Option<&'static Metal> {
     metals.iter().find(|metal| metal.key == tabulated.metal).or(metals.first())
 }
 
-pub fn metals_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, .. }, views, dragging, .. } = explorer;
-    let view = &mut views.metals;
-    let Some(metal) = chosen(&settings.tabulated) else { return };
-    let wavelength_nm = settings.tabulated.wavelength_nm;
-    view.found
-        .refresh((metal.key.clone(), wavelength_nm), |_| metal.sources.iter().map(|source| source.index_at(wavelength_nm).ok()).collect());
-    view.lines.refresh(metal.key.clone(), |_| {
-        let line =
-            |source: &Source, part: Part| pieces(source.samples().iter().map(|sample| (sample.wavelength_nm, Some(part(sample.index)))));
-        metal.sources.iter().map(|source| PARTS.map(|(_, part)| line(source, part))).collect()
-    });
-    let (low, high) = metal.range_nm();
-    let high = if wavelength_nm > SHORT { high.max(wavelength_nm) } else { SHORT };
-    let low = low.min(MetalSelection::SHORTEST_NM);
-    // Marks at the ends have room for their numbers.
-    let air = 0.04 * (high - low);
-    view.wavelengths.follow(Range { low: low - air, high: high + air }, *dragging);
-    let seen = || metal.sources.iter().flat_map(Source::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
-    for ((parameter, part), range) in PARTS.into_iter().zip(&mut view.ranges) {
-        let top = seen().map(|sample| part(sample.index)).fold(settings.parameters[parameter].min(20.0), f64::max);
-        let high = round_up(top);
-        // The mark at 0 keeps off that of the first wavelength.
-        range.follow(Range { low: -0.06 * high, high }, *dragging);
+impl MetalsView {
+    /// The axes, over all that is tabulated up to the wavelength that is looked at.
+    fn follow(&mut self, metal: &Metal, wavelength_nm: f64, parameters: &Parameters, interacting: bool) {
+        let (low, high) = metal.range_nm();
+        let high = if wavelength_nm > SHORT { high.max(wavelength_nm) } else { SHORT };
+        let low = low.min(MetalSelection::SHORTEST_NM);
+        // Marks at the ends have room for their numbers.
+        let air = 0.04 * (high - low);
+        self.wavelengths.follow(Range { low: low - air, high: high + air }, interacting);
+        let seen = || metal.sources.iter().flat_map(Source::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
+        for ((parameter, part), range) in PARTS.into_iter().zip(&mut self.ranges) {
+            let top = seen().map(|sample| part(sample.index)).fold(parameters[parameter].min(20.0), f64::max);
+            let high = nice_ceiling(top);
+            // The mark at 0 keeps off that of the first wavelength.
+            range.follow(Range { low: -0.06 * high, high }, interacting);
+        }
+    }
+
+    fn describe(&self, metal: &Metal, settings: &Settings) -> Option<Figure> {
+        let (lines, found) = (self.lines.get()?, self.found.get()?);
+        let wavelength_nm = settings.tabulated.wavelength_nm;
+        let panels = PARTS.into_iter().enumerate().map(|(i, (parameter, part))| {
+            let mut series = Vec::new();
+            let sources = metal.sources.iter().zip(lines).zip(found).zip(SERIES.into_iter().cycle());
+            for (((source, line), index), color) in sources {
+                let is_followed = settings.tabulated.source.as_deref() == Some(&source.key);
+                let width = if is_followed { FOLLOWED } else { SOURCE };
+                series.push(Series::stroke(&source.name, line[i].clone(), width, Dash::Solid).colored(color));
+                if let Some(index) = index {
+                    series.push(Series::points(&source.name, [[wavelength_nm, part(*index)]]).colored(color));
+                }
+            }
+            series.push(Series::level(tr!("slider"), settings.parameters[parameter]).colored(FOREGROUND));
+            series.push(Series::upright(format!("{wavelength_nm} nm"), wavelength_nm).colored(MUTED));
+            let x = self.wavelengths.on(Axis::linear(tr!("wavelength"), "nm"));
+            let y = self.ranges[i].on(Axis::linear(parameter.symbol(), ""));
+            // The sources have the same colours in both.
+            Panel { x, y, series, legend: i == 0, ..Panel::default() }
+        });
+        let title = name_and_symbol(metal);
+        Some(Figure { title, panels: panels.collect(), width_mm: 160.0, height_mm: 170.0, ..Figure::default() })
+    }
+
+    /// n and k against the wavelength, side by side.
+    fn lines_ui(&mut self, ui: &mut Ui) {
+        let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);
+        ui.columns(PARTS.len(), |columns| {
+            for ((panel, ui), (parameter, _)) in self.plot.panels().iter_mut().zip(columns).zip(PARTS) {
+                let symbol = parameter.symbol();
+                let hover = |name: &str, x: f64, y: f64| format!("{name}\n{x:.1} nm\n{symbol} = {y:.4}");
+                // Narrower than where plots stand one above the other.
+                let style = PanelStyle { left: 44.0, ..PanelStyle::new(parameter.key(), height, &hover) };
+                panel.ui(&style.named(tr!("Plot: {} against wavelength", symbol)), ui);
+            }
+        });
     }
 }
 
-pub fn metals_ui(explorer: &mut App, ui: &mut Ui) {
-    let Some(metal) = chosen(&explorer.work.settings.tabulated) else { return };
-    ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
-        let before = explorer.work.settings.tabulated.clone();
-        choice_ui(&mut explorer.work.settings.tabulated, metal, ui);
-        wavelength_ui(explorer, ui);
-        finishes_ui(explorer, ui);
-        let tabulated = &explorer.work.settings.tabulated;
-        // The followed source takes the sliders along the wavelength.
-        if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
-            let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
-            let index = followed.and_then(|source| source.index_at(tabulated.wavelength_nm).ok());
-            explorer.commands.extend(index.map(set));
-        }
-        sources_ui(explorer, metal, ui);
-        ui.add_space(4.0);
-        lines_ui(explorer, metal, ui);
-    });
+/// Widths of the curve of a source and of that which is followed, in points of paper.
+const SOURCE: f64 = 1.2;
+const FOLLOWED: f64 = 2.0;
+
+impl View for MetalsView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let settings = &*cx.settings;
+        let Some(metal) = chosen(&settings.tabulated) else { return };
+        let wavelength_nm = settings.tabulated.wavelength_nm;
+        self.found.refresh((metal.key.clone(), wavelength_nm), |_| {
+            metal.sources.iter().map(|source| source.index_at(wavelength_nm).ok()).collect()
+        });
+        self.lines.refresh(metal.key.clone(), |_| {
+            let line = |source: &Source, part: Part| -> Polyline {
+                source.samples().iter().map(|sample| [sample.wavelength_nm, part(sample.index)]).collect()
+            };
+            metal.sources.iter().map(|source| PARTS.map(|(_, part)| line(source, part))).collect()
+        });
+        self.follow(metal, wavelength_nm, &settings.parameters, cx.interacting);
+        let stamps = [self.found.stamp(), self.lines.stamp()];
+        let sliders = PARTS.map(|(parameter, _)| settings.parameters[parameter]);
+        let axes = [self.wavelengths.get(), self.ranges[0].get(), self.ranges[1].get()];
+        let mut plot = std::mem::take(&mut self.plot);
+        plot.refresh((stamps, sliders, settings.tabulated.source.clone(), axes, i18n::current()), |_| self.describe(metal, settings));
+        self.plot = plot;
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let Some(metal) = chosen(&cx.settings.tabulated) else { return };
+        ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
+            let before = cx.settings.tabulated.clone();
+            choice_ui(&mut cx.settings.tabulated, metal, ui);
+            wavelength_ui(cx, ui);
+            finishes_ui(cx, ui);
+            let tabulated = &cx.settings.tabulated;
+            // The followed source takes the sliders along the wavelength.
+            if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
+                let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
+                let index = followed.and_then(|source| source.index_at(tabulated.wavelength_nm).ok());
+                cx.actions.extend(index.map(set));
+            }
+            self.sources_ui(cx, metal, ui);
+            ui.add_space(4.0);
+            self.lines_ui(ui);
+        });
+    }
+
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
+    }
 }
 
 /// The command that sets n and k.
@@ -126,9 +194,9 @@ fn choice_ui(tabulated: &mut MetalSelection, metal: &Metal, ui: &mut Ui) {
     });
 }
 
-fn wavelength_ui(explorer: &mut App, ui: &mut Ui) {
-    let measured = explorer.work.document.wavelength_nm();
-    let wavelength_nm = &mut explorer.work.settings.tabulated.wavelength_nm;
+fn wavelength_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let measured = cx.document.wavelength_nm();
+    let wavelength_nm = &mut cx.settings.tabulated.wavelength_nm;
     ui.horizontal(|ui| {
         let help = tr!("Vacuum wavelength in nm");
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
@@ -151,38 +219,39 @@ fn wavelength_ui(explorer: &mut App, ui: &mut Ui) {
 /// Height of a row of the table.
 const ROW: f32 = 21.0;
 
-/// Every source with n, k and where it was published.
-fn sources_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
-    let App { work: Workspace { settings, .. }, views, commands, .. } = explorer;
-    let Some(found) = views.metals.found.get() else { return };
-    if found.iter().all(Option::is_none) {
-        let (low, high) = metal.range_nm();
-        let text = tr!("No source has this wavelength: they span {0} to {1} nm.", low.ceil(), high.floor());
-        ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
+impl MetalsView {
+    /// Every source with n, k and where it was published.
+    fn sources_ui(&self, cx: &mut Cx<'_>, metal: &Metal, ui: &mut Ui) {
+        let Some(found) = self.found.get() else { return };
+        if found.iter().all(Option::is_none) {
+            let (low, high) = metal.range_nm();
+            let text = tr!("No source has this wavelength: they span {0} to {1} nm.", low.ceil(), high.floor());
+            ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
+        }
+        ui.push_id("sources", |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            let table = TableBuilder::new(ui).striped(true).vscroll(false).cell_layout(Layout::left_to_right(Align::Center));
+            let table = table.column(Column::auto().at_least(190.0).clip(true)).columns(Column::exact(56.0), 2);
+            let table = table.column(Column::auto().at_least(90.0)).column(Column::remainder().clip(true));
+            let table = table.header(ROW, |mut header| {
+                for heading in [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new(), tr!("Published in")] {
+                    header.col(|ui| {
+                        ui.strong(heading);
+                    });
+                }
+            });
+            table.body(|mut body| {
+                for (i, (source, index)) in metal.sources.iter().zip(found).enumerate() {
+                    body.row(ROW, |mut row| {
+                        if source_ui(&mut row, i, source, *index, &cx.settings.tabulated) {
+                            cx.settings.tabulated.source = Some(source.key.clone());
+                            cx.actions.extend(index.map(set));
+                        }
+                    });
+                }
+            });
+        });
     }
-    ui.push_id("sources", |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        let table = TableBuilder::new(ui).striped(true).vscroll(false).cell_layout(Layout::left_to_right(Align::Center));
-        let table = table.column(Column::auto().at_least(190.0).clip(true)).columns(Column::exact(56.0), 2);
-        let table = table.column(Column::auto().at_least(90.0)).column(Column::remainder().clip(true));
-        let table = table.header(ROW, |mut header| {
-            for heading in [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new(), tr!("Published in")] {
-                header.col(|ui| {
-                    ui.strong(heading);
-                });
-            }
-        });
-        table.body(|mut body| {
-            for (i, (source, index)) in metal.sources.iter().zip(found).enumerate() {
-                body.row(ROW, |mut row| {
-                    if source_ui(&mut row, i, source, *index, &settings.tabulated) {
-                        settings.tabulated.source = Some(source.key.clone());
-                        commands.extend(index.map(set));
-                    }
-                });
-            }
-        });
-    });
 }
 
 /// One source; whether its button was pressed.
@@ -235,77 +304,14 @@ fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Optio
 /// Least height of the plots: where there is less room, the pane scrolls.
 const HEIGHT: f32 = 130.0;
 
-/// n and k against the wavelength, side by side.
-fn lines_ui(explorer: &mut App, metal: &Metal, ui: &mut Ui) {
-    let App { work: Workspace { settings, .. }, views, .. } = explorer;
-    let view = &mut views.metals;
-    let Some(lines) = view.lines.get() else { return };
-    let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);
-    ui.columns(PARTS.len(), |columns| {
-        for (part, (ui, axes)) in columns.iter_mut().zip(&mut view.axes).enumerate() {
-            let found = view.found.get().map(Vec::as_slice).unwrap_or_default();
-            part_ui(part, settings, metal, lines, found, axes, (view.wavelengths.get(), view.ranges[part].get()), height, ui);
-        }
-    });
-}
-
-#[expect(clippy::too_many_arguments, reason = "what the view keeps is borrowed in parts")]
-fn part_ui(
-    part: usize,
-    settings: &Settings,
-    metal: &Metal,
-    lines: &[[Polyline; 2]],
-    found: &[Option<RefractiveIndex>],
-    axes: &mut Axes,
-    ranges: (Option<Range>, Option<Range>),
-    height: f32,
-    ui: &mut Ui,
-) {
-    let (parameter, of) = PARTS[part];
-    let dark = ui.visuals().dark_mode;
-    let wavelength_nm = settings.tabulated.wavelength_nm;
-    let marks: Vec<Option<[PlotPoint; 1]>> =
-        found.iter().map(|index| index.map(|index| [PlotPoint::new(wavelength_nm, of(index))])).collect();
-    let x = axis(AxisHints::new_x(), ui, &tr!("wavelength / nm"), decimal).min_thickness(36.0);
-    let y = axis(AxisHints::new_y(), ui, parameter.symbol(), decimal);
-    // Narrower than where plots stand one above the other.
-    let narrow = y.clone().min_thickness(44.0);
-    let response = plot(parameter.key(), ui, height, x, y)
-        .custom_y_axes(vec![narrow])
-        .x_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
-        .y_grid_spacer(|input| axis::marks(&input, 5.0, 0.0))
-        .label_formatter(move |hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\n{:.1} nm\n{} = {:.4}", position.x, parameter.symbol(), position.y))
-            }
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
-            axes.apply(plot, ranges.0, ranges.1);
-            plot.vline(VLine::new("", wavelength_nm).color(theme::muted(dark)).width(1.0).allow_hover(false));
-            let slider = HLine::new(tr!("slider"), settings.parameters[parameter]).color(theme::foreground(dark)).width(1.0);
-            plot.hline(slider.style(LineStyle::dashed_dense()));
-            for (i, (source, line)) in metal.sources.iter().zip(lines).enumerate() {
-                let is_followed = settings.tabulated.source.as_deref() == Some(&source.key);
-                curve(plot, &line[part], &source.name, theme::series(i, dark), None, if is_followed { 3.0 } else { 1.5 });
-            }
-            for (i, (source, mark)) in metal.sources.iter().zip(&marks).enumerate() {
-                if let Some(mark) = mark {
-                    plot.points(Points::new(source.name.as_str(), PlotPoints::Borrowed(mark)).color(theme::series(i, dark)).radius(3.0));
-                }
-            }
-        });
-    axes.listen(&response, &tr!("Plot: {} against wavelength", parameter.symbol()), ui);
-}
-
 /// Surface finishes, which are not measured.
-fn finishes_ui(explorer: &mut App, ui: &mut Ui) {
+fn finishes_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.label(tr!("Surface finish")).on_hover_text(tr!("Sizes that go together, for a lesson or a first guess; nobody measured them"));
         for (i, finish) in FINISHES.iter().enumerate() {
             let name = finish.name;
             if ui.button(translated(name)).on_hover_text(values(finish)).clicked() {
-                explorer.commands.push(Command::UseFinish(i));
+                cx.actions.push(Command::UseFinish(i));
             }
         }
     });

@@ -1,11 +1,14 @@
 //! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
+//!
+//! A new pane is a file with a `SPEC` and a [`View`], its name in the list of [`crate::app::work::pane_id`], and its `mod` here.
 
 mod audit;
-mod comparison;
 pub mod confidence_band;
+pub mod context;
 mod convergence;
 mod cost;
 pub mod curves;
+mod data;
 pub mod derived;
 mod dolp;
 mod error_vs_time;
@@ -14,68 +17,82 @@ mod hemisphere;
 mod landscape;
 mod lobes;
 mod metals;
+mod models;
 mod mueller;
+pub mod picking;
 mod planner;
-mod polar;
+mod polar_lobes;
 mod report;
 mod residuals;
 mod stability;
-mod table;
 
-pub use audit::{audit_figure, audit_refresh, audit_ui};
-pub use comparison::{comparison_ui, running_model_ui};
-pub use convergence::{convergence_figure, convergence_options_ui, convergence_refresh, convergence_ui};
-pub use cost::cost_ui;
-pub use dolp::{dolp_options_ui, dolp_refresh, dolp_ui};
-pub use error_vs_time::error_vs_time_ui;
-pub use facets::{facets_figure, facets_options_ui, facets_refresh, facets_ui};
-pub use hemisphere::{hemisphere_figure, hemisphere_refresh, hemisphere_ui};
-pub use landscape::{landscape_figure, landscape_options_ui, landscape_refresh, landscape_ui};
-pub use lobes::{lobes_options_ui, lobes_refresh, lobes_ui};
-pub use metals::{metals_figure, metals_refresh, metals_ui, values};
-pub use mueller::{mueller_figure, mueller_refresh, mueller_ui};
-pub use planner::{planner_refresh, planner_ui};
-pub use polar::{polar_figure, polar_options_ui, polar_refresh, polar_ui};
-pub use stability::stability_ui;
-pub use table::{table_refresh, table_text, table_ui};
+pub use context::{Cx, PaneSpec, View};
+pub use data::table_text;
+pub use metals::values;
+pub use models::running_model_ui;
 
-use crate::app::shell::docking::PaneId;
+#[cfg(test)]
+pub use {
+    audit::AuditView, data::DataView, dolp::DolpView, hemisphere::HemisphereView, landscape::LandscapeView, lobes::LobesView,
+    planner::PlannerView,
+};
 
-/// What the panes keep from frame to frame.
-#[derive(Default)]
+use crate::app::work::pane_id::{PaneId, with_panes};
+
+macro_rules! specs {
+    ($($variant:ident $key:ident $area:ident,)*) => {
+        /// What there is to know of a pane.
+        pub fn spec(pane: PaneId) -> &'static PaneSpec {
+            match pane {
+                $(PaneId::$variant => &$key::SPEC,)*
+            }
+        }
+    };
+}
+with_panes!(specs);
+
+/// The views of all panes.
 pub struct Views {
-    pub audit: audit::AuditView,
-    pub convergence: convergence::ConvergenceView,
-    pub dolp: dolp::DolpView,
-    pub facets: facets::FacetsView,
-    pub hemisphere: hemisphere::HemisphereView,
-    pub landscape: landscape::LandscapeView,
-    pub lobes: lobes::LobesView,
-    pub metals: metals::MetalsView,
-    pub mueller: mueller::MuellerView,
-    pub planner: planner::PlannerView,
-    pub polar: polar::PolarView,
-    pub table: table::TableView,
+    all: Vec<Box<dyn View>>,
+}
+
+impl Default for Views {
+    fn default() -> Self {
+        Self { all: PaneId::ALL.iter().map(|pane| (spec(*pane).new)()).collect() }
+    }
 }
 
 impl Views {
-    /// Stops what is being made for panes that nobody looks at.
-    pub fn rest(&mut self, on_screen: &[PaneId]) {
-        if !on_screen.contains(&PaneId::Hemisphere) {
-            self.hemisphere.rest();
-        }
-        if !on_screen.contains(&PaneId::Landscape) {
-            self.landscape.rest();
+    /// The view of a pane.
+    pub fn of(&mut self, pane: PaneId) -> &mut dyn View {
+        &mut *self.all[pane as usize]
+    }
+
+    /// The figure of a pane, for files and the clipboard.
+    pub fn figure(&self, pane: PaneId, cx: &Cx<'_>) -> Option<crate::figure::Figure> {
+        self.all[pane as usize].figure(cx)
+    }
+
+    /// Makes anew what the panes on screen show, and stops what is being made for the others.
+    pub fn refresh(&mut self, on_screen: &[PaneId], cx: &mut Cx<'_>) {
+        for (pane, view) in PaneId::ALL.iter().zip(&mut self.all) {
+            if on_screen.contains(pane) {
+                view.refresh(cx);
+            } else {
+                view.suspend();
+            }
         }
     }
 
-    /// How many frames the older of the maps on screen is behind the sliders.
-    pub fn frames_behind(&self, on_screen: &[PaneId]) -> u64 {
-        let map = |pane: &PaneId| match pane {
-            PaneId::Hemisphere => self.hemisphere.frames_behind(),
-            PaneId::Landscape => self.landscape.frames_behind(),
-            _ => 0,
-        };
-        on_screen.iter().map(map).max().unwrap_or(0)
+    /// How many frames the last of the panes on screen is behind the sliders.
+    pub fn lag(&self, on_screen: &[PaneId]) -> u64 {
+        on_screen.iter().map(|pane| self.all[*pane as usize].lag()).max().unwrap_or(0)
+    }
+
+    /// The view of that type.
+    #[cfg(test)]
+    pub fn get<V: View>(&self) -> &V {
+        let view = self.all.iter().find_map(|view| (&**view as &dyn std::any::Any).downcast_ref());
+        view.expect("there is a view of each type")
     }
 }

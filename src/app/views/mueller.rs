@@ -2,23 +2,28 @@
 //!
 //! Between the meridian bases [E_s, E_p] of the incident and the reflected ray.
 
-mod figure;
-
-pub use figure::mueller_figure;
-
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::shell::app::App;
-use crate::app::shell::theme;
+use crate::app::plots::theme::{FOREGROUND, MUTED};
+use crate::app::plots::{ColorScale, Polyline, Range, ink_on, theme};
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
 use crate::app::work::document::IncidenceSeries;
-use crate::app::work::workspace::Workspace;
-use crate::figure::ColorMap;
-use egui::{Align2, Color32, DragValue, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use crate::app::work::settings::Settings;
+use crate::figure::{Axis, ColorMap, Figure, Panel, SERIES, Series};
+use egui::{Align2, Color32, DragValue, FontId, Key, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Mueller;
 use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Mueller matrix",
+    tooltip: "All sixteen elements over m00 against θr, Eqs. (8, 9, 14), and as numbers at one direction",
+    shortcut: Some(Key::Num6),
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(MuellerView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -34,9 +39,9 @@ type SurfaceKey = (Parameters, Model, f64, f64);
 /// And whether the backscatter side is drawn.
 type CurveKey = (SurfaceKey, bool);
 
-/// m_ij/m00 against θr, row by row, as (θr, value); broken where there is no light.
+/// m_ij/m00 against θr, row by row; broken where there is no light.
 #[derive(Default)]
-struct Curves([Vec<Vec<[f64; 2]>>; 16]);
+struct Curves([Polyline; 16]);
 
 impl Curves {
     fn new(&((parameters, model, theta_i, plane), backscatter): &CurveKey) -> Self {
@@ -45,14 +50,8 @@ impl Curves {
         let series = in_plane(theta_i, plane);
         for theta_r in directions(theta_i, backscatter) {
             let matrix = series.geometry(theta_r).map(|geometry| surface.mueller(geometry));
-            for (element, pieces) in curves.0.iter_mut().enumerate() {
-                let value = matrix.map_or(f64::NAN, |matrix| normalised(&matrix, element));
-                match pieces.last_mut() {
-                    Some(piece) if value.is_finite() => piece.push([theta_r, value]),
-                    None if value.is_finite() => pieces.push(vec![[theta_r, value]]),
-                    Some(piece) if !piece.is_empty() => pieces.push(Vec::new()),
-                    _ => {}
-                }
+            for (element, curve) in curves.0.iter_mut().enumerate() {
+                curve.push([theta_r, matrix.map_or(f64::NAN, |matrix| normalised(&matrix, element))]);
             }
         }
         curves
@@ -68,19 +67,6 @@ fn normalised(matrix: &Mueller, element: usize) -> f64 {
     matrix.element(element / 4, element % 4) / matrix.element(0, 0)
 }
 
-pub fn mueller_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let view = &mut views.mueller;
-    let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
-    let backscatter = settings.show_backscatter || document.has_backscatter();
-    view.curves.refresh((surface, backscatter), Curves::new);
-    let theta_r = view.theta_r(settings.theta_i, backscatter);
-    view.matrix.refresh((surface, theta_r), |((parameters, model, theta_i, plane), theta_r)| {
-        let geometry = in_plane(*theta_i, *plane).geometry(*theta_r)?;
-        Some(Pbrdf::new(*model, *parameters).ok()?.mueller(geometry))
-    });
-}
-
 /// θr up to the last that is a direction, in steps of which the pointer chooses.
 const LAST: f64 = 89.9;
 const STEP: f64 = 0.1;
@@ -88,6 +74,21 @@ const STEP: f64 = 0.1;
 impl MuellerView {
     fn theta_r(&self, theta_i: f64, backscatter: bool) -> f64 {
         self.cursor.unwrap_or(theta_i).clamp(if backscatter { -LAST } else { 0.0 }, LAST)
+    }
+
+    /// The line with the choice of θr.
+    fn choice_ui(&self, settings: &Settings, low: f64, theta_r: &mut f64, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            let help = tr!("θr of the numbers: also by pointing at the curves");
+            let label = ui.label("θr").on_hover_text(&help);
+            let range = low.max(-LAST)..=LAST;
+            let field = DragValue::new(theta_r).range(range).speed(0.2).max_decimals(2).suffix("°");
+            ui.add(field).labelled_by(label.id).on_hover_text(help);
+            ui.label(tr!("at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi));
+            if let Some(Some(matrix)) = self.matrix.get() {
+                ui.label(tr!("m00 = {} 1/sr", significant(matrix.element(0, 0)))).on_hover_text(tr!("BRDF for unpolarised light in"));
+            }
+        });
     }
 }
 
@@ -97,44 +98,83 @@ const LETTERS: f32 = 12.0;
 /// Between the two parts.
 const GAP: f32 = 14.0;
 
-pub fn mueller_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let view = &mut views.mueller;
-    let low: f64 = if settings.show_backscatter || document.has_backscatter() { -90.0 } else { 0.0 };
-    let mut theta_r = view.theta_r(settings.theta_i, low < 0.0);
-    let before = theta_r;
-    ui.horizontal_wrapped(|ui| {
-        let help = tr!("θr of the numbers: also by pointing at the curves");
-        let label = ui.label("θr").on_hover_text(&help);
-        let range = low.max(-LAST)..=LAST;
-        let field = DragValue::new(&mut theta_r).range(range).speed(0.2).max_decimals(2).suffix("°");
-        ui.add(field).labelled_by(label.id).on_hover_text(help);
-        ui.label(tr!("at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi));
-        if let Some(Some(matrix)) = view.matrix.get() {
-            ui.label(tr!("m00 = {} 1/sr", significant(matrix.element(0, 0)))).on_hover_text(tr!("BRDF for unpolarised light in"));
+impl View for MuellerView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let settings = &*cx.settings;
+        let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
+        let backscatter = settings.show_backscatter || cx.document.has_backscatter();
+        self.curves.refresh((surface, backscatter), Curves::new);
+        let theta_r = self.theta_r(settings.theta_i, backscatter);
+        self.matrix.refresh((surface, theta_r), |((parameters, model, theta_i, plane), theta_r)| {
+            let geometry = in_plane(*theta_i, *plane).geometry(*theta_r)?;
+            Some(Pbrdf::new(*model, *parameters).ok()?.mueller(geometry))
+        });
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let settings = &*cx.settings;
+        let low: f64 = if settings.show_backscatter || cx.document.has_backscatter() { -90.0 } else { 0.0 };
+        let mut theta_r = self.theta_r(settings.theta_i, low < 0.0);
+        let before = theta_r;
+        self.choice_ui(settings, low, &mut theta_r, ui);
+        let room = ui.available_size();
+        let (rect, response) = ui.allocate_exact_size(room.max(vec2(120.0, 120.0)), Sense::hover());
+        let painter = ui.painter_at(rect);
+        let style = Style { ink: ui.visuals().text_color(), dark: ui.visuals().dark_mode };
+        let [left, right] = parts(rect);
+        let multiples = Multiples::new(left, Range { low, high: 90.0 });
+        if let Some(curves) = self.curves.get() {
+            multiples.draw(&painter, curves, theta_r, style);
         }
-    });
-    let room = ui.available_size();
-    let (rect, response) = ui.allocate_exact_size(room.max(vec2(120.0, 120.0)), Sense::hover());
-    let painter = ui.painter_at(rect);
-    let style = Style { ink: ui.visuals().text_color(), dark: ui.visuals().dark_mode };
-    let [left, right] = parts(rect);
-    let multiples = Multiples::new(left, Range { low, high: 90.0 });
-    if let Some(curves) = view.curves.get() {
-        multiples.draw(&painter, curves, theta_r, style);
+        if let Some(at) = response.hover_pos().and_then(|at| multiples.theta_r(at)) {
+            theta_r = at.clamp(low.max(-LAST), LAST);
+        }
+        if let Some(Some(matrix)) = self.matrix.get() {
+            heat_map(&painter, right, matrix, before, style);
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, spoken(matrix, before)));
+        }
+        if theta_r != before {
+            self.cursor = Some(theta_r);
+            ui.ctx().request_repaint();
+        }
     }
-    if let Some(at) = response.hover_pos().and_then(|at| multiples.theta_r(at)) {
-        theta_r = at.clamp(low.max(-LAST), LAST);
-    }
-    if let Some(Some(matrix)) = view.matrix.get() {
-        heat_map(&painter, right, matrix, before, style);
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, spoken(matrix, before)));
-    }
-    if theta_r != before {
-        view.cursor = Some(theta_r);
-        ui.ctx().request_repaint();
+
+    /// Sixteen plots against θr, and all elements as numbers at the θr of the pane.
+    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+        let (curves, ((_, _, theta_i, plane), backscatter)) = (self.curves.get()?, self.curves.key()?);
+        let matrix = self.matrix.get().and_then(Option::as_ref).zip(self.matrix.key().map(|key| key.1));
+        let reach = f64::from(REACH);
+        let panels = curves.0.iter().enumerate().map(|(element, curve)| {
+            let mut series = vec![Series::line("", curve.clone()).colored(SERIES[0])];
+            let mut title = String::new();
+            if let Some((matrix, theta_r)) = matrix {
+                let value = normalised(matrix, element);
+                series.insert(0, Series::upright("", theta_r).colored(MUTED));
+                series.push(Series::points("", [[theta_r, value]]).colored(FOREGROUND));
+                // On the free side of the curve.
+                let beside = if value > 0.0 { value - NUMBER } else { value + NUMBER };
+                series.push(Series::labels(vec![([theta_r, beside], number(value))]));
+                if element == 0 {
+                    let m00 = significant(matrix.element(0, 0));
+                    title = tr!("numbers at θr = {0}°, m00 = {1} sr⁻¹", format!("{theta_r:.1}"), m00);
+                }
+            }
+            Panel {
+                title,
+                x: Axis::linear("θr", "°").between(if *backscatter { -90.0 } else { 0.0 }, 90.0),
+                y: Axis::linear(format!("m{}{} / m00", element / 4, element % 4), "").between(-reach, reach),
+                series,
+                legend: false,
+                ..Panel::default()
+            }
+        });
+        let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", cx.document.title(), theta_i, plane);
+        Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
     }
 }
+
+/// Distance of a number from its value in a figure.
+const NUMBER: f64 = 0.25;
 
 /// Where the curves and where the heat map lie.
 fn parts(rect: Rect) -> [Rect; 2] {
@@ -203,7 +243,7 @@ impl Multiples {
     fn draw(&self, painter: &Painter, curves: &Curves, theta_r: f64, style: Style) {
         let font = FontId::proportional(LETTERS);
         let grid = Stroke::new(1.0, theme::grid(style.dark));
-        for (element, pieces) in curves.0.iter().enumerate() {
+        for (element, curve) in curves.0.iter().enumerate() {
             let (row, column) = (element / 4, element % 4);
             let cell = self.cell(row, column);
             for value in [-1.0, 0.0, 1.0] {
@@ -211,7 +251,7 @@ impl Multiples {
             }
             painter.vline(self.place(cell, theta_r, 0.0).x, cell.y_range(), Stroke::new(1.0, theme::muted(style.dark)));
             let inside = painter.with_clip_rect(cell);
-            for piece in pieces {
+            for piece in curve.split(|point| !point[1].is_finite()) {
                 inside.add(Shape::line(self.thinned(cell, piece), Stroke::new(1.5, theme::series(0, style.dark))));
             }
             painter.rect_stroke(cell, 0.0, grid, StrokeKind::Inside);
@@ -341,9 +381,9 @@ mod tests {
     fn a_curve_is_broken_where_there_is_no_light() {
         let dark = Parameters { ks: 0.0, kd: 0.0, kv: 0.0, ..Parameters::default() };
         let model = Model::full(SlopeDistribution::Gauss);
-        assert!(Curves::new(&((dark, model, 40.0, 180.0), true)).0.iter().all(Vec::is_empty));
+        assert!(Curves::new(&((dark, model, 40.0, 180.0), true)).0.iter().flatten().all(|[_, value]| value.is_nan()));
         let lit = Curves::new(&((Parameters::default(), model, 40.0, 180.0), true));
-        assert!(lit.0.iter().all(|pieces| pieces.len() == 1 && pieces[0].len() > 300));
+        assert!(lit.0.iter().all(|curve| curve.len() > 300 && curve.iter().all(|[_, value]| value.is_finite())));
     }
 
     #[test]

@@ -2,16 +2,16 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::shell::app::App;
-use crate::app::shell::theme;
+use crate::app::plots::theme;
 use crate::app::text::glossary::{open_help, percent, short};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::text::messages::Localized as _;
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
 use crate::app::work::document::Document;
+use crate::app::work::fit_setup::free_in_plan;
 use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Undetermined, is_poorly_determined};
 use pbrdf::measurement::Columns;
@@ -21,6 +21,15 @@ use tr::tr;
 /// What predictions depend on, the language of their words included.
 type Key = (Parameters, Model, ParameterSet, Plan, u64, Language);
 
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Angle planner",
+    tooltip: "What a measurement at these angles would determine, before it is made",
+    shortcut: None,
+    has_options: false,
+    has_figure: false,
+    new: || Box::new(PlannerView::default()),
+};
+
 /// What the pane keeps.
 #[derive(Default)]
 pub struct PlannerView {
@@ -28,37 +37,36 @@ pub struct PlannerView {
     pub predictions: Memo<Key, [Result<Prediction, String>; 2]>,
 }
 
-pub fn planner_refresh(explorer: &mut App) {
-    let free = explorer.free_in_plan();
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let Settings { parameters, model, ref plan, .. } = *settings;
-    let key = (parameters, model, free, plan.clone(), document.generation, i18n::current());
-    views
-        .planner
-        .predictions
-        .refresh(key, |_| [Prediction::of_measurement(settings, free, &document.measurement), Prediction::of_plan(settings, free)]);
-}
-
 /// Width from which errors stand in percent too.
 const WITH_PERCENT: f32 = 400.0;
 /// Width that angles and errors need side by side.
 const SIDE_BY_SIDE: f32 = 540.0;
 
-pub fn planner_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-        if ui.available_width() > SIDE_BY_SIDE {
-            ui.horizontal_top(|ui| {
-                ui.vertical(|ui| angles_ui(&mut settings.plan, document, ui));
+impl View for PlannerView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let (settings, document) = (&*cx.settings, cx.document);
+        let free = free_in_plan(settings, document.measurement.has_brdf());
+        let Settings { parameters, model, ref plan, .. } = *settings;
+        let key = (parameters, model, free, plan.clone(), document.generation, i18n::current());
+        self.predictions
+            .refresh(key, |_| [Prediction::of_measurement(settings, free, &document.measurement), Prediction::of_plan(settings, free)]);
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+            if ui.available_width() > SIDE_BY_SIDE {
+                ui.horizontal_top(|ui| {
+                    ui.vertical(|ui| angles_ui(&mut cx.settings.plan, cx.document, ui));
+                    ui.separator();
+                    ui.vertical(|ui| predictions_ui(cx.settings, self, ui));
+                });
+            } else {
+                angles_ui(&mut cx.settings.plan, cx.document, ui);
                 ui.separator();
-                ui.vertical(|ui| predictions_ui(settings, &views.planner, ui));
-            });
-        } else {
-            angles_ui(&mut settings.plan, document, ui);
-            ui.separator();
-            predictions_ui(settings, &views.planner, ui);
-        }
-    });
+                predictions_ui(cx.settings, self, ui);
+            }
+        });
+    }
 }
 
 fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {

@@ -1,39 +1,38 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
-use crate::app::shell::app::App;
 use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkView};
 use crate::app::shell::commands::Command;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized;
-use crate::report::BenchmarkFigures;
+use crate::app::views::context::Cx;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
-use pbrdf::selftest::{Report, Row};
+use pbrdf::selftest::Row;
 use tr::tr;
 
 /// The line with the button and what it does, and what has come out.
-pub fn run_ui(explorer: &mut App, subject: BenchmarkId, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
-    let running = explorer.reports.progress();
+pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
+    let running = cx.benchmarks.progress();
     ui.horizontal(|ui| {
         match running {
             Some((own, done)) if own == subject => {
                 if ui.button(tr!("Stop measuring")).on_hover_text(tr!("What is done so far is shown")).clicked() {
-                    explorer.commands.push(Command::CancelReport);
+                    cx.actions.push(Command::CancelReport);
                 }
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
                 let done = done as f32;
                 // Nothing that moves by itself: frames would take their time from what is being measured.
                 ui.add(ProgressBar::new(done).desired_width(160.0).show_percentage());
             }
-            _ if explorer.reports.is_waiting(subject) => {
+            _ if cx.benchmarks.is_waiting(subject) => {
                 if ui.button(tr!("Do not wait")).on_hover_text(tr!("This report is not made after all")).clicked() {
-                    explorer.commands.push(Command::ForgetReport(subject));
+                    cx.actions.push(Command::ForgetReport(subject));
                 }
                 ui.label(tr!("Comes after the report that is being made: both would be slower side by side."));
             }
             _ => {
                 if ui.button(button).on_hover_text(about).clicked() {
-                    explorer.commands.push(Command::MakeReport(subject));
+                    cx.actions.push(Command::MakeReport(subject));
                 }
             }
         }
@@ -42,11 +41,7 @@ pub fn run_ui(explorer: &mut App, subject: BenchmarkId, (button, about): (&str, 
 }
 
 /// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
-pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool
-where
-    Report<R>: BenchmarkFigures,
-{
-    shown.refresh();
+pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
     let text = RichText::new(format!("{part}{}, {}", report.machine.localized(), report.date)).weak().small();
@@ -57,7 +52,7 @@ where
         return true;
     }
     ui.horizontal_wrapped(|ui| {
-        for (page, &name) in (0..=shown.drawings.len()).zip(names) {
+        for (page, &name) in (0..=shown.plots.len()).zip(names) {
             ui.selectable_value(&mut shown.page, page, translated(name));
         }
     });

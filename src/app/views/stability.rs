@@ -1,12 +1,13 @@
 //! The stability gallery: stiff and extreme cases with the digits that are held, beside those of the textbook form. A click on a case, in the
 //! table or in the figure, loads it.
 
-use crate::app::shell::app::App;
+use crate::app::plots::{PanelStyle, theme};
 use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
+use crate::figure::Figure;
 use egui::Ui;
 use egui_plot::PlotResponse;
 use pbrdf::selftest::{Setting, Stability, digits};
@@ -32,29 +33,56 @@ const HEADINGS: [Heading; 7] = [
     Heading { text: "outcome", help: "How a fit ended", width: 360.0, is_number: false },
 ];
 
-pub fn stability_ui(explorer: &mut App, ui: &mut Ui) {
-    let about = tr!("Evaluates and fits all stiff and extreme cases: some seconds");
-    let outcome = explorer.reports.stability.as_ref().map(|shown| {
-        let passed = shown.report.rows.iter().filter(|row| row.pass).count();
-        tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, shown.report.rows.len())
-    });
-    run_ui(explorer, BenchmarkId::Stability, (&tr!("Run all cases"), &about), outcome.as_deref(), ui);
-    let App { reports, commands, .. } = explorer;
-    let Some(shown) = &mut reports.stability else {
-        ui.label(tr!("The cases were not run yet."));
-        return;
-    };
-    if pages_ui(shown, &["Table", "Digits held"], ui) {
-        let rows = &shown.report.rows;
-        let cell = |row: usize, column: usize, ui: &mut Ui| cell_ui(&rows[row], &shown.cells[row], row, column, commands, ui);
-        table_ui("stability", &HEADINGS, rows.len(), cell, ui);
-        return;
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Stability",
+    tooltip: "Stiff and extreme cases against 60 digits, beside the textbook form; a click on a case loads it",
+    shortcut: None,
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(StabilityView),
+};
+
+/// The pane; what it shows are the benchmarks of the window.
+struct StabilityView;
+
+impl View for StabilityView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        cx.benchmarks.refresh_plots(BenchmarkId::Stability);
     }
-    let (report, page) = (&shown.report, shown.page);
-    let Some(panel) = shown.drawings.get_mut(page - 1).and_then(|drawing| drawing.panels.first_mut()) else { return };
-    panel.legend_ui(ui);
-    let response = panel.ui("digits held", ui.available_height(), ui);
-    commands.extend(clicked(&response, &report.rows).map(Command::UseCase));
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let about = tr!("Evaluates and fits all stiff and extreme cases: some seconds");
+        let outcome = cx.benchmarks.stability.as_ref().map(|shown| {
+            let passed = shown.report.rows.iter().filter(|row| row.pass).count();
+            tr!("{} of {} cases pass; a click on a case loads it into the sliders", passed, shown.report.rows.len())
+        });
+        run_ui(cx, BenchmarkId::Stability, (&tr!("Run all cases"), &about), outcome.as_deref(), ui);
+        let actions = &mut *cx.actions;
+        let Some(shown) = &mut cx.benchmarks.stability else {
+            ui.label(tr!("The cases were not run yet."));
+            return;
+        };
+        if pages_ui(shown, &["Table", "Digits held"], ui) {
+            let rows = &shown.report.rows;
+            let cell = |row: usize, column: usize, ui: &mut Ui| cell_ui(&rows[row], &shown.cells[row], row, column, actions, ui);
+            table_ui("stability", &HEADINGS, rows.len(), cell, ui);
+            return;
+        }
+        let (report, page) = (&shown.report, shown.page);
+        let Some(panel) = shown.plots.get_mut(page - 1).and_then(|plot| plot.panel(0)) else { return };
+        panel.key_line_ui(ui);
+        let hover = |name: &str, x: f64, y: f64| {
+            let row = case_at(x, &report.rows).and_then(|index| report.rows.get(index));
+            format!("{}\n{name}: {y:.1}", row.map_or_else(String::new, |row| row.case.localized()))
+        };
+        let style = PanelStyle { spread: 4.0, ..PanelStyle::new("digits held", ui.available_height(), &hover) };
+        let Some(response) = panel.ui(&style, ui) else { return };
+        actions.extend(clicked(&response, &report.rows).map(Command::UseCase));
+    }
+
+    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+        cx.benchmarks.figure(BenchmarkId::Stability).cloned()
+    }
 }
 
 fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, commands: &mut Vec<Command>, ui: &mut Ui) {
@@ -91,11 +119,15 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
 /// Digits that the textbook form has lost before it is marked.
 const LOST: f64 = 2.0;
 
-/// The case whose column of points was clicked: they stand at whole numbers, in the order of the table.
+/// The case whose column of points was clicked.
 fn clicked(response: &PlotResponse<()>, rows: &[Stability]) -> Option<usize> {
     let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked())?;
-    let x = response.transform.value_from_position(at).x.round();
+    case_at(response.transform.value_from_position(at).x, rows)
+}
+
+/// The evaluation whose column of points stands there: they stand at whole numbers, in the order of the table.
+fn case_at(x: f64, rows: &[Stability]) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list of some hundred, saturating")]
-    let index = x.max(0.0) as usize;
+    let index = x.round().max(0.0) as usize;
     rows.get(index).filter(|row| row.brdf_error.is_some()).map(|_| index)
 }

@@ -125,14 +125,19 @@ impl Document {
         if stem.to_lowercase().ends_with(".csv") { stem } else { format!("{}.csv", stem.trim_matches('_')) }
     }
 
+    /// Its name as the window shows it: that of an example in the language of the window.
+    pub fn title(&self) -> String {
+        let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
+        if is_example { translated(&self.name) } else { self.name.clone() }
+    }
+
     /// What its metadata say about it, for a line under the plots.
     pub fn description(&self) -> String {
         if self.name.is_empty() && self.measurement.rows.is_empty() {
             return tr!("No measurement: curves alone");
         }
         let simulated = self.measurement.metadata("simulated") == Some("true");
-        let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
-        let mut parts = vec![if is_example { translated(&self.name) } else { self.name.clone() }];
+        let mut parts = vec![self.title()];
         parts.extend(self.measurement.metadata("material").map(str::to_owned));
         parts.extend(self.measurement.metadata("wavelength_nm").map(|wavelength| format!("{wavelength} nm")));
         if simulated && !self.name.contains("simulated") {

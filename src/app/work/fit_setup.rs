@@ -4,7 +4,7 @@ use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, ParameterSet, Parameters};
+use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
 
 /// The problem of fitting those parameters from the sliders.
@@ -19,6 +19,27 @@ pub fn problem(
 ) -> Result<Problem, ProblemError> {
     let (start, bounds) = start_in_bounds(settings, free);
     Problem::new(measurement, model, start, free, bounds, choices)
+}
+
+/// The parameters that a fit would change: those that the data can speak of, less the locked ones.
+pub fn free(settings: &Settings, has_brdf: bool) -> ParameterSet {
+    free_of_model(settings, has_brdf).without_all(settings.locked)
+}
+
+/// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
+pub fn free_in_plan(settings: &Settings, has_brdf: bool) -> ParameterSet {
+    let planned = settings.plan.has_brdf();
+    let locked = match settings.locked {
+        locked if has_brdf == planned => locked,
+        locked if planned || settings.model.dolp_formula == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
+        locked => locked.with(Parameter::Ks),
+    };
+    free_of_model(settings, planned).without_all(locked)
+}
+
+fn free_of_model(settings: &Settings, has_brdf: bool) -> ParameterSet {
+    let model = settings.model;
+    if has_brdf { model.parameters() } else { model.dolp_parameters() }
 }
 
 /// The sliders inside the box, and the box.

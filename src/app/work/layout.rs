@@ -1,6 +1,6 @@
 //! How the panes are arranged, as a value: kept in the settings, and turned into tiles and back.
 
-use crate::app::shell::docking::{PANES, PaneId, Place};
+use crate::app::work::pane_id::{DockArea, PaneId};
 use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -21,11 +21,11 @@ pub enum Layout {
 impl Default for Layout {
     /// Two groups of tabs, one above the other.
     fn default() -> Self {
-        let tabs = |place| {
-            let parts = PANES.iter().filter(|entry| entry.place == place).map(|entry| Self::PaneId(entry.pane));
+        let tabs = |area| {
+            let parts = PaneId::ALL.iter().filter(|pane| pane.area() == area).map(|pane| Self::PaneId(*pane));
             Self::Tabs { active: 0, parts: parts.collect() }
         };
-        Self::Rows(vec![(1.2, tabs(Place::Upper)), (1.0, tabs(Place::Lower))])
+        Self::Rows(vec![(1.2, tabs(DockArea::Upper)), (1.0, tabs(DockArea::Lower))])
     }
 }
 
@@ -119,7 +119,7 @@ fn insert_linear(dir: LinearDir, parts: &[(f32, Layout)], tiles: &mut Tiles<Pane
 #[cfg(test)]
 mod tests {
     use super::Layout;
-    use crate::app::shell::docking::PaneId;
+    use crate::app::work::pane_id::PaneId;
 
     #[derive(serde::Deserialize)]
     struct Holder {

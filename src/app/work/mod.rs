@@ -9,6 +9,7 @@ pub mod history;
 pub mod layout;
 pub mod lesson;
 pub mod model_fit;
+pub mod pane_id;
 pub mod parameter_text;
 pub mod settings;
 pub mod workspace;

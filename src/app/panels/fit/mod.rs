@@ -9,9 +9,9 @@ mod scans;
 
 use crate::app::jobs::worker::Job;
 use crate::app::panels::status::delta_e_text;
+use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
 use crate::app::text::glossary;
 use crate::app::views::derived::Derived;
 use crate::app::work::settings::Settings;

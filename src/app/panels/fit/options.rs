@@ -1,6 +1,6 @@
 //! The choices of a fit: what is minimised, and from where.
 
-use crate::app::shell::theme;
+use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::work::settings::Settings;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};

@@ -2,8 +2,8 @@
 
 use crate::app::panels::parameters::significant;
 use crate::app::panels::status::delta_e_text;
+use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;

@@ -3,7 +3,6 @@
 use crate::app::jobs::async_memo::Stopped;
 use crate::app::plots::contours::Heights;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::views::curves::Polyline;
 use crate::app::views::landscape::Key;
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::work::fit_setup::problem;
@@ -21,7 +20,8 @@ pub struct Drawn {
     pub landscape: Landscape,
     pub image: Arc<ColorImage>,
     pub scale: ColorScale,
-    pub contours: Vec<(Color32, Polyline)>,
+    /// Pieces of each line, in the coordinates of the plot.
+    pub contours: Vec<(Color32, Vec<Vec<PlotPoint>>)>,
     pub title: &'static str,
 }
 
@@ -84,7 +84,7 @@ fn title(problem: &Problem) -> &'static str {
 }
 
 /// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
-fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Polyline)> {
+fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Vec<Vec<PlotPoint>>)> {
     let Range { low, high } = scale.range;
     let levels = |factors: &[f64]| -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, reason = "a few decades")]
@@ -99,7 +99,7 @@ fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Poly
         low + (high - low) * index / f64_of(axis.count - 1)
     };
     let grid = Heights { values: heights, columns: key.across.count };
-    let pieces = |level: f64| -> Polyline {
+    let pieces = |level: f64| -> Vec<Vec<PlotPoint>> {
         let points =
             |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| PlotPoint::new(place(key.across, x), place(key.up, y))).collect();
         grid.lines(level).into_iter().map(points).collect()

@@ -2,21 +2,19 @@
 
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{BAR_ROOM, line, plot};
-use crate::app::shell::app::App;
+use crate::app::views::landscape::LandscapeView;
 use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
 use crate::app::views::landscape::drawn::Drawn;
 use crate::app::views::landscape::legend::legend_ui;
 use crate::app::views::landscape::marks::{marks_in, sliders_in};
-use crate::app::work::workspace::Workspace;
+use crate::app::work::settings::Settings;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
 use pbrdf::fit::Axis;
 use pbrdf::model::Parameter;
 
 /// The map with what lies on it.
-pub fn map_ui(explorer: &mut App, height: f32, ui: &mut Ui) -> PlotResponse<()> {
-    let App { work: Workspace { settings, .. }, views, .. } = explorer;
-    let view = &mut views.landscape;
+pub fn map_ui(view: &mut LandscapeView, settings: &Settings, height: f32, ui: &mut Ui) -> PlotResponse<()> {
     let shown = settings.landscape;
     let drawn = view.job.get().and_then(Option::as_ref);
     if let (Some(key), Some(drawn)) = (view.job.key(), drawn) {
@@ -30,7 +28,7 @@ pub fn map_ui(explorer: &mut App, height: f32, ui: &mut Ui) -> PlotResponse<()> 
     let format = |parameter: Parameter| if parameter.is_logarithmic() { logarithmic } else { decimal };
     let marks = view.marks.get();
     let x = axis(AxisHints::new_x(), ui, shown.across.symbol(), format(shown.across)).min_thickness(36.0);
-    let y = axis(AxisHints::new_y(), ui, shown.up.symbol(), format(shown.up));
+    let y = axis(AxisHints::new_y(), ui, shown.up.symbol(), format(shown.up)).min_thickness(72.0);
     let response = plot("landscape", ui, height, x, y)
         .width((ui.available_width() - BAR_ROOM).max(80.0))
         .x_grid_spacer(move |input| grid(shown.across, &input, 7.0))

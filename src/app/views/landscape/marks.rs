@@ -188,8 +188,7 @@ const LETTER: egui::Vec2 = egui::vec2(7.2, 16.0);
 fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
     let mut taken: Vec<Rect> = Vec::new();
     for (point, name) in names {
-        // Chemical symbols are the same in all languages; names of alloys are not.
-        let name = if name.len() > 2 { translated(name) } else { (*name).to_owned() };
+        let name = metal_name(name);
         #[expect(clippy::cast_precision_loss, reason = "a few letters")]
         let size = egui::vec2((name.len() + 2) as f32 * LETTER.x, LETTER.y);
         let at = plot.screen_from_plot(*point);
@@ -201,6 +200,11 @@ fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
             plot.text(Text::new("", *point, text).anchor(side).allow_hover(false));
         }
     }
+}
+
+/// The name of a metal on the map: chemical symbols are the same in all languages, names of alloys are not.
+pub fn metal_name(name: &str) -> String {
+    if name.len() > 2 { translated(name) } else { name.to_owned() }
 }
 
 /// Edge by edge: the corners of one long line are drawn as filled wedges.

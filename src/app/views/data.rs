@@ -2,13 +2,13 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::significant;
-use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary::{mask_help, short};
 use crate::app::text::i18n::translated;
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::{Document, IncidenceSeries};
-use crate::app::work::workspace::Workspace;
-use egui::{Align, Checkbox, CollapsingHeader, Layout, Role, ScrollArea, Ui, WidgetInfo};
+use crate::app::work::settings::Settings;
+use egui::{Align, Checkbox, CollapsingHeader, Key, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::measurement::{Quantity, Row, exact};
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -23,38 +23,58 @@ pub struct Predicted {
     pub brdf: f64,
 }
 
-/// What the model in the seen rows depends on: the sliders, the reading of Eq. (17), the document's generation, the rows.
+/// What the model in the seen rows depends on: the sliders, the document's generation, the rows.
 type PredictedKey = (Parameters, Model, u64, Range<usize>);
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Data table",
+    tooltip: "The measurement row by row with the model's values; masks by row and by series; metadata",
+    shortcut: Some(Key::Num9),
+    has_options: false,
+    has_figure: false,
+    new: || Box::new(DataView::default()),
+};
 
 /// What the pane keeps.
 #[derive(Default)]
-pub struct TableView {
+pub struct DataView {
     /// The rows that the last frame drew.
     visible: Range<usize>,
     /// The model in those rows.
     pub predicted: Memo<PredictedKey, Vec<Predicted>>,
 }
 
-/// Evaluates the rows that are seen, and no others: there may be a million.
-pub fn table_refresh(explorer: &mut App) {
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let view = &mut views.table;
-    let rows = &document.measurement.rows;
-    let visible = view.visible.start.min(rows.len())..view.visible.end.min(rows.len());
-    let key = (settings.parameters, settings.model, document.generation, visible);
-    view.predicted.refresh(key, |(parameters, model, _, visible)| {
-        let Ok(surface) = Pbrdf::new(*model, *parameters) else { return Vec::new() };
-        let predict = |row: &Row| {
-            let reflection = surface.reflection(&Facet::new(row.geometry));
-            Predicted { dolp: reflection.dolp, brdf: reflection.brdf }
-        };
-        rows[visible.clone()].iter().map(predict).collect()
-    });
+impl View for DataView {
+    /// Evaluates the rows that are seen, and no others: there may be a million.
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let settings = &*cx.settings;
+        let rows = &cx.document.measurement.rows;
+        let visible = self.visible.start.min(rows.len())..self.visible.end.min(rows.len());
+        let key = (settings.parameters, settings.model, cx.document.generation, visible);
+        self.predicted.refresh(key, |(parameters, model, _, visible)| {
+            let Ok(surface) = Pbrdf::new(*model, *parameters) else { return Vec::new() };
+            let predict = |row: &Row| {
+                let reflection = surface.reflection(&Facet::new(row.geometry));
+                Predicted { dolp: reflection.dolp, brdf: reflection.brdf }
+            };
+            rows[visible.clone()].iter().map(predict).collect()
+        });
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        metadata_ui(cx.document, ui);
+        series_ui(cx.document, cx.actions, ui);
+        let visible = rows_ui(cx.document, self, cx.actions, ui);
+        if visible != self.visible {
+            self.visible = visible;
+            // The model in the new rows is evaluated before the next frame.
+            ui.ctx().request_repaint();
+        }
+    }
 }
 
 /// All rows as the pane shows them, with all digits, and with tabs between cells.
-pub fn table_text(explorer: &App) -> String {
-    let App { work: Workspace { settings, document, .. }, .. } = explorer;
+pub fn table_text(settings: &Settings, document: &Document) -> String {
     let measurement = &document.measurement;
     let surface = Pbrdf::new(settings.model, settings.parameters).ok();
     let shown = [("DoLP", measurement.has_dolp()), ("BRDF", measurement.has_brdf())];
@@ -81,18 +101,6 @@ pub fn table_text(explorer: &App) -> String {
         lines.push(cells.join("\t"));
     }
     lines.join("\n") + "\n"
-}
-
-pub fn table_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { document, .. }, commands, views, .. } = explorer;
-    metadata_ui(document, ui);
-    series_ui(document, commands, ui);
-    let visible = rows_ui(document, &views.table, commands, ui);
-    if visible != views.table.visible {
-        views.table.visible = visible;
-        // The model in the new rows is evaluated before the next frame.
-        ui.ctx().request_repaint();
-    }
 }
 
 /// Height that metadata and series have at most.
@@ -164,7 +172,7 @@ const BRDF: [Heading; 4] = [
 ];
 
 /// The rows; returns those that are seen.
-fn rows_ui(document: &Document, view: &TableView, commands: &mut Vec<Command>, ui: &mut Ui) -> Range<usize> {
+fn rows_ui(document: &Document, view: &DataView, commands: &mut Vec<Command>, ui: &mut Ui) -> Range<usize> {
     let measurement = &document.measurement;
     let (has_dolp, has_brdf) = (measurement.has_dolp(), measurement.has_brdf());
     let headings = ANGLES.iter().chain(DOLP.iter().filter(|_| has_dolp)).chain(BRDF.iter().filter(|_| has_brdf));

@@ -6,16 +6,16 @@ use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
 use egui::Ui;
 use egui_plot::{PlotPoint, PlotResponse};
 
-/// How far from a point, in points of the screen, a click still means it.
+/// Largest distance from a point, in points of the screen, at which a click still means it.
 const NEAR: f32 = 12.0;
 
 /// What hovering a point says of it.
 pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
 
-/// Ctrl+click on a measured point masks it or takes it back; with Shift it does so to its whole series. `marks` gives the points that
-/// are drawn of a series, by its number.
-pub fn clicked_mask<R>(
-    response: &PlotResponse<R>,
+/// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks` gives the points that are drawn of a
+/// series, by its number, and `coordinate` their height in the plot.
+pub fn clicked_mask(
+    response: &PlotResponse<()>,
     ui: &Ui,
     document: &Document,
     marks: impl Fn(usize, &IncidenceSeries) -> &[DataPoint],

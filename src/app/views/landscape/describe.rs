@@ -1,29 +1,32 @@
-//! The landscape for print, with what lies on it.
+//! The landscape as a figure, with what lies on it.
 
-use crate::app::plots::print::{FOREGROUND, MARK, WHITE, edges, placed};
-use crate::app::shell::app::App;
+use crate::app::plots::Range;
+use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
+use crate::app::views::context::Cx;
 use crate::app::views::landscape::axes::{coordinate, value};
 use crate::app::views::landscape::drawn::Drawn;
+use crate::app::views::landscape::marks::metal_name;
 use crate::app::views::landscape::{Key, LandscapeView};
 use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 use egui_plot::PlotPoint;
 use pbrdf::fit::Axis as Nodes;
+use tr::tr;
 
 const WAY: Rgb = Rgb(255, 96, 64);
 const MINIMA: Rgb = Rgb(255, 214, 90);
 const METALS: Rgb = Rgb(150, 220, 255);
 
-pub fn landscape_figure(explorer: &App) -> Option<Figure> {
-    let App { work: Workspace { settings, document, .. }, views, .. } = explorer;
-    let view = &views.landscape;
+pub fn describe(view: &LandscapeView, cx: &Cx<'_>) -> Option<Figure> {
+    let settings = &*cx.settings;
     let (key, drawn) = (view.job.key()?, view.job.get()?.as_ref()?);
     let mut series = vec![Series::heat_map(heat_map(drawn, key))];
     let back = |[x, y]: [f64; 2]| [value(key.across.parameter, x), value(key.up.parameter, y)];
     for (color, pieces) in drawn.contours.iter().filter(|_| settings.landscape.contours) {
         let ink = if color.r() > 128 { WHITE } else { FOREGROUND };
-        series.push(Series::dashed("", placed(pieces, back), Dash::Solid).colored(ink));
+        let gap = [[f64::NAN; 2]];
+        let points = pieces.iter().flat_map(|piece| piece.iter().map(|point| back([point.x, point.y])).chain(gap));
+        series.push(Series::dashed("", points.collect(), Dash::Solid).colored(ink));
     }
     // Of a name, as shares of the axes.
     let room = [(key.across, 0.1), (key.up, 0.04)].map(|(nodes, share)| {
@@ -32,9 +35,9 @@ pub fn landscape_figure(explorer: &App) -> Option<Figure> {
     });
     series.extend(marks(view, settings, room, back));
     let sliders = [key.across, key.up].map(|nodes| settings.parameters[nodes.parameter]);
-    series.push(pointed("sliders", vec![sliders], Symbol::Cross, MARK));
+    series.push(pointed(tr!("sliders"), vec![sliders], Symbol::Cross, MARK));
     let panel = Panel { x: axis(key.across), y: axis(key.up), series, ..Panel::default() };
-    Some(Figure { title: document.name.clone(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
+    Some(Figure { title: cx.document.title(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
 }
 
 fn axis(nodes: Nodes) -> Axis {
@@ -50,7 +53,7 @@ fn heat_map(drawn: &Drawn, key: &Key) -> HeatMap {
         let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
         #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
         let half = 0.5 * (high - low) / (nodes.count - 1) as f64;
-        edges(low - half, high + half, nodes.count).into_iter().map(|edge| value(nodes.parameter, edge)).collect()
+        Range { low: low - half, high: high + half }.edges(nodes.count).into_iter().map(|edge| value(nodes.parameter, edge)).collect()
     };
     let [low, high] = [drawn.scale.range.low, drawn.scale.range.high].map(libm::exp10);
     HeatMap {
@@ -62,7 +65,7 @@ fn heat_map(drawn: &Drawn, key: &Key) -> HeatMap {
     }
 }
 
-fn pointed(name: &str, places: Vec<[f64; 2]>, symbol: Symbol, color: Rgb) -> Series {
+fn pointed(name: String, places: Vec<[f64; 2]>, symbol: Symbol, color: Rgb) -> Series {
     Series::measured(name, places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect(), symbol).colored(color)
 }
 
@@ -84,16 +87,16 @@ fn marks(view: &LandscapeView, settings: &Settings, room: [f64; 2], back: impl F
     let places = |points: &[PlotPoint]| -> Vec<[f64; 2]> { points.iter().map(|point| back([point.x, point.y])).collect() };
     let mut series = Vec::new();
     if shown.metals && !marks.metals.points.is_empty() {
-        series.push(pointed("metals", places(&marks.metals.points), Symbol::Disc, METALS));
-        let names = free(&marks.names, room).into_iter().map(|(point, name)| (back([point.x, point.y]), name.to_owned()));
+        series.push(pointed(tr!("metals"), places(&marks.metals.points), Symbol::Disc, METALS));
+        let names = free(&marks.names, room).into_iter().map(|(point, name)| (back([point.x, point.y]), metal_name(name)));
         series.push(Series::labels(names.collect()));
     }
     for (age, way) in marks.ways.iter().enumerate().rev().filter(|_| shown.paths) {
-        let name = if age == 0 { "way of the last fit" } else { "ways of fits before" };
+        let name = if age == 0 { tr!("way of the last fit") } else { tr!("ways of fits before") };
         series.push(Series::line(name, places(&way.points)).colored(WAY));
     }
     if shown.minima && !marks.minima.points.is_empty() {
-        series.push(pointed("minima", places(&marks.minima.points), Symbol::Square, MINIMA));
+        series.push(pointed(tr!("minima"), places(&marks.minima.points), Symbol::Square, MINIMA));
     }
     series
 }

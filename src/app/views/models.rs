@@ -2,16 +2,15 @@
 
 use crate::app::jobs::worker::Job;
 use crate::app::panels::significant;
-use crate::app::shell::app::App;
+use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
-use crate::app::shell::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
 use crate::app::work::model_fit::ModelFit;
-use crate::app::work::workspace::Workspace;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
 use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
@@ -20,37 +19,51 @@ use tr::tr;
 /// Models that differ in the distribution alone: Cauchy, Gauss, and what they have in common.
 const PAIRS: [(&str, &str, &str); 2] = [("cauchy", "gauss", "all terms"), ("specular", "specular-gauss", "specular lobe alone")];
 
-pub fn comparison_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { model_comparison: comparison, settings, document, .. }, worker, commands, .. } = explorer;
-    let running = worker.comparison.as_ref().map(Job::progress);
-    ui.horizontal(|ui| {
-        let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
-        if compare.on_hover_text(tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit")).clicked()
-        {
-            commands.push(Command::CompareModels);
-        }
-        if let Some(at) = running {
-            if ui.button(tr!("Stop comparing")).clicked() {
-                commands.push(Command::CancelComparison);
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Models",
+    tooltip: "The ladder of models side by side on the open measurement",
+    shortcut: None,
+    has_options: false,
+    has_figure: false,
+    new: || Box::new(ModelsView),
+};
+
+/// The pane; it keeps nothing.
+struct ModelsView;
+
+impl View for ModelsView {
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let running = cx.worker.comparison.as_ref().map(Job::progress);
+        ui.horizontal(|ui| {
+            let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
+            let help = tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit");
+            if compare.on_hover_text(help).clicked() {
+                cx.actions.push(Command::CompareModels);
             }
-            ui.spinner();
-            running_model_ui(at, ui);
+            if let Some(at) = running {
+                if ui.button(tr!("Stop comparing")).clicked() {
+                    cx.actions.push(Command::CancelComparison);
+                }
+                ui.spinner();
+                running_model_ui(at, ui);
+            }
+        });
+        let comparison = cx.comparison;
+        if comparison.is_empty() {
+            if running.is_none() {
+                ui.label(tr!("Nothing is compared yet."));
+            }
+            return;
         }
-    });
-    if comparison.is_empty() {
-        if running.is_none() {
-            ui.label(tr!("Nothing is compared yet."));
-        }
-        return;
+        ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
+            models_ui(comparison, cx.settings.model, cx.document, cx.actions, ui);
+            ui.add_space(6.0);
+            for sentence in verdicts(comparison) {
+                ui.label(sentence);
+            }
+            CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
+        });
     }
-    ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-        models_ui(comparison, settings.model, document, commands, ui);
-        ui.add_space(6.0);
-        for sentence in verdicts(comparison) {
-            ui.label(sentence);
-        }
-        CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
-    });
 }
 
 /// Which model is being fitted.

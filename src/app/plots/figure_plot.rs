@@ -1,0 +1,202 @@
+//! A figure on the screen: the pane paints the same description that the exporter writes.
+
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::axis::axis;
+use crate::app::plots::plot_axis::PlotAxis;
+use crate::app::plots::plot_item::{PlotItem, coordinates};
+use crate::app::plots::{Axes, KeyEntry, Range, key_line_ui, plot};
+use crate::figure::{Figure, Panel};
+use egui::Ui;
+use egui_plot::{AxisHints, HoverPosition, PlotResponse, PlotUi};
+use tr::tr;
+
+/// A figure with its panels ready to be painted, made anew when its inputs `K` are others.
+pub struct FigurePlot<K> {
+    figure: Memo<K, Option<Figure>>,
+    panels: Vec<PanelPlot>,
+}
+
+impl<K> Default for FigurePlot<K> {
+    fn default() -> Self {
+        Self { figure: Memo::default(), panels: Vec::new() }
+    }
+}
+
+impl<K: PartialEq> FigurePlot<K> {
+    /// Sees to it that the figure is of these inputs.
+    pub fn refresh(&mut self, key: K, describe: impl FnOnce(&K) -> Option<Figure>) {
+        if self.figure.refresh(key, describe) {
+            let panels = self.figure.get().and_then(Option::as_ref).map_or(&[][..], |figure| &figure.panels);
+            self.panels.resize_with(panels.len(), PanelPlot::default);
+            self.panels.iter_mut().zip(panels).for_each(|(plot, panel)| plot.set(panel));
+        }
+    }
+
+    /// The figure, as it is exported.
+    pub fn figure(&self) -> Option<&Figure> {
+        self.figure.get()?.as_ref()
+    }
+
+    /// A panel of it.
+    pub fn panel(&mut self, index: usize) -> Option<&mut PanelPlot> {
+        self.panels.get_mut(index)
+    }
+
+    /// All its panels.
+    pub fn panels(&mut self) -> &mut [PanelPlot] {
+        &mut self.panels
+    }
+}
+
+/// A panel of a figure, and how the user looks at it.
+#[derive(Default)]
+pub struct PanelPlot {
+    content: Option<Content>,
+    axes: Axes,
+}
+
+/// A panel in the coordinates of the plot.
+struct Content {
+    title: String,
+    x: PlotAxis,
+    y: PlotAxis,
+    items: Vec<PlotItem>,
+    equal_aspect: bool,
+}
+
+/// How a panel stands in its pane.
+pub struct PanelStyle<'a> {
+    /// Tells plots apart.
+    pub id: &'a str,
+    pub height: f32,
+    /// What a screen reader says of it; without, which axes it has.
+    pub name: Option<String>,
+    /// What the pointer reads at a point of that name, at x and y.
+    pub hover: &'a dyn Fn(&str, f64, f64) -> String,
+    /// Least room of the vertical axis, in points.
+    pub left: f32,
+    /// Between marks of the vertical axis, in units of egui's smallest spacing.
+    pub spread: f64,
+}
+
+impl<'a> PanelStyle<'a> {
+    /// With the usual axes.
+    pub fn new(id: &'a str, height: f32, hover: &'a dyn Fn(&str, f64, f64) -> String) -> Self {
+        Self { id, height, name: None, hover, left: 72.0, spread: 5.0 }
+    }
+
+    /// With what a screen reader says of it.
+    pub fn named(self, name: String) -> Self {
+        Self { name: Some(name), ..self }
+    }
+}
+
+impl PanelPlot {
+    /// Takes up another panel; how the axes are looked at stays.
+    pub fn set(&mut self, panel: &Panel) {
+        let scales = [panel.x.scale, panel.y.scale];
+        // Ends of their own need no look at the points.
+        let is_free = panel.x.range.is_none() || panel.y.range.is_none();
+        let seen: Vec<(f64, f64)> = panel.series.iter().filter(|_| is_free).flat_map(|series| coordinates(series, scales)).collect();
+        let x = PlotAxis::new(&panel.x, seen.iter().map(|at| at.0));
+        let y = PlotAxis::new(&panel.y, seen.iter().map(|at| at.1));
+        let series = panel.series.iter().zip(panel.colors());
+        let items = series.filter_map(|(series, color)| PlotItem::new(series, color, &x, &y)).collect();
+        self.content = Some(Content { title: panel.title.clone(), x, y, items, equal_aspect: panel.equal_aspect });
+    }
+
+    /// The names of what is drawn, in lines above it, where they hide nothing.
+    pub fn key_line_ui(&self, ui: &mut Ui) {
+        let Some(Content { items, .. }) = &self.content else { return };
+        let dark = ui.visuals().dark_mode;
+        let is_first = |(i, item): &(usize, &PlotItem)| !items[..*i].iter().any(|before| before.name == item.name);
+        let named = items.iter().enumerate().filter(|(_, item)| !item.name.is_empty()).filter(is_first);
+        let entries: Vec<KeyEntry> = named
+            .map(|(_, item)| {
+                let (style, width) = item.sample();
+                KeyEntry { name: item.name.clone(), color: item.color(dark), style, width }
+            })
+            .collect();
+        key_line_ui(&entries, ui);
+    }
+
+    /// Paints it; the answer has the place of a click.
+    pub fn ui(&mut self, style: &PanelStyle<'_>, ui: &mut Ui) -> Option<PlotResponse<()>> {
+        self.ui_with(style, ui, |_| ())
+    }
+
+    /// Like [`PanelPlot::ui`], with something behind it.
+    pub fn ui_with(&mut self, style: &PanelStyle<'_>, ui: &mut Ui, behind: impl FnOnce(&mut PlotUi<'_>)) -> Option<PlotResponse<()>> {
+        let Self { content: Some(Content { title, x, y, items, equal_aspect }), axes } = self else { return None };
+        let (x, y) = (&*x, &*y);
+        let dark = ui.visuals().dark_mode;
+        let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
+        let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(40.0);
+        let y_axis = axis(AxisHints::new_y(), ui, &y.title, |at, step| y.label(at, step)).min_thickness(style.left);
+        let ranges = if *equal_aspect {
+            of_equal_units([x.range, y.range], ui.available_width() - style.left, style.height - 40.0)
+        } else {
+            [x.range, y.range]
+        };
+        let figure = plot(style.id, ui, style.height, x_axis, y_axis)
+            .x_grid_spacer(|input| x.marks(&input, 7.0))
+            .y_grid_spacer(|input| y.marks(&input, style.spread))
+            .label_formatter(|hover: &HoverPosition<'_>| match hover {
+                HoverPosition::NearDataPoint { plot_name, position, .. } if !plot_name.is_empty() => {
+                    Some((style.hover)(plot_name, x.value(position.x), y.value(position.y)))
+                }
+                _ => None,
+            });
+        let figure = if *equal_aspect { figure.data_aspect(1.0) } else { figure };
+        let response = figure.show(ui, |plot| {
+            axes.apply(plot, Some(ranges[0]), Some(ranges[1]));
+            behind(plot);
+            items.iter().for_each(|item| item.draw(plot, dark));
+        });
+        let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
+        axes.track_interaction(&response, &name, ui);
+        Some(response)
+    }
+}
+
+/// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of a plot of that size.
+fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {
+    let ratio = f64::from(width.max(1.0) / height.max(1.0));
+    let wide = f64::max(x.high - x.low, ratio * (y.high - y.low));
+    let high = wide / ratio;
+    let middle = f64::midpoint(x.low, x.high);
+    [Range { low: middle - 0.5 * wide, high: middle + 0.5 * wide }, Range { low: y.low, high: y.low + high }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FigurePlot, Range, of_equal_units};
+    use crate::figure::{Axis, Figure, Panel, Series};
+
+    #[test]
+    fn what_a_logarithm_has_no_place_for_is_a_gap() {
+        let points = vec![[1.0, 10.0], [2.0, 0.0], [10.0, 100.0], [100.0, 1000.0]];
+        let panel =
+            Panel { x: Axis::log("time", "ms"), y: Axis::log("error", ""), series: vec![Series::line("a", points)], ..Panel::default() };
+        let mut plot: FigurePlot<u8> = FigurePlot::default();
+        plot.refresh(1, |_| Some(Figure { panels: vec![panel], ..Figure::default() }));
+        assert_eq!(plot.figure().map(|figure| figure.panels.len()), Some(1));
+        let content = plot.panels[0].content.as_ref().expect("a panel");
+        assert!(content.x.range.low < 0.0 && content.x.range.high > 2.0);
+        assert_eq!((content.x.title.as_str(), content.x.value(1.0)), ("time / ms", 10.0));
+        assert_eq!(content.items.len(), 1);
+        // Another figure without panels leaves none on the screen.
+        plot.refresh(2, |_| None);
+        assert!(plot.figure().is_none() && plot.panels().is_empty());
+    }
+
+    #[test]
+    fn the_whole_drawing_is_seen_in_plots_of_every_shape() {
+        for (width, height) in [(575.0, 285.0), (300.0, 400.0), (1200.0, 300.0)] {
+            let [x, y] = of_equal_units([Range { low: -1.3, high: 1.3 }, Range { low: -0.2, high: 1.3 }], width, height);
+            assert!(x.low <= -1.3 && x.high >= 1.3 && y.low <= -0.2 && y.high >= 1.3 - 1e-9);
+            let lengths = [f64::from(width) / (x.high - x.low), f64::from(height) / (y.high - y.low)];
+            assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-6, "{lengths:?}");
+        }
+    }
+}

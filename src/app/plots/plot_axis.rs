@@ -1,0 +1,90 @@
+//! An axis of a figure on the screen: where values lie along it, its ends and its marks.
+
+use crate::app::plots::Range;
+use crate::app::plots::axis::{decades, decimal, logarithmic, marks};
+use crate::figure::{Axis, Scale};
+use egui_plot::{GridInput, GridMark};
+
+/// An axis in the coordinates of the plot, which are decimal logarithms on a logarithmic one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlotAxis {
+    pub title: String,
+    pub range: Range,
+    log: bool,
+    ticks: Option<Vec<(f64, String)>>,
+}
+
+/// Room around what is drawn, as a fraction of it.
+const AIR: f64 = 0.04;
+
+/// Decades below the axis where what is 0 or less ends.
+const BELOW: f64 = 16.0;
+
+impl PlotAxis {
+    /// The axis; where it has no ends of its own, around those coordinates.
+    pub fn new(axis: &Axis, coordinates: impl Iterator<Item = f64>) -> Self {
+        let log = axis.scale == Scale::Log;
+        let own = axis.range.and_then(|(low, high)| Some(Range { low: coordinate(log, low)?, high: coordinate(log, high)? }));
+        let range = own.filter(|range| range.low < range.high).unwrap_or_else(|| around(coordinates));
+        Self { title: axis.title(), range, log, ticks: axis.ticks.clone() }
+    }
+
+    /// The coordinate of a value; none where the axis has no place for it.
+    pub fn coordinate(&self, value: f64) -> Option<f64> {
+        coordinate(self.log, value)
+    }
+
+    /// Like [`PlotAxis::coordinate`], but 0 and less lie far below a logarithmic axis: ends of bands and error bars.
+    pub fn end_coordinate(&self, value: f64) -> Option<f64> {
+        if self.log && value <= 0.0 { Some(self.range.low - BELOW) } else { self.coordinate(value) }
+    }
+
+    /// The value at a coordinate.
+    pub fn value(&self, coordinate: f64) -> f64 {
+        if self.log { libm::exp10(coordinate) } else { coordinate }
+    }
+
+    /// Marks, at least `spread` times the plot's smallest spacing apart.
+    pub fn marks(&self, input: &GridInput, spread: f64) -> Vec<GridMark> {
+        match &self.ticks {
+            Some(ticks) => {
+                let at = ticks.iter().filter_map(|(at, _)| self.coordinate(*at));
+                at.map(|value| GridMark { value, step_size: spread * input.base_step_size }).collect()
+            }
+            None if self.log => decades(input, spread),
+            None => marks(input, spread, 0.0),
+        }
+    }
+
+    /// What stands at a mark.
+    pub fn label(&self, coordinate: f64, step_size: f64) -> String {
+        match &self.ticks {
+            Some(ticks) => {
+                let distance = |(at, _): &&(f64, String)| self.coordinate(*at).map_or(f64::INFINITY, |at| (at - coordinate).abs());
+                let nearest = ticks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+                nearest.map_or_else(String::new, |(_, label)| label.clone())
+            }
+            None if self.log => logarithmic(coordinate, step_size),
+            None => decimal(coordinate, step_size),
+        }
+    }
+}
+
+/// The coordinate of a value on an axis.
+pub fn coordinate(log: bool, value: f64) -> Option<f64> {
+    let coordinate = if log { libm::log10(value) } else { value };
+    coordinate.is_finite().then_some(coordinate)
+}
+
+/// Ends with some air around coordinates.
+fn around(coordinates: impl Iterator<Item = f64>) -> Range {
+    let (low, high) = coordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    // Nothing, or a single place, has no extent of its own.
+    let (low, high) = match (low, high) {
+        (low, high) if low < high => (low, high),
+        (low, _) if low.is_finite() => (low - 0.5, low + 0.5),
+        _ => (0.0, 1.0),
+    };
+    let air = AIR * (high - low);
+    Range { low: low - air, high: high + air }
+}

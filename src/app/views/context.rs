@@ -1,0 +1,70 @@
+//! What a pane is, and what it gets to see of the window.
+
+use crate::app::jobs::async_memo::Background;
+use crate::app::jobs::worker::Worker;
+use crate::app::shell::benchmarks::Benchmarks;
+use crate::app::shell::commands::Command;
+use crate::app::views::derived::Derived;
+use crate::app::work::document::Document;
+use crate::app::work::fit_history::{FitEntry, FitHistory};
+use crate::app::work::model_fit::ModelFit;
+use crate::app::work::settings::Settings;
+use crate::figure::Figure;
+use egui::{Key, Ui};
+use std::any::Any;
+use std::sync::Arc;
+
+/// What a pane may look at, and where it leaves what it wants to have done.
+pub struct Cx<'a> {
+    pub settings: &'a mut Settings,
+    pub document: &'a Document,
+    /// The fit that is shown.
+    pub fit: Option<&'a Arc<FitEntry>>,
+    pub fits: &'a FitHistory,
+    pub comparison: &'a [ModelFit],
+    pub derived: &'a mut Derived,
+    pub background: &'a Background,
+    pub worker: &'a Worker,
+    pub benchmarks: &'a mut Benchmarks,
+    pub actions: &'a mut Vec<Command>,
+    /// Whether a button of the mouse is down: axes then grow and do not shrink.
+    pub interacting: bool,
+}
+
+/// The content of a pane.
+pub trait View: Any {
+    /// Makes anew what it paints where inputs are others; called before each frame that has the pane on screen, and at no other time.
+    fn refresh(&mut self, _cx: &mut Cx<'_>) {}
+
+    /// Paints it; evaluates nothing.
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui);
+
+    /// The content of its *Show* menu.
+    fn options_ui(&mut self, _cx: &mut Cx<'_>, _ui: &mut Ui) {}
+
+    /// What it shows, for files and the clipboard.
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        None
+    }
+
+    /// Stops what is being made for it, once it is off the screen.
+    fn suspend(&mut self) {}
+
+    /// How many frames it is behind the sliders.
+    fn lag(&self) -> u64 {
+        0
+    }
+}
+
+/// What there is to know of a pane.
+pub struct PaneSpec {
+    pub title: &'static str,
+    pub tooltip: &'static str,
+    /// Shows it, together with Ctrl.
+    pub shortcut: Option<Key>,
+    /// Whether it has a *Show* menu.
+    pub has_options: bool,
+    /// Whether it has a plot to export.
+    pub has_figure: bool,
+    pub new: fn() -> Box<dyn View>,
+}

@@ -1,0 +1,183 @@
+//! The map of all directions of view: its values, their range and colours.
+
+use crate::app::jobs::async_memo::Stopped;
+use crate::app::plots::{ColorScale, Range, nice_ceiling};
+use crate::app::views::curves::{DECADES, SETS_AXES};
+use crate::app::work::settings::Quantity;
+use crate::figure::{Axis, ColorMap, HeatMap};
+use egui::{ColorImage, Vec2, vec2};
+use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
+use pbrdf::optics::Degrees;
+use std::sync::Arc;
+
+/// Cells along an edge of the map.
+pub const SIZE: usize = 256;
+
+/// Parameters, model, θi.
+pub type MapKey = (Parameters, Model, f64);
+
+/// What the job makes.
+pub struct Made {
+    /// Kept for the next surface at the same θi.
+    pub hemisphere: Arc<Hemisphere>,
+    pub theta_i: f64,
+    pub map: HemisphereMap,
+    /// Smallest and largest value of each quantity, as it is coloured.
+    pub extremes: [(f64, f64); Quantity::ALL.len()],
+}
+
+impl Made {
+    /// The map in a figure, over degrees from the middle outwards so that axes can tell θr.
+    pub fn heat_map(&self, quantity: Quantity, range: Range, axis: Axis) -> HeatMap {
+        // The BRDF is kept as its logarithm.
+        let value = |value: f64| if quantity == Quantity::Brdf { libm::exp10(value) } else { value };
+        let edges = Range { low: -90.0, high: 90.0 }.edges(SIZE);
+        HeatMap {
+            x_edges: edges.clone(),
+            y_edges: edges,
+            values: values(&self.map, quantity).iter().map(|at| value(*at)).collect(),
+            color_axis: axis.between(value(range.low), value(range.high)),
+            colors: quantity.colors(),
+        }
+    }
+
+    pub fn new(surface: &Pbrdf, theta_i: f64, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
+        let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, stopped).ok()??));
+        let hemisphere = before.or_else(prepared)?;
+        let mut map = hemisphere.map(surface, stopped)?;
+        // Coloured by its decades.
+        map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
+        let extremes = Quantity::ALL.map(|quantity| extremes(values(&map, quantity)));
+        Some(Self { hemisphere, theta_i, map, extremes })
+    }
+
+    pub fn image(&self, quantity: Quantity, scale: ColorScale) -> ColorImage {
+        let table = scale.table();
+        // The first row of an image is the uppermost, that of a map has the smallest y.
+        let rows = values(&self.map, quantity).chunks(SIZE).rev();
+        ColorImage::new([SIZE; 2], rows.flatten().map(|&value| table.color(value)).collect())
+    }
+}
+
+/// The values that are coloured, cell by cell; of the BRDF the logarithms.
+pub fn values(map: &HemisphereMap, quantity: Quantity) -> &[f64] {
+    match quantity {
+        Quantity::Dolp => &map.dolp,
+        Quantity::Angle => &map.angle,
+        Quantity::Brdf => &map.brdf,
+        Quantity::SpecularShare => &map.specular_share,
+    }
+}
+
+/// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound.
+fn extremes(values: &[f64]) -> (f64, f64) {
+    // Of the disc of radius 1 that has the horizon at its rim; a square of the radius needs no angle.
+    let rim = (SETS_AXES / 90.0) * (SETS_AXES / 90.0);
+    let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
+    for (row, values) in values.chunks(SIZE).enumerate() {
+        let y = center(row);
+        for (column, &value) in values.iter().enumerate() {
+            let x = center(column);
+            if value.is_finite() && x * x + y * y <= rim {
+                ends = (ends.0.min(value), ends.1.max(value));
+            }
+        }
+    }
+    ends
+}
+
+/// Where a cell lies between −1 and 1.
+#[expect(clippy::cast_precision_loss, reason = "a number of cells")]
+fn center(index: usize) -> f64 {
+    (2.0 * index as f64 + 1.0) / SIZE as f64 - 1.0
+}
+
+/// The range of colours that fits the values.
+pub fn wanted(quantity: Quantity, (low, high): (f64, f64)) -> Range {
+    match quantity {
+        Quantity::Dolp => Range { low: 0.0, high: if high <= 1.0 { nice_ceiling(high).min(1.0) } else { nice_ceiling(high) } },
+        Quantity::Angle => Range { low: -90.0, high: 90.0 },
+        Quantity::SpecularShare => Range { low: 0.0, high: 1.0 },
+        Quantity::Brdf if !high.is_finite() => Range { low: -1.0, high: 0.0 },
+        Quantity::Brdf => {
+            // By half decades.
+            let high = 0.5 * (2.0 * high).ceil();
+            Range { low: (0.5 * (2.0 * low).floor()).clamp(high - DECADES, high - 1.0), high }
+        }
+    }
+}
+
+/// The cell between −1 and 1 that a coordinate lies in.
+pub fn index(coordinate: f64) -> Option<usize> {
+    #[expect(clippy::cast_precision_loss, reason = "a number of cells")]
+    let place = 0.5 * (coordinate + 1.0) * SIZE as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be within the grid")]
+    (-1.0..1.0).contains(&coordinate).then_some(place as usize)
+}
+
+/// Where a direction lies on the disc of radius 1, x to the right and y upwards.
+pub fn place(theta_r: f64, dphi: f64) -> Vec2 {
+    let (sin, cos) = Degrees(dphi - 180.0).sin_cos();
+    #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+    let at = |coordinate: f64| (theta_r / 90.0 * coordinate) as f32;
+    vec2(at(cos), at(sin))
+}
+
+impl Quantity {
+    pub fn colors(self) -> ColorMap {
+        if self == Self::Angle { ColorMap::Cyclic } else { ColorMap::Sequential }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ColorScale, Made, Quantity, Range, SIZE, extremes, index, place, values, wanted};
+    use pbrdf::model::{Model, Parameters, Pbrdf};
+    use pbrdf::optics::SlopeDistribution;
+
+    #[test]
+    fn the_image_has_the_values_of_the_map_with_y_upwards() {
+        let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
+        let made = Made::new(&surface, 50.0, None, &|| false).expect("a map");
+        // On either side of the plane of incidence the angle of polarisation has the other sign.
+        let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
+        let image = made.image(Quantity::Angle, scale);
+        let (row, column) = (3 * SIZE / 4, SIZE / 2);
+        let (theta_r, dphi) = made.map.direction(row, column).expect("inside the disc");
+        let at = place(theta_r, dphi);
+        assert!(at.y > 0.4, "above the middle: {at:?}");
+        let value = values(&made.map, Quantity::Angle)[row * SIZE + column];
+        assert!(value.abs() > 5.0);
+        assert_eq!(image.pixels[(SIZE - 1 - row) * SIZE + column], scale.table().color(value));
+        assert_ne!(image.pixels[row * SIZE + column], scale.table().color(value));
+    }
+
+    #[test]
+    fn light_comes_from_the_left_and_the_mirror_is_to_the_right() {
+        for (dphi, x, y) in [(0.0, -0.5, 0.0), (180.0, 0.5, 0.0), (270.0, 0.0, 0.5), (90.0, 0.0, -0.5)] {
+            let at = place(45.0, dphi);
+            assert_eq!((at.x, at.y), (x, y), "{dphi}");
+        }
+        assert_eq!((index(-1.0), index(0.999_9), index(1.0), index(-1.1)), (Some(0), Some(255), None, None));
+    }
+
+    #[test]
+    fn colours_span_what_is_above_the_horizon() {
+        let mut map = vec![f64::NAN; SIZE * SIZE];
+        // In the middle, at θr of about 79° and of about 82°.
+        for (column, value) in [(SIZE / 2, 0.2), (SIZE / 2 + 112, 0.7), (SIZE / 2 + 117, 9.0)] {
+            map[SIZE / 2 * SIZE + column] = value;
+        }
+        assert_eq!(extremes(&map), (0.2, 0.7));
+    }
+
+    #[test]
+    fn colours_reach_the_largest_value_and_no_impossible_one() {
+        assert_eq!(wanted(Quantity::Dolp, (0.0, 0.97)), Range { low: 0.0, high: 1.0 });
+        assert_eq!(wanted(Quantity::Dolp, (0.0, 0.04)), Range { low: 0.0, high: 0.05 });
+        // Eq. (17) as printed divides by k_s.
+        assert_eq!(wanted(Quantity::Dolp, (0.0, 1.9)), Range { low: 0.0, high: 2.0 });
+        assert_eq!(wanted(Quantity::Brdf, (-2.3, 0.1)), Range { low: -2.5, high: 0.5 });
+        assert_eq!(wanted(Quantity::Brdf, (-80.0, 0.1)), Range { low: -7.5, high: 0.5 });
+    }
+}
