@@ -49,6 +49,10 @@ pub enum Expected {
     WoollamRow,
     /// The line with the unit of the wavelength in Woollam's text.
     WavelengthUnit,
+    /// An angle from the surface normal on either side of the sample, 0° to 180°.
+    PolarAngle,
+    /// A line of a header or of numbers, by an example of it.
+    Line(&'static str),
 }
 
 impl Expected {
@@ -63,6 +67,7 @@ impl std::fmt::Display for Expected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Parameter(domain) => return domain.fmt(f),
+            Self::Line(example) => return write!(f, "a line such as {example}"),
             Self::FiniteNumber => "a finite number",
             Self::Index => "n or k above 0",
             Self::Distribution => "gauss or cauchy",
@@ -84,6 +89,7 @@ impl std::fmt::Display for Expected {
             Self::Depolarisation => "a depolarisation in percent",
             Self::WoollamRow => "a row such as 650 55 43.2 160.0, or a quantity such as dpolE before its numbers",
             Self::WavelengthUnit => "a line with the unit of the wavelength, such as nm or Angstroms, before the rows",
+            Self::PolarAngle => "an angle from the surface normal, 0 ≤ θ ≤ 180 degrees",
         })
     }
 }

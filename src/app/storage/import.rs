@@ -93,6 +93,8 @@ pub fn note_text(note: &ImportNote) -> String {
             tr!("The file gives no angles for {}; they are taken to be even over their whole range.", names.join(", "))
         }
         ImportNote::NoValue { count } => tr!("Left out {} directions without a value.", count),
+        ImportNote::Transmission { count } => tr!("Left out {} rows of transmission.", count),
+        ImportNote::BrdfBelowZero { count } => tr!("Left out {} rows where the BRDF is below 0.", count),
         ImportNote::DolpAboveOne { count } => tr!("Left out the DoLP of {} directions where it is above 1.", count),
     }
 }

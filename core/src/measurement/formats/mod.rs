@@ -11,6 +11,7 @@ mod pbsdf;
 mod question;
 mod recognition;
 mod table;
+mod text_line;
 mod woollam;
 
 pub use error::ImportError;

@@ -42,6 +42,16 @@ pub enum ImportNote {
         /// How many.
         count: usize,
     },
+    /// Rows behind the sample are left out.
+    Transmission {
+        /// How many.
+        count: usize,
+    },
+    /// A BRDF below 0, which is noise, is left out.
+    BrdfBelowZero {
+        /// How many.
+        count: usize,
+    },
     /// A DoLP above 1 is left out.
     DolpAboveOne {
         /// How many.
@@ -81,6 +91,8 @@ impl std::fmt::Display for ImportNote {
                 write!(f, "gives no angles for {}; they are taken to be even over their whole range", names.join(", "))
             }
             Self::NoValue { count } => write!(f, "left out {count} geometries without a value"),
+            Self::Transmission { count } => write!(f, "left out {count} rows of transmission"),
+            Self::BrdfBelowZero { count } => write!(f, "left out {count} rows where the BRDF is below 0"),
             Self::DolpAboveOne { count } => write!(f, "left out the DoLP of {count} geometries where it is above 1"),
         }
     }

@@ -11,16 +11,12 @@ use super::error::ImportError;
 use super::format::{ForeignFile, Format, Imported};
 use super::note::ImportNote;
 use super::question::{ImportOptions, Question};
-use crate::measurement::table::BYTE_ORDER_MARK;
-use crate::measurement::{
-    ColumnPlace, Depolarisation, Ellipsometry, Expected, Progress, PsiDelta, ReadError, ReadErrorKind, SpecularDolp, unwatched,
-};
+use super::text_line::{TextLine, for_each_line};
+use crate::measurement::{Depolarisation, Ellipsometry, Expected, Progress, PsiDelta, ReadError, ReadErrorKind, SpecularDolp, unwatched};
 use std::io::Read;
 
-/// Longer than any head that was seen.
+/// More lines than any known head has.
 const HEAD_LINES: u64 = 20;
-/// Lines between two reports of progress.
-const LINES_PER_REPORT: u64 = 4096;
 /// nm times eV: h c/e in the SI since 2019.
 const NM_EV: f64 = 1_239.841_984_332_002_6;
 
@@ -86,42 +82,20 @@ impl Ellipsometry {
     pub fn read_with(mut source: impl Read, progress: Progress<'_>) -> Result<Self, ReadError> {
         let mut bytes = Vec::new();
         source.read_to_end(&mut bytes).map_err(|error| ReadErrorKind::Io(error).anywhere())?;
-        if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-            return Err(ReadErrorKind::Utf16.anywhere());
-        }
-        // A lone carriage return ended the lines of old Macs.
-        let line_end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-        let text = bytes.strip_prefix(&BYTE_ORDER_MARK).unwrap_or(&bytes);
         let mut found = Self::default();
         let mut unit = None;
-        let mut done = 0;
         let mut last = 1;
-        for (number, line) in (1_u64..).zip(text.split(|&byte| byte == line_end)) {
-            done += line.len() + 1;
-            if number.is_multiple_of(LINES_PER_REPORT) {
-                #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress bar")]
-                let share = (done as f64 / text.len() as f64).min(1.0);
-                if progress(share).is_break() {
-                    return Err(ReadErrorKind::Cancelled.anywhere());
-                }
-            }
-            if line.contains(&0) {
-                return Err(ReadErrorKind::Nul.at_line(number));
-            }
-            // The name of the sample may have any encoding.
-            let line = String::from_utf8_lossy(line);
-            let line = Line { number, cells: line.split_whitespace().collect(), text: line.trim() };
-            if line.cells.is_empty() {
-                continue;
-            }
-            last = number;
+        for_each_line(&bytes, progress, |line| {
+            last = line.number;
             match unit {
-                None => unit = line.head(&mut found)?,
-                Some(unit) => line.row(unit, &mut found)?,
+                None => unit = found.add_head(line)?,
+                Some(unit) => found.add_row(line, unit)?,
             }
-        }
+            Ok(())
+        })?;
         if unit.is_none() {
-            let kind = if bytes.iter().all(u8::is_ascii_whitespace) { ReadErrorKind::EmptyText } else { missing_unit(String::new()) };
+            let missing = ReadErrorKind::Unexpected { found: String::new(), expected: Expected::WavelengthUnit };
+            let kind = if bytes.iter().all(u8::is_ascii_whitespace) { ReadErrorKind::EmptyText } else { missing };
             return Err(kind.anywhere());
         }
         if found.rows.is_empty() {
@@ -129,111 +103,84 @@ impl Ellipsometry {
         }
         Ok(found)
     }
-}
 
-fn missing_unit(found: String) -> ReadErrorKind {
-    ReadErrorKind::Unexpected { found, expected: Expected::WavelengthUnit }
-}
-
-/// A line that is not empty.
-struct Line<'a> {
-    number: u64,
-    cells: Vec<&'a str>,
-    text: &'a str,
-}
-
-impl Line<'_> {
-    /// Takes in a line of the head; the unit, once it comes.
-    fn head(&self, found: &mut Ellipsometry) -> Result<Option<WavelengthUnit>, ReadError> {
+    /// Takes in a line of the head; returns the unit, once it comes.
+    fn add_head(&mut self, line: &TextLine<'_>) -> Result<Option<WavelengthUnit>, ReadError> {
         // A control character would break the line of metadata in a file of this project.
-        let mut add = |key: &str, value: &str| found.metadata.push((key.to_owned(), value.replace(char::is_control, " ")));
-        let bracketed = |name: &str| self.text.strip_prefix(name)?.strip_prefix('[').map(|rest| rest.trim_end_matches(']'));
-        if let Some(unit) = unit_of(self.text) {
+        let mut add = |key: &str, value: &str| self.metadata.push((key.to_owned(), value.replace(char::is_control, " ")));
+        let bracketed = |name: &str| line.text.strip_prefix(name)?.strip_prefix('[').map(|rest| rest.trim_end_matches(']'));
+        if let Some(unit) = unit_of(line.text) {
             return Ok(Some(unit));
         } else if let Some(method) = bracketed("VASEmethod") {
             add("method", method);
         } else if let Some(original) = bracketed("Original") {
             add("original", original);
-        } else if self.number == 1 {
-            add("sample", self.text);
-        } else if self.number > HEAD_LINES || self.cells.iter().take(3).all(|cell| cell.parse::<f64>().is_ok()) {
-            return Err(self.error(missing_unit(self.text.chars().take(40).collect())));
+        } else if line.number == 1 {
+            add("sample", line.text);
+        } else if line.number > HEAD_LINES || line.cells.iter().take(3).all(|cell| cell.parse::<f64>().is_ok()) {
+            return Err(line.unexpected(Expected::WavelengthUnit));
         } else {
-            add("note", self.text);
+            add("note", line.text);
         }
         Ok(None)
     }
 
-    fn row(&self, unit: WavelengthUnit, found: &mut Ellipsometry) -> Result<(), ReadError> {
-        let tag = self.cells[0];
+    /// Takes in a line of numbers.
+    fn add_row(&mut self, line: &TextLine<'_>, unit: WavelengthUnit) -> Result<(), ReadError> {
+        let tag = line.cells[0];
         if tag.parse::<f64>().is_ok() {
-            found.rows.push(self.psi_delta(0, unit)?);
+            self.rows.push(psi_delta(line, 0, unit)?);
         } else if tag == "E" {
-            found.rows.push(self.psi_delta(1, unit)?);
+            self.rows.push(psi_delta(line, 1, unit)?);
         } else if tag.eq_ignore_ascii_case("dpolE") {
-            found.depolarisation.push(self.depolarisation(unit)?);
-        } else if is_quantity(tag) && self.cells.len() >= 4 {
-            match found.ignored.iter_mut().find(|(name, _)| name == tag) {
+            self.depolarisation.push(depolarisation(line, unit)?);
+        } else if is_quantity(tag) && line.cells.len() >= 4 {
+            match self.ignored.iter_mut().find(|(name, _)| name == tag) {
                 Some((_, count)) => *count += 1,
-                None => found.ignored.push((tag.to_owned(), 1)),
+                None => self.ignored.push((tag.to_owned(), 1)),
             }
         } else {
-            let found = self.text.chars().take(40).collect();
-            return Err(self.error(ReadErrorKind::Unexpected { found, expected: Expected::WoollamRow }));
+            return Err(line.unexpected(Expected::WoollamRow));
         }
         Ok(())
     }
+}
 
-    fn psi_delta(&self, first: usize, unit: WavelengthUnit) -> Result<PsiDelta, ReadError> {
-        let numbers = self.cells.len() - first;
-        if numbers != 4 && numbers != 6 {
-            return Err(self.error(ReadErrorKind::Numbers { found: numbers, without_sigmas: 4, with_sigmas: 6 }));
-        }
-        let wavelength_nm = self.wavelength(first, unit)?;
-        let theta_i = self.number(first + 1, "aoi", Expected::ThetaI, |aoi| (0.0..90.0).contains(&aoi))?;
-        let psi = self.number(first + 2, "psi", Expected::Psi, |psi| (0.0..=90.0).contains(&psi))?;
-        let delta = self.number(first + 3, "delta", Expected::Delta, |_| true)?;
-        let mut sigma_psi = None;
-        if numbers == 6 {
-            sigma_psi =
-                Some(self.number(first + 4, "sigma_psi", Expected::SigmaOrZero, |sigma| sigma >= 0.0)?).filter(|&sigma| sigma > 0.0);
-            self.number(first + 5, "sigma_delta", Expected::SigmaOrZero, |sigma| sigma >= 0.0)?;
-        }
-        Ok(PsiDelta { wavelength_nm, theta_i, psi, delta, sigma_psi, line: self.number })
+fn psi_delta(line: &TextLine<'_>, first: usize, unit: WavelengthUnit) -> Result<PsiDelta, ReadError> {
+    let numbers = line.cells.len() - first;
+    if numbers != 4 && numbers != 6 {
+        return Err(line.error(ReadErrorKind::Numbers { found: numbers, without_sigmas: 4, with_sigmas: 6 }));
     }
+    let wavelength_nm = wavelength(line, first, unit)?;
+    let theta_i = line.number(first + 1, "aoi", Expected::ThetaI, |aoi| (0.0..90.0).contains(&aoi))?;
+    let psi = line.number(first + 2, "psi", Expected::Psi, |psi| (0.0..=90.0).contains(&psi))?;
+    let delta = line.number(first + 3, "delta", Expected::Delta, |_| true)?;
+    let mut sigma_psi = None;
+    if numbers == 6 {
+        let sigma = line.number(first + 4, "sigma_psi", Expected::SigmaOrZero, |sigma| sigma >= 0.0)?;
+        sigma_psi = Some(sigma).filter(|&sigma| sigma > 0.0);
+        line.number(first + 5, "sigma_delta", Expected::SigmaOrZero, |sigma| sigma >= 0.0)?;
+    }
+    Ok(PsiDelta { wavelength_nm, theta_i, psi, delta, sigma_psi, line: line.number })
+}
 
-    fn depolarisation(&self, unit: WavelengthUnit) -> Result<Depolarisation, ReadError> {
-        let numbers = self.cells.len() - 1;
-        if numbers != 3 && numbers != 4 {
-            return Err(self.error(ReadErrorKind::Numbers { found: numbers, without_sigmas: 3, with_sigmas: 4 }));
-        }
-        Ok(Depolarisation {
-            wavelength_nm: self.wavelength(1, unit)?,
-            theta_i: self.number(2, "aoi", Expected::ThetaI, |aoi| (0.0..90.0).contains(&aoi))?,
-            percent: self.number(3, "depolarisation", Expected::Depolarisation, |_| true)?,
-        })
+fn depolarisation(line: &TextLine<'_>, unit: WavelengthUnit) -> Result<Depolarisation, ReadError> {
+    let numbers = line.cells.len() - 1;
+    if numbers != 3 && numbers != 4 {
+        return Err(line.error(ReadErrorKind::Numbers { found: numbers, without_sigmas: 3, with_sigmas: 4 }));
     }
+    Ok(Depolarisation {
+        wavelength_nm: wavelength(line, 1, unit)?,
+        theta_i: line.number(2, "aoi", Expected::ThetaI, |aoi| (0.0..90.0).contains(&aoi))?,
+        percent: line.number(3, "depolarisation", Expected::Depolarisation, |_| true)?,
+    })
+}
 
-    fn wavelength(&self, cell: usize, unit: WavelengthUnit) -> Result<f64, ReadError> {
-        let stated = self.number(cell, "wavelength", Expected::Wavelength, |stated| stated > 0.0)?;
-        let nm = unit.nm(stated);
-        if nm.is_normal() { Ok(nm) } else { Err(self.cell_error(cell, "wavelength", Expected::Wavelength)) }
-    }
-
-    /// A finite number that is allowed.
-    fn number(&self, cell: usize, name: &str, expected: Expected, is_allowed: impl Fn(f64) -> bool) -> Result<f64, ReadError> {
-        let number = self.cells[cell].parse().ok().filter(|&number: &f64| number.is_finite() && is_allowed(number));
-        number.ok_or_else(|| self.cell_error(cell, name, expected))
-    }
-
-    fn cell_error(&self, cell: usize, name: &str, expected: Expected) -> ReadError {
-        let kind = ReadErrorKind::NotANumber { found: self.cells[cell].to_owned(), expected };
-        ReadError { line: Some(self.number), column: Some(ColumnPlace { number: cell + 1, name: name.to_owned() }), kind }
-    }
-
-    fn error(&self, kind: ReadErrorKind) -> ReadError {
-        kind.at_line(self.number)
-    }
+/// The wavelength of a row in nm.
+fn wavelength(line: &TextLine<'_>, cell: usize, unit: WavelengthUnit) -> Result<f64, ReadError> {
+    let stated = line.number(cell, "wavelength", Expected::Wavelength, |stated| stated > 0.0)?;
+    let nm = unit.nm(stated);
+    if nm.is_normal() { Ok(nm) } else { Err(line.cell_error(cell, "wavelength", Expected::Wavelength)) }
 }
 
 /// A short name, such as uR, pT or mm12.
