@@ -1,17 +1,47 @@
 //! The program pbrdf-explorer: a command line and a window on the core, the crate `pbrdf`.
 //!
-//! Floors, each importing only those before it: [`figure`] (the plotter), [`report`] (documents, JSON, tables), `cli`, `app` (the
-//! window).
+//! Floors, each importing only those before it: [`figure`] (the plotter), [`report`] (documents, JSON, tables), `files` (files read and
+//! written), `cli`, `app` (the window). Neither `cli` nor `app` needs the other.
 
 #[cfg(feature = "gui")]
 mod app;
 #[cfg(feature = "cli")]
-pub mod cli;
-#[cfg(feature = "cli")]
-mod export;
+mod cli;
 pub mod figure;
-#[cfg(feature = "cli")]
-mod open_file;
+#[cfg(feature = "files")]
+mod files;
 pub mod report;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Opens the window with a file in it and returns when the user closes it; the error is a sentence.
+type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+
+#[cfg(feature = "gui")]
+const WINDOW: Option<OpenWindow> = Some(app::run);
+#[cfg(not(feature = "gui"))]
+const WINDOW: Option<OpenWindow> = None;
+
+/// Runs the program as its arguments say; without arguments it opens the window.
 #[cfg(feature = "cli")]
-mod write_file;
+#[must_use]
+pub fn run() -> ExitCode {
+    cli::run(WINDOW)
+}
+
+/// Opens the window. This build reads no arguments.
+#[cfg(not(feature = "cli"))]
+#[must_use]
+pub fn run() -> ExitCode {
+    use std::io::Write as _;
+    let result = WINDOW.map_or_else(|| Err("This build has neither a window nor a command line.".to_owned()), |open| open(None));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(sentence) => {
+            // Nobody reads a closed stderr.
+            let _ = writeln!(std::io::stderr(), "{sentence}");
+            ExitCode::from(2)
+        }
+    }
+}

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    pbrdf_explorer::cli::run()
+    pbrdf_explorer::run()
 }

@@ -1,6 +1,6 @@
 //! Floor 6: the window.
 //!
-//! `logic` drains the worker, applies commands and refreshes what is derived; `ui` draws what is there and pushes commands. No
+//! `logic` takes the results of jobs, applies commands and refreshes what is derived; `ui` draws what is there and pushes commands. No
 //! model is evaluated in a paint closure and no fit runs on this thread.
 
 mod jobs;
@@ -9,15 +9,14 @@ mod platform;
 mod plots;
 mod shell;
 mod storage;
+mod tasks;
 #[cfg(test)]
 mod tests;
 mod text;
 mod views;
 mod work;
 
-use platform::heap;
 use shell::app::App;
-use shell::file_dialogs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use storage::settings_file;
@@ -30,7 +29,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     if !display_is_named() {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
-    heap::raise_trim_threshold();
+    platform::raise_trim_threshold();
     let (stored, notice) = settings_file::load();
     let mut viewport =
         egui::ViewportBuilder::default().with_title(TITLE).with_app_id(settings_file::APP).with_min_inner_size([1024.0, 640.0]);
@@ -40,7 +39,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         STARTED.store(true, Ordering::Relaxed);
         let mut explorer = App::new(&context.egui_ctx, stored);
         explorer.settings_file = settings_file::path();
-        explorer.worker.ask = file_dialogs::ask_desktop;
+        explorer.jobs.files.ask = tasks::file_request::ask_user;
         if let Some(notice) = notice {
             explorer.say(notice);
         }

@@ -5,7 +5,7 @@ use crate::cli::failure::Failure;
 use crate::cli::problem::{problem, starts};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
-use crate::export;
+use crate::files::export;
 use crate::report::{English, FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
 use pbrdf::fit::{
     BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, fit, profile,

@@ -3,7 +3,7 @@
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
 use crate::cli::output::{Progress, notice};
-use crate::open_file::open_file;
+use crate::files::open_file::open_file;
 use pbrdf::measurement::formats::{ImportNote, recognise};
 use pbrdf::measurement::{Field, Hint, Mapping, Measurement, ReadError, ReadErrorKind, Table};
 use std::io::Read as _;

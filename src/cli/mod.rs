@@ -22,12 +22,17 @@ mod values;
 mod watched;
 
 use arguments::{Arguments, Commands, ExportTarget};
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 use failure::Failure;
+use std::io::Write as _;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Runs what the arguments say.
-pub fn run() -> ExitCode {
+/// Opens the window with a file in it and returns when the user closes it; the error is a sentence.
+type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+
+/// Runs what the arguments say; without a command opens the window, where this build has one.
+pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => return Failure::usage(sentence(&error)).report(),
@@ -44,7 +49,7 @@ pub fn run() -> ExitCode {
         Some(Commands::Import(arguments)) => import::run(&arguments),
         Some(Commands::Export(ExportTarget::Mitsuba(arguments))) => mitsuba::run(&arguments),
         Some(Commands::Metals(arguments)) => metals::run(&arguments),
-        None => window(arguments.file),
+        None => window(open_window, arguments.file),
     };
     match result {
         Ok(code) => code,
@@ -62,34 +67,24 @@ fn sentence(error: &clap::Error) -> String {
     format!("{first}{}.", letters.as_str().trim_end_matches('.'))
 }
 
-/// Opens the window.
-#[cfg(feature = "gui")]
-fn window(file: Option<std::path::PathBuf>) -> Result<ExitCode, Failure> {
-    crate::app::run(file).map_err(|reason| {
-        Failure::usage(format!("{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help."))
-    })?;
-    Ok(ExitCode::SUCCESS)
-}
-
-/// This build has no window.
-#[cfg(not(feature = "gui"))]
-fn window(file: Option<std::path::PathBuf>) -> Result<ExitCode, Failure> {
-    use clap::CommandFactory as _;
-    match file {
-        Some(file) => Err(Failure::usage(format!(
+fn window(open: Option<OpenWindow>, file: Option<PathBuf>) -> Result<ExitCode, Failure> {
+    match (open, file) {
+        (Some(open), file) => {
+            open(file).map_err(|reason| {
+                Failure::usage(format!(
+                    "{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help."
+                ))
+            })?;
+            Ok(ExitCode::SUCCESS)
+        }
+        (None, Some(file)) => Err(Failure::usage(format!(
             "This build has no window to open {} in; it has the commands evaluate, fit and simulate: see pbrdf-explorer --help.",
             file.display()
         ))),
-        None => {
-            // Nothing can be done about a stderr that is closed.
-            let _ = eprint_help(&Arguments::command().render_help().to_string());
+        (None, None) => {
+            // Nobody reads a closed stderr.
+            let _ = write!(std::io::stderr(), "{}", Arguments::command().render_help());
             Ok(ExitCode::from(failure::USAGE))
         }
     }
-}
-
-#[cfg(not(feature = "gui"))]
-fn eprint_help(help: &str) -> std::io::Result<()> {
-    use std::io::Write as _;
-    write!(std::io::stderr(), "{help}")
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::failure::{Failure, INTERRUPTED};
 use crate::cli::interrupt;
-use crate::write_file::write_file;
+use crate::files::write_file::write_file;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
-use crate::export;
+use crate::files::export;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::{Columns, Mapping, TensorResolution};

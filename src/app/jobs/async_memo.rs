@@ -1,78 +1,30 @@
-//! Derived values that take longer than a frame: made on a thread of their own, always from the newest inputs.
+//! Derived values that take longer than a frame: made by a job, always from the newest inputs.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use crate::app::jobs::job::{Job, Panicked};
+use crate::app::jobs::spawner::Spawner;
 
-/// Where such jobs run: it wakes the window when one is done, and knows how many are on their way.
-#[derive(Clone)]
-pub struct Background {
-    ctx: egui::Context,
-    running: Arc<AtomicUsize>,
-}
-
-impl Background {
-    pub fn new(ctx: &egui::Context) -> Self {
-        Self { ctx: ctx.clone(), running: Arc::default() }
-    }
-
-    /// The number of the frame that is being made ready.
-    fn frame(&self) -> u64 {
-        self.ctx.cumulative_frame_nr()
-    }
-
-    /// Whether any job is on its way.
-    #[cfg(test)]
-    pub fn is_busy(&self) -> bool {
-        self.running.load(Ordering::Acquire) > 0
-    }
-}
-
-/// Ends a job in the count and wakes the window, also when the job panics.
-struct MemoResult(Background);
-
-impl Drop for MemoResult {
-    fn drop(&mut self) {
-        self.0.running.fetch_sub(1, Ordering::Release);
-        self.0.ctx.request_repaint();
-    }
-}
-
-/// What a job answers with. The fields end in this order: the answer, or that there is none, is known before the window wakes.
-struct Reply<V> {
-    sender: Sender<V>,
-    _ending: MemoResult,
-}
-
-/// A job on its way. Letting go of it tells it to stop.
+/// A running job, which makes the value of a key.
 struct Running<K, V> {
     key: K,
     /// The last frame that wanted these inputs.
     wanted_at: u64,
-    receiver: Receiver<V>,
-    stop: Arc<AtomicBool>,
+    job: Job<V>,
 }
 
-impl<K, V> Drop for Running<K, V> {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
-}
-
-/// Whether a job is to stop, which it looks at now and then.
+/// Tells a job whether it is to stop.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// A [`crate::app::jobs::memo::Memo`] that is made in the background. At most one job runs; inputs that come meanwhile wait, and only the
-/// newest are taken up. Until their value is there, the one before is shown. Letting go of it stops its job.
+/// A [`Memo`](crate::app::jobs::memo::Memo) whose value is made by a job. At most one job runs; of inputs that come meanwhile only the
+/// newest are used. Until their value is there, the value before is shown. Dropping the memo stops its job.
 pub struct AsyncMemo<K, V> {
     shown: Option<MemoState<K, V>>,
     running: Option<Running<K, V>>,
-    /// Inputs whose job panicked or could not be started: not tried again.
+    /// Inputs whose job panicked or did not start; they are not tried again.
     failed: Option<K>,
     frames_behind: u64,
 }
 
-/// A value that is done.
+/// A value with its inputs.
 struct MemoState<K, V> {
     key: K,
     value: V,
@@ -87,31 +39,21 @@ impl<K, V> Default for AsyncMemo<K, V> {
 }
 
 impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
-    /// Takes up what is done, and begins a job if the value belongs to other inputs than these. Call it before every frame that
-    /// shows the value. `make` owns its inputs; it runs on another thread, and what it answers after a stop is not seen.
-    pub fn refresh(&mut self, background: &Background, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
-        self.take_up();
-        let is_there = self.note_frame(background.frame(), key);
-        if is_there || self.running.is_some() || self.failed.as_ref() == Some(key) {
+    /// Takes the value of a job that has ended, and starts a job if the value belongs to other inputs than these. Call it before every
+    /// frame that shows the value. `make` owns its inputs and runs apart from the window; its value is dropped after a stop.
+    pub fn refresh(&mut self, spawner: &Spawner, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
+        self.poll();
+        let is_current = self.note_frame(spawner.frame(), key);
+        if is_current || self.running.is_some() || self.failed.as_ref() == Some(key) {
             return;
         }
-        let (sender, receiver) = channel();
-        let reply = Reply { sender, _ending: MemoResult(background.clone()) };
-        background.running.fetch_add(1, Ordering::Release);
-        let stop = Arc::new(AtomicBool::new(false));
-        let looked_at = stop.clone();
-        let run = move || {
-            let reply = reply;
-            // The window may be gone.
-            let _ = reply.sender.send(make(&|| looked_at.load(Ordering::Relaxed)));
-        };
-        match std::thread::Builder::new().name("derive".to_owned()).spawn(run) {
-            Ok(_) => self.running = Some(Running { key: key.clone(), wanted_at: background.frame(), receiver, stop }),
+        match spawner.start("derive", move |context| make(&|| context.is_cancelled())) {
+            Ok(job) => self.running = Some(Running { key: key.clone(), wanted_at: spawner.frame(), job }),
             Err(_) => self.failed = Some(key.clone()),
         }
     }
 
-    /// Takes down which inputs this frame wants; tells whether their value is there.
+    /// Notes which inputs this frame wants; tells whether their value is shown.
     fn note_frame(&mut self, frame: u64, key: &K) -> bool {
         self.running.iter_mut().filter(|running| running.key == *key).for_each(|running| running.wanted_at = frame);
         let Some(shown) = &mut self.shown else { return false };
@@ -122,18 +64,18 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
         shown.key == *key
     }
 
-    fn take_up(&mut self) {
-        let Some(running) = self.running.take() else { return };
-        match running.receiver.try_recv() {
-            Ok(value) => self.shown = Some(MemoState { key: running.key.clone(), value, wanted_at: running.wanted_at }),
-            Err(TryRecvError::Empty) => self.running = Some(running),
-            Err(TryRecvError::Disconnected) => self.failed = Some(running.key.clone()),
+    fn poll(&mut self) {
+        let Some(Running { key, wanted_at, job }) = self.running.take() else { return };
+        match job.poll() {
+            Ok(Some(value)) => self.shown = Some(MemoState { key, value, wanted_at }),
+            Ok(None) => self.running = Some(Running { key, wanted_at, job }),
+            Err(Panicked) => self.failed = Some(key),
         }
     }
 
-    /// Stops the job on its way if nobody waits for what it makes of its inputs; the next one need not wait for it.
+    /// Stops the running job if nobody waits for the value of its inputs; the next job then need not wait for it.
     pub fn stop_if(&mut self, is_useless: impl FnOnce(&K) -> bool) {
-        self.take_up();
+        self.poll();
         if self.running.as_ref().is_some_and(|running| is_useless(&running.key)) {
             self.running = None;
         }
@@ -169,24 +111,18 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
 
 #[cfg(test)]
 mod tests {
-    use super::{AsyncMemo, Background};
+    use super::AsyncMemo;
+    use crate::app::jobs::spawner::Spawner;
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
-    /// A window after its first frame.
-    fn context() -> egui::Context {
-        let ctx = egui::Context::default();
-        end_frame(&ctx);
-        ctx
+    fn spawner() -> Spawner {
+        Spawner::new(|| {})
     }
 
-    fn end_frame(ctx: &egui::Context) {
-        ctx.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
-    }
-
-    fn wait(background: &Background) {
+    fn wait(spawner: &Spawner) {
         let begun = Instant::now();
-        while background.is_busy() {
+        while spawner.is_busy() {
             assert!(begun.elapsed() < Duration::from_secs(60), "the job does not end");
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -194,46 +130,46 @@ mod tests {
 
     #[test]
     fn the_newest_inputs_win_and_the_old_value_is_shown_meanwhile() {
-        let background = Background::new(&context());
+        let spawner = spawner();
         let mut job: AsyncMemo<u32, u32> = AsyncMemo::default();
-        job.refresh(&background, &1, |_| 10);
-        wait(&background);
+        job.refresh(&spawner, &1, |_| 10);
+        wait(&spawner);
         let (let_go, hold) = channel::<()>();
-        job.refresh(&background, &2, move |_| {
+        job.refresh(&spawner, &2, move |_| {
             let _ = hold.recv();
             20
         });
         assert_eq!((job.get(), job.is_running()), (Some(&10), true));
         // 3 comes and goes while 2 is being made.
-        job.refresh(&background, &3, |_| 30);
-        job.refresh(&background, &4, |_| 40);
+        job.refresh(&spawner, &3, |_| 30);
+        job.refresh(&spawner, &4, |_| 40);
         drop(let_go);
-        wait(&background);
-        job.refresh(&background, &4, |_| 40);
+        wait(&spawner);
+        job.refresh(&spawner, &4, |_| 40);
         assert_eq!(job.get(), Some(&20));
-        wait(&background);
-        job.refresh(&background, &4, |_| 40);
+        wait(&spawner);
+        job.refresh(&spawner, &4, |_| 40);
         assert_eq!((job.get(), job.key(), job.is_running()), (Some(&40), Some(&4), false));
     }
 
     #[test]
     fn a_job_that_panics_is_not_tried_again_with_the_same_inputs() {
-        let background = Background::new(&context());
+        let spawner = spawner();
         let mut job: AsyncMemo<u32, u32> = AsyncMemo::default();
-        job.refresh(&background, &1, |_| std::panic::panic_any("on purpose"));
-        wait(&background);
-        job.refresh(&background, &1, |_| 10);
+        job.refresh(&spawner, &1, |_| std::panic::panic_any("on purpose"));
+        wait(&spawner);
+        job.refresh(&spawner, &1, |_| 10);
         assert!(job.has_failed(&1) && !job.is_running() && job.get().is_none());
-        job.refresh(&background, &2, |_| 20);
-        wait(&background);
-        job.refresh(&background, &2, |_| 20);
+        job.refresh(&spawner, &2, |_| 20);
+        wait(&spawner);
+        job.refresh(&spawner, &2, |_| 20);
         assert_eq!(job.get(), Some(&20));
     }
 
     /// A job that answers whether it was told to stop, once it is let go.
-    fn held(job: &mut AsyncMemo<u32, bool>, background: &Background, key: u32) -> std::sync::mpsc::Sender<()> {
+    fn held(job: &mut AsyncMemo<u32, bool>, spawner: &Spawner, key: u32) -> std::sync::mpsc::Sender<()> {
         let (let_go, hold) = channel::<()>();
-        job.refresh(background, &key, move |stopped| {
+        job.refresh(spawner, &key, move |stopped| {
             let _ = hold.recv();
             stopped()
         });
@@ -242,31 +178,31 @@ mod tests {
 
     #[test]
     fn a_useless_job_is_stopped_and_the_next_does_not_wait_for_it() {
-        let background = Background::new(&context());
+        let spawner = spawner();
         let mut job = AsyncMemo::default();
-        let first = held(&mut job, &background, 1);
+        let first = held(&mut job, &spawner, 1);
         job.stop_if(|key| *key != 1);
         assert!(job.is_running(), "it is of use");
         job.stop_if(|key| *key == 1);
         assert!(!job.is_running());
-        drop(held(&mut job, &background, 2));
+        drop(held(&mut job, &spawner, 2));
         while job.get().is_none() {
-            drop(held(&mut job, &background, 2));
+            drop(held(&mut job, &spawner, 2));
         }
         assert_eq!((job.key(), job.get()), (Some(&2), Some(&false)));
         drop(first);
-        wait(&background);
+        wait(&spawner);
         job.stop_if(|_| false);
         assert_eq!((job.key(), job.get()), (Some(&2), Some(&false)), "what a stopped job answers is not seen");
     }
 
     #[test]
     fn letting_go_stops_the_job() {
-        let background = Background::new(&context());
+        let spawner = spawner();
         let (sender, told) = channel();
         let (let_go, hold) = channel::<()>();
         let mut job: AsyncMemo<u32, ()> = AsyncMemo::default();
-        job.refresh(&background, &1, move |stopped| {
+        job.refresh(&spawner, &1, move |stopped| {
             let before = stopped();
             let _ = hold.recv();
             let _ = sender.send((before, stopped()));
@@ -279,18 +215,17 @@ mod tests {
 
     #[test]
     fn frames_are_counted_since_the_inputs_of_what_is_shown_were_the_newest() {
-        let ctx = context();
-        let background = Background::new(&ctx);
+        let spawner = spawner();
         let mut job = AsyncMemo::default();
         let mut in_frame = |key: u32, let_go: bool| {
-            end_frame(&ctx);
+            spawner.begin_frame();
             let (sender, hold) = channel::<()>();
-            job.refresh(&background, &key, move |_| {
+            job.refresh(&spawner, &key, move |_| {
                 let _ = hold.recv();
             });
             if let_go {
                 drop(sender);
-                wait(&background);
+                wait(&spawner);
             } else {
                 // Held for as long as the test runs.
                 std::mem::forget(sender);

@@ -1,6 +1,9 @@
-//! Jobs: work off the thread of the window, with progress, cancel and result; nothing of fits is known here.
+//! Jobs: work apart from the window's thread, with progress, cancel and result.
+//!
+//! This floor knows nothing of fits, files or sessions; the jobs of the program are in `tasks`.
 
 pub mod async_memo;
-pub mod kind;
+pub mod job;
 pub mod memo;
-pub mod worker;
+pub mod slot;
+pub mod spawner;

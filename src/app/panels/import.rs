@@ -24,7 +24,7 @@ const SHOWN: usize = 5;
 const LISTED: usize = 12;
 
 pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { import: Some(import), worker, commands, .. } = explorer else { return };
+    let App { import: Some(import), jobs, commands, .. } = explorer else { return };
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         ui.heading(tr!("Import {}", import.origin.name));
@@ -34,9 +34,9 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
         let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            if let Some(job) = &worker.load {
+            if let Some(done) = jobs.files.reading_fraction() {
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
-                ui.add(egui::ProgressBar::new(job.progress().unwrap_or(0.0) as f32).desired_width(160.0).text(tr!("Reading…")));
+                ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text(tr!("Reading…")));
             } else {
                 let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
                 if open.clicked() {

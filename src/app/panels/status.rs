@@ -18,7 +18,7 @@ const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
-    let App { work: Workspace { document, .. }, derived, worker, commands, window, frame_times, .. } = explorer;
+    let App { work: Workspace { document, .. }, derived, jobs, commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",
@@ -26,8 +26,7 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
             glossary::delta_e_help()
         ));
         ui.separator();
-        if let Some(job) = &worker.load {
-            let done = job.progress().unwrap_or(0.0);
+        if let Some(done) = jobs.files.reading_fraction() {
             #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
             ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text(tr!("Reading…")));
             if ui.button(tr!("Cancel reading")).clicked() {

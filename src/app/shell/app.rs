@@ -1,18 +1,18 @@
 //! The window as a whole: what it holds, what happens before each frame, and how a frame is put together.
 
-use crate::app::jobs::async_memo::Background;
-use crate::app::jobs::kind::JobKind;
-use crate::app::jobs::worker::{Event, Worker};
+use crate::app::jobs::spawner::Spawner;
 use crate::app::panels;
+use crate::app::platform::Instant;
 use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::command_palette::{Palette, palette_ui};
 use crate::app::shell::commands;
 use crate::app::shell::commands::Command;
 use crate::app::shell::docking::{Dock, panes_ui};
-use crate::app::shell::file_dialogs::DialogUnavailable;
+use crate::app::shell::file_dialogs::request_for;
 use crate::app::shell::frame_times::FrameTimes;
 use crate::app::shell::help::Help;
 use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::job_results::poll_jobs;
 use crate::app::shell::lesson_session::LessonSession;
 use crate::app::shell::lessons;
 use crate::app::shell::lessons::Lessons;
@@ -21,14 +21,13 @@ use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::storage::autosave::AutosaveKey;
 use crate::app::storage::export::ExportKind;
-use crate::app::storage::import::Loaded;
 use crate::app::storage::{export, settings_file};
+use crate::app::tasks::jobs::Jobs;
 use crate::app::text::i18n;
 use crate::app::text::i18n::phrase;
 use crate::app::text::messages::Localized as _;
 use crate::app::views::derived::Derived;
 use crate::app::views::{Cx, Views};
-use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::document::{Document, EXAMPLES};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{free, problem, reason};
@@ -47,7 +46,7 @@ use pbrdf::selftest::Setting;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tr::tr;
 
 /// The window.
@@ -57,7 +56,7 @@ pub struct App {
     /// Where the settings go; nowhere in tests.
     pub settings_file: Option<PathBuf>,
     pub derived: Derived,
-    pub worker: Worker,
+    pub jobs: Jobs,
     /// What the program found out about itself.
     pub reports: Benchmarks,
     /// Whether the panel shows what the data would determine.
@@ -73,8 +72,6 @@ pub struct App {
     pub lessons: Lessons,
     /// The user's own work, while a lesson is on.
     pub(crate) lesson_session: Option<Box<LessonSession>>,
-    /// Where panes make what takes longer than a frame.
-    pub background: Background,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub dragging: bool,
     /// Paths typed by hand, where there is no file dialog.
@@ -105,6 +102,10 @@ impl App {
         set_theme(ctx, stored.window.theme);
         let saved = stored.clone();
         let SettingsFile { settings, window } = stored;
+        let spawner = {
+            let ctx = ctx.clone();
+            Spawner::new(move || ctx.request_repaint())
+        };
         Self {
             saved,
             panes: Dock::new(&window.layout),
@@ -112,7 +113,7 @@ impl App {
             window,
             settings_file: None,
             derived: Derived::default(),
-            worker: Worker::new(ctx),
+            jobs: Jobs::new(spawner),
             reports: Benchmarks::default(),
             show_predicted_errors: false,
             notices: Notices::default(),
@@ -122,7 +123,6 @@ impl App {
             import: None,
             lessons: Lessons::default(),
             lesson_session: None,
-            background: Background::new(ctx),
             dragging: false,
             typed: PathEntry::default(),
             replacing: None,
@@ -177,7 +177,7 @@ impl App {
         self.views = Views::default();
         // What is set because of the new measurement is no step of its own.
         self.work.undo.replace(self.work.setup());
-        self.worker.abandon();
+        self.jobs.fits.abandon();
     }
 
     /// Before each frame: results of jobs, dropped files, commands, what is derived, settings.
@@ -187,9 +187,8 @@ impl App {
         }
         i18n::set(self.window.language);
         self.listen_to_keys(ctx);
-        while let Some(event) = self.worker.next() {
-            self.receive(event);
-        }
+        self.jobs.spawner.begin_frame();
+        poll_jobs(self);
         for command in std::mem::take(&mut self.commands) {
             if let Err(sentence) = self.execute(ctx, command) {
                 self.say(sentence);
@@ -197,7 +196,7 @@ impl App {
         }
         self.dragging = ctx.input(|input| input.pointer.any_down());
         self.refit_if_moved();
-        if !self.dragging && self.worker.refit.is_none() {
+        if !self.dragging && !self.jobs.fits.refit.is_running() {
             self.work.undo.rest(self.work.setup());
         }
         self.refresh();
@@ -228,8 +227,7 @@ impl App {
             fits: fit_history,
             comparison: model_comparison,
             derived: &mut self.derived,
-            background: &self.background,
-            worker: &self.worker,
+            jobs: &self.jobs,
             benchmarks: &mut self.reports,
             actions: &mut self.commands,
             interacting: self.dragging,
@@ -241,83 +239,6 @@ impl App {
     pub fn figure(&mut self, pane: PaneId) -> Option<Figure> {
         let (cx, views, _) = self.split();
         views.figure(pane, &cx)
-    }
-
-    pub(crate) fn receive(&mut self, event: Event) {
-        match event {
-            // It was asked before whatever waits to be carried out, and is about the work of then.
-            Event::Answered(question, Ok(path)) => drop(self.commands.splice(..0, path.map(|path| question.command(path)))),
-            Event::Answered(question, Err(DialogUnavailable)) => self.say(question.without_dialog()),
-            Event::Exported(what, result) => self.exported(what, result),
-            Event::Autosaved(result) => {
-                if let Err(sentence) = result {
-                    self.working_file = None;
-                    self.say(sentence);
-                }
-            }
-            Event::SessionRead { path, result } => self.session_read(&path, result),
-            Event::Saved(Ok(path)) => {
-                self.typed.served(&path);
-                self.notices.info(tr!("The measurement is saved to {}.", path.display()));
-            }
-            Event::Saved(Err(sentence)) => self.say(sentence),
-            Event::Loaded { origin, result: Ok(Loaded::Measurement(imported)) } => self.loaded(origin, *imported),
-            Event::Loaded { origin, result: Ok(Loaded::Foreign(file)) } => {
-                origin.path.iter().for_each(|path| self.typed.served(path));
-                self.import = Some(ImportDialog::new(origin, file));
-            }
-            Event::Loaded { origin, result: Err(sentence) } => {
-                origin.path.iter().for_each(|path| self.window.forget(path));
-                self.notices.load_error(sentence);
-            }
-            Event::ImportResult(result) => self.imported(result),
-            Event::Refitted(report) => {
-                // The sliders may have moved on: what is locked is theirs, what is free is the fit's.
-                for parameter in self.free() {
-                    self.work.settings.parameters[parameter] = report.parameters[parameter];
-                }
-                if self.work.settings.parameters == report.parameters {
-                    self.work.last_refit_at = Some(report.parameters);
-                }
-            }
-            Event::Compared(rungs) => self.work.model_comparison = rungs,
-            Event::Reported { made, is_part } => {
-                self.reports.take(*made, is_part);
-                self.go_on_with_reports();
-            }
-            Event::Broken(task) => self.broken(task),
-            Event::Profiled(profile) => {
-                let curve = |fit: &Arc<FitEntry>| ProfileCurve::new(&profile, &fit.problem, &fit.report);
-                self.work.diagnostics.profile = self.work.shown_fit.as_ref().map(curve);
-            }
-            Event::Scattered { replicates, scatter } => self.work.diagnostics.scatter = Some(Bootstrap { replicates, scatter }),
-            Event::Fitted { report, problem, generation, mask } => {
-                let before = self.work.settings.parameters;
-                self.work.settings.parameters = report.parameters;
-                self.work.last_refit_at = Some(report.parameters);
-                let Document { name, number, .. } = &self.work.document;
-                let (document, number) = (name.clone(), *number);
-                // The list of past fits numbers them.
-                let fit = FitEntry { id: 0, report: *report, problem, before, document, number, generation, mask };
-                let fit = self.work.fit_history.push(fit);
-                self.show_fit(Some(fit));
-            }
-        }
-    }
-
-    /// A job panicked.
-    fn broken(&mut self, task: JobKind) {
-        self.say(task.broken());
-        if task == JobKind::Report {
-            self.reports.give_up();
-            self.go_on_with_reports();
-        }
-    }
-
-    fn go_on_with_reports(&mut self) {
-        if let Err(sentence) = self.reports.go_on(&mut self.worker) {
-            self.say(sentence);
-        }
     }
 
     fn listen_to_keys(&mut self, ctx: &egui::Context) {
@@ -335,8 +256,8 @@ impl App {
     fn refit_if_moved(&mut self) {
         let parameters = self.work.settings.parameters;
         if !self.work.settings.refit_live
-            || self.worker.refit.is_some()
-            || self.worker.fit.is_some()
+            || self.jobs.fits.refit.is_running()
+            || self.jobs.fits.fit.is_running()
             || self.work.last_refit_at == Some(parameters)
         {
             return;
@@ -348,7 +269,7 @@ impl App {
         let Settings { model, choices, .. } = self.work.settings;
         // Why a fit is not possible is said when one is asked for.
         if let Ok(problem) = problem(&self.work.settings, &self.work.document.measurement, model, self.free(), choices)
-            && let Err(sentence) = self.worker.start_refit(problem)
+            && let Err(sentence) = self.jobs.fits.refit(problem)
         {
             self.say(sentence);
         }
@@ -365,25 +286,25 @@ impl App {
         });
         let problems = problems.collect();
         self.work.model_comparison.clear();
-        self.worker.start_comparison(problems, self.work.settings.starts, self.work.settings.seed)
+        self.jobs.fits.compare(problems, self.work.settings.starts, self.work.settings.seed)
     }
 
     pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         match command {
             Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
-                self.choose(&command)?;
+                request_for(self, &command).map_or(Ok(()), |request| self.jobs.files.ask(request))?;
             }
             Command::OpenMeasurement(path) if export::ExportKind::Session.check(&path).is_ok() => {
-                self.worker.open_session(path)?;
+                self.jobs.files.open_session(path)?;
             }
-            Command::OpenMeasurement(path) => self.worker.open(path)?,
-            Command::OpenSession(path) => self.worker.open_session(path)?,
+            Command::OpenMeasurement(path) => self.jobs.files.open(path)?,
+            Command::OpenSession(path) => self.jobs.files.open_session(path)?,
             Command::SaveSession => self.save_session(ctx)?,
             Command::Export(what, path) => self.export(what, path)?,
             Command::CopyPlot(pane) => ctx.copy_image(export::image(self.figure(pane))?),
             Command::CopyTable => self.copy_table(ctx),
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
-            Command::SaveMeasurement(path) => self.worker.save(path, self.work.document.measurement.clone())?,
+            Command::SaveMeasurement(path) => self.jobs.files.save(path, self.work.document.measurement.clone())?,
             Command::Mask { rows, masked } => {
                 self.work.document.set_masked(&rows, masked);
                 self.work.last_refit_at = None;
@@ -394,9 +315,9 @@ impl App {
             Command::KeepLesson => self.keep_lesson(),
             Command::ImportDialog => self.start_import()?,
             Command::CancelImport => self.cancel_import(),
-            Command::CancelLoading => self.worker.load.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::CancelLoading => self.jobs.files.cancel_load(),
             Command::StartFit => self.start_fit()?,
-            Command::CancelFit => self.worker.fit.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::CancelFit => self.jobs.fits.fit.cancel(),
             Command::UseFit => self.use_fit(),
             Command::Back => {
                 self.work.settings.parameters = self.work.shown_fit.as_ref().map_or(self.work.settings.parameters, |fit| fit.before)
@@ -420,17 +341,17 @@ impl App {
             Command::ReturnTo(index) => self.return_to(index),
             Command::Profile(parameter) => self.start_profile(parameter)?,
             Command::Bootstrap => self.start_bootstrap()?,
-            Command::CancelScan => self.worker.scan.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::CancelScan => self.jobs.fits.cancel_scan(),
             Command::UseRung(index) => self.use_rung(index),
             Command::CompareModels => {
                 self.panes.show(PaneId::Models);
                 self.compare_models()?;
             }
-            Command::MakeReport(subject) => self.reports.start(subject, &mut self.worker)?,
-            Command::ForgetReport(subject) => self.reports.forget(subject),
-            Command::CancelReport => self.reports.running.iter().for_each(|(_, job)| job.cancel()),
+            Command::MakeReport(subject) => self.jobs.benchmarks.start(subject)?,
+            Command::ForgetReport(subject) => self.jobs.benchmarks.forget(subject),
+            Command::CancelReport => self.jobs.benchmarks.cancel(),
             Command::UseCase(index) => self.use_case(index),
-            Command::CancelComparison => self.worker.comparison.iter().for_each(crate::app::jobs::worker::Job::cancel),
+            Command::CancelComparison => self.jobs.fits.compare.cancel(),
             Command::Toggle(switch) => {
                 let on = switch.of(self);
                 *on = !*on;
@@ -457,11 +378,11 @@ impl App {
         what.check(&path)?;
         let figure = if let ExportKind::Plot(pane) = what { self.figure(pane) } else { None };
         let write = what.taken_from(self, figure)?;
-        self.worker.export(what, path, write)
+        self.jobs.files.export(what, path, write)
     }
 
     fn open_example(&mut self, index: usize) -> Result<(), String> {
-        EXAMPLES.get(index).map_or(Ok(()), |example| self.worker.open_text(example.name.to_owned(), example.text))
+        EXAMPLES.get(index).map_or(Ok(()), |example| self.jobs.files.open_text(example.name.to_owned(), example.text))
     }
 
     fn set_parameters(&mut self, values: Vec<(Parameter, f64)>) {
@@ -508,9 +429,7 @@ impl App {
     fn start_bootstrap(&mut self) -> Result<(), String> {
         self.work.diagnostics.scatter = None;
         match self.shown_fit() {
-            Some((problem, report)) => {
-                self.worker.start_bootstrap(problem, report, self.work.diagnostics.replicates, self.work.settings.seed)
-            }
+            Some((problem, report)) => self.jobs.fits.bootstrap(problem, report, self.work.diagnostics.replicates, self.work.settings.seed),
             None => Ok(()),
         }
     }
@@ -518,7 +437,7 @@ impl App {
     fn start_profile(&mut self, parameter: Parameter) -> Result<(), String> {
         self.work.diagnostics.profile = None;
         match self.shown_fit() {
-            Some((problem, report)) => self.worker.start_profile(problem, report, parameter),
+            Some((problem, report)) => self.jobs.fits.profile(problem, report, parameter),
             None => Ok(()),
         }
     }
@@ -542,7 +461,7 @@ impl App {
     pub(crate) fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
         self.work.shown_fit = fit;
         self.work.diagnostics.forget();
-        self.worker.abandon_scan();
+        self.jobs.fits.abandon_scan();
     }
 
     /// Sliders and terms of a model that was compared.
@@ -588,7 +507,7 @@ impl App {
         parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
         let measurement = &self.work.document.measurement;
         match problem(&self.work.settings, measurement, model, self.free(), choices) {
-            Ok(problem) => self.worker.start_fit(problem, &self.work.document, starts, seed),
+            Ok(problem) => self.jobs.fits.fit(problem, &self.work.document, starts, seed),
             Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, measurement))),
         }
     }

@@ -1,54 +1,12 @@
-//! The reports of the program about itself, made in the background one after the other, since each measures times, and kept until they are made again.
+//! The reports of benchmarks as the window shows them.
 
-use crate::app::jobs::worker::{Job, Worker};
 use crate::app::plots::FigurePlot;
+use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::text::i18n::{self, Language};
 use crate::app::text::messages::WindowWording;
-#[cfg(test)]
-use crate::app::work::pane_id::PaneId;
-use crate::export::{machine, now};
 use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
-use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
-
-/// Which report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BenchmarkId {
-    ErrorVsTime,
-    Stability,
-    Cost,
-}
-
-impl BenchmarkId {
-    #[cfg(test)]
-    pub const ALL: [Self; 3] = [Self::ErrorVsTime, Self::Stability, Self::Cost];
-
-    /// Where it is shown.
-    #[cfg(test)]
-    pub fn pane(self) -> PaneId {
-        match self {
-            Self::ErrorVsTime => PaneId::ErrorVsTime,
-            Self::Stability => PaneId::Stability,
-            Self::Cost => PaneId::Cost,
-        }
-    }
-
-    /// Makes it; takes seconds to a minute.
-    pub fn make(self, surroundings: Host<'_>) -> BenchmarkResult {
-        match self {
-            Self::ErrorVsTime => BenchmarkResult::ErrorVsTime(ErrorVsTime::run(machine(), now(), surroundings)),
-            Self::Stability => BenchmarkResult::Stability(Stability::run(machine(), now(), surroundings)),
-            Self::Cost => BenchmarkResult::Cost(Cost::run(machine(), now(), surroundings)),
-        }
-    }
-}
-
-/// A report of one kind or another.
-pub enum BenchmarkResult {
-    ErrorVsTime(Report<ErrorVsTime>),
-    Stability(Report<Stability>),
-    Cost(Report<Cost>),
-}
+use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability};
 
 /// A report as it is shown.
 pub struct BenchmarkView<R> {
@@ -98,55 +56,17 @@ where
     }
 }
 
-/// The reports that there are, and the one that is being made.
+/// The reports of benchmarks, each kept until the benchmark runs again.
 #[derive(Default)]
 pub struct Benchmarks {
-    pub running: Option<(BenchmarkId, Job<f64>)>,
-    /// Those that come next.
-    waiting: Vec<BenchmarkId>,
     pub error_vs_time: Option<BenchmarkView<ErrorVsTime>>,
     pub stability: Option<BenchmarkView<Stability>>,
     pub cost: Option<BenchmarkView<Cost>>,
 }
 
 impl Benchmarks {
-    /// Begins one, or puts it behind the one that is being made: the two would disturb each other.
-    pub fn start(&mut self, subject: BenchmarkId, worker: &mut Worker) -> Result<(), String> {
-        if self.running.is_none() {
-            self.running = Some((subject, worker.start_report(subject)?));
-        } else if self.can_start(subject) {
-            self.waiting.push(subject);
-        }
-        Ok(())
-    }
-
-    /// Begins the one that waits longest, once nothing is being made.
-    pub fn go_on(&mut self, worker: &mut Worker) -> Result<(), String> {
-        if self.running.is_some() || self.waiting.is_empty() {
-            return Ok(());
-        }
-        let next = self.waiting.remove(0);
-        self.start(next, worker)
-    }
-
-    /// Whether it is neither being made nor waiting.
-    pub fn can_start(&self, subject: BenchmarkId) -> bool {
-        !self.is_waiting(subject) && self.running.as_ref().is_none_or(|(running, _)| *running != subject)
-    }
-
-    /// Whether it comes after another one.
-    pub fn is_waiting(&self, subject: BenchmarkId) -> bool {
-        self.waiting.contains(&subject)
-    }
-
-    /// Takes it out of the row of those that wait.
-    pub fn forget(&mut self, subject: BenchmarkId) {
-        self.waiting.retain(|other| *other != subject);
-    }
-
-    /// Takes the report that was being made in the place of the one before.
+    /// Shows a report in place of the one before; on the same page.
     pub fn take(&mut self, made: BenchmarkResult, is_part: bool) {
-        self.running = None;
         fn again<R: Row>(slot: &mut Option<BenchmarkView<R>>, report: Report<R>, is_part: bool)
         where
             Report<R>: BenchmarkFigures,
@@ -159,11 +79,6 @@ impl Benchmarks {
             BenchmarkResult::Stability(report) => again(&mut self.stability, report, is_part),
             BenchmarkResult::Cost(report) => again(&mut self.cost, report, is_part),
         }
-    }
-
-    /// The one that was being made came to nothing.
-    pub fn give_up(&mut self) {
-        self.running = None;
     }
 
     /// The figure in front of a report that was made.
@@ -182,10 +97,5 @@ impl Benchmarks {
             BenchmarkId::Stability => self.stability.iter_mut().for_each(BenchmarkView::refresh),
             BenchmarkId::Cost => self.cost.iter_mut().for_each(BenchmarkView::refresh),
         }
-    }
-
-    /// How far the one that is being made is.
-    pub fn progress(&self) -> Option<(BenchmarkId, f64)> {
-        self.running.as_ref().map(|(subject, job)| (*subject, job.progress().unwrap_or(0.0)))
     }
 }

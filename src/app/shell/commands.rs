@@ -1,9 +1,9 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::help::Help;
 use crate::app::storage::export::ExportKind;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
@@ -283,7 +283,7 @@ static ENTRIES: &[Entry] = &[
     row(Command::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |e| only_if(e.work.shown_fit.is_some())),
-    row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.worker.load.is_some())),
+    row(Command::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.jobs.files.reading_fraction().is_some())),
     row(Command::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Command::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
         |e| only_if(e.work.undo.can_undo())),
@@ -294,29 +294,29 @@ static ENTRIES: &[Entry] = &[
     row(Command::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
     row(Command::CopyTable, Menu::Edit, "Copy data table", "Every row as the pane Data shows it, with tabs between cells as spreadsheets want them", None, always),
     row(Command::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
-        plain(Key::F5), |e| only_if(e.worker.fit.is_none())),
-    row(Command::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.worker.fit.is_some())),
+        plain(Key::F5), |e| only_if(!e.jobs.fits.fit.is_running())),
+    row(Command::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.jobs.fits.fit.is_running())),
     row(Command::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |e| only_if(e.work.shown_fit.is_some())),
     row(Command::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
         |e| only_if(e.work.shown_fit.is_some())),
     row(Command::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
         |e| only_if(e.work.fit_history.len() > 1)),
     row(Command::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
-        |e| only_if(e.worker.comparison.is_none())),
+        |e| only_if(!e.jobs.fits.compare.is_running())),
     row(Command::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
-        |e| only_if(e.worker.comparison.is_some())),
+        |e| only_if(e.jobs.fits.compare.is_running())),
     row(Command::MakeReport(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
-        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.reports.can_start(BenchmarkId::ErrorVsTime))),
+        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::ErrorVsTime))),
     row(Command::MakeReport(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
-        None, |e| only_if(e.reports.can_start(BenchmarkId::Stability))),
+        None, |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::Stability))),
     row(Command::MakeReport(BenchmarkId::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
-        |e| only_if(e.reports.can_start(BenchmarkId::Cost))),
+        |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::Cost))),
     row(Command::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
-        |e| only_if(e.reports.running.is_some())),
+        |e| only_if(e.jobs.benchmarks.is_running())),
     row(Command::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
-        |e| only_if(e.work.shown_fit.is_some() && e.worker.scan.is_none())),
+        |e| only_if(e.work.shown_fit.is_some() && !e.jobs.fits.is_scanning())),
     row(Command::CancelScan, Menu::Fit, "Stop profile or bootstrap", "What is done so far is shown", None,
-        |e| only_if(e.worker.scan.is_some())),
+        |e| only_if(e.jobs.fits.is_scanning())),
     row(Command::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
         "Fixed parameters follow their sliders, the others are fitted again at once", None, |e| switch(e.work.settings.refit_live)),
     row(Command::ResetLayout, Menu::View, "Reset layout", "All panes where they were at first", None, always),

@@ -5,8 +5,9 @@
 //! rather than a software rasteriser, whose share `cpu_usage` includes: start it under Xvfb with Mesa's `GALLIUM_NOOP=1`, which draws
 //! nothing, hold a slider down, move it for more than five seconds (`xdotool mousemove`), and leave with Ctrl+Q.
 
+use crate::app::platform::Instant;
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tr::tr;
 
 /// The frames of the last five seconds.

@@ -2,22 +2,11 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::shell::app::App;
-use crate::app::storage::import::{note_text, with_notes};
+use crate::app::storage::import::{Origin, note_text, with_notes};
 use crate::app::work::design::Span;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};
-use std::path::PathBuf;
 use std::sync::Arc;
 use tr::tr;
-
-/// Where a measurement comes from.
-#[derive(Debug, Clone)]
-pub struct Origin {
-    pub name: String,
-    /// The file, if there is one.
-    pub path: Option<PathBuf>,
-    /// SHA-256 of its bytes, of a file.
-    pub sha256: Option<String>,
-}
 
 /// Ranges of angles to slice at, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +54,7 @@ impl App {
     /// Reads the whole file with the options.
     pub(crate) fn start_import(&mut self) -> Result<(), String> {
         match &self.import {
-            Some(import) => self.worker.import(Arc::clone(&import.file), import.options.clone()),
+            Some(import) => self.jobs.files.import(Arc::clone(&import.file), import.options.clone()),
             None => Ok(()),
         }
     }
@@ -73,7 +62,7 @@ impl App {
     /// Closes the dialog; the open measurement stays.
     pub(crate) fn cancel_import(&mut self) {
         if self.import.take().is_some() {
-            self.worker.abandon_load();
+            self.jobs.files.abandon_load();
         }
     }
 

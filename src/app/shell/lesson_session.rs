@@ -34,10 +34,10 @@ impl App {
 
     /// Keeps the user's own work, and goes on with the same panes and no fit; data and sliders are then the lesson's.
     fn set_aside(&mut self) {
-        if self.worker.fit.is_some() || self.worker.comparison.is_some() || self.worker.scan.is_some() {
+        if self.jobs.fits.fit.is_running() || self.jobs.fits.compare.is_running() || self.jobs.fits.is_scanning() {
             self.say(tr!("What was being fitted was stopped for the lesson."));
         }
-        self.worker.abandon();
+        self.jobs.fits.abandon();
         let setup = self.work.setup();
         self.work.undo.rest(setup);
         let copy = self.panes_at_its_beginning();
@@ -50,7 +50,7 @@ impl App {
 
     /// Whether nothing is on its way that belongs to what is shown now: a file would meet the other work.
     fn is_free_for_lessons(&self) -> Result<(), String> {
-        if self.worker.load.is_some() || self.worker.session.is_some() {
+        if self.jobs.files.reading_fraction().is_some() || self.jobs.files.session.is_running() {
             return Err(tr!("A file is still being read: begin the lesson when it is there."));
         }
         self.awaits_no_answer()
@@ -58,7 +58,7 @@ impl App {
 
     /// Whether no question about a file is open and none is being written: the answer would meet the other work.
     fn awaits_no_answer(&self) -> Result<(), String> {
-        if self.worker.is_asking() || self.worker.export.is_some() || self.import.is_some() || self.replacing.is_some() {
+        if self.jobs.files.dialog.is_running() || self.jobs.files.export.is_running() || self.import.is_some() || self.replacing.is_some() {
             return Err(tr!("A file is being chosen or written: lessons begin and end when that is done."));
         }
         Ok(())
@@ -82,9 +82,8 @@ impl App {
         self.lessons.open = None;
         let Some(session) = self.lesson_session.take() else { return };
         let LessonSession { saved, panes } = *session;
-        self.worker.abandon();
-        self.worker.abandon_load();
-        self.worker.session = None;
+        self.jobs.fits.abandon();
+        self.jobs.files.abandon_reading();
         self.import = None;
         self.work = saved;
         self.panes = panes;

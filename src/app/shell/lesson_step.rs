@@ -11,7 +11,7 @@ impl App {
     /// Sets up a step. Undo leads to the step before as that is set up, so that the two can be compared.
     pub(crate) fn set_up_step(&mut self, lesson: usize, step: usize, begins: bool) {
         let Some(steps) = self.lessons.all.get(lesson).and_then(|lesson| lesson.steps.get(..=step)).map(<[Step]>::to_vec) else { return };
-        self.worker.abandon();
+        self.jobs.fits.abandon();
         self.show_fit(None);
         self.work.model_comparison.clear();
         let mut fresh = begins;

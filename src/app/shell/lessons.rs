@@ -1,5 +1,6 @@
 //! The lessons: those that are bundled, those in the user's own folder, and where in one of them the user is.
 
+use crate::app::platform;
 use crate::app::storage::settings_file;
 use crate::app::text::i18n::phrase;
 use crate::app::work::lesson::{Lesson, Step};
@@ -67,7 +68,7 @@ impl Lessons {
 
 /// Where a user's own lessons lie.
 pub fn own_folder() -> Option<std::path::PathBuf> {
-    directories::ProjectDirs::from("", "", settings_file::APP).map(|folders| folders.data_dir().join("lessons"))
+    platform::data_folder(settings_file::APP).map(|folder| folder.join("lessons"))
 }
 
 fn lesson(text: &str) -> Result<Lesson, String> {

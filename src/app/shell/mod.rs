@@ -9,6 +9,7 @@ pub mod file_dialogs;
 pub mod frame_times;
 pub mod help;
 pub mod import_dialog;
+pub mod job_results;
 pub mod lesson_session;
 pub mod lesson_step;
 pub mod lessons;

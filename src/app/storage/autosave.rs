@@ -1,12 +1,13 @@
 //! Sessions in the window: opened, saved, and the working state kept without being asked.
 
-use crate::app::jobs::worker::{OpenedSession, save_session};
+use crate::app::platform::Instant;
 use crate::app::shell::app::{App, SAVE_AFTER};
 use crate::app::shell::commands::Command;
 use crate::app::shell::docking::Dock;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::RestoredFit;
+use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::text::messages::Localized as _;
 use crate::app::work::fit_history::FitEntry;
@@ -14,7 +15,6 @@ use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 use tr::tr;
 
 /// What the working state depends on.
@@ -49,7 +49,7 @@ impl App {
     /// The file of the working state, if it is to be written: not while a job is about to replace what there is.
     fn due(&self) -> Option<(PathBuf, AutosaveKey)> {
         let path = self.working_file.clone().filter(|_| self.own_work().document.measurement.rows.len() <= MOST_ROWS)?;
-        let is_waiting = self.worker.session.is_some() || self.worker.autosave.is_some();
+        let is_waiting = self.jobs.files.session.is_running() || self.jobs.files.autosave.is_running();
         let working = self.working();
         (!is_waiting && self.autosaved.as_ref() != Some(&working)).then_some((path, working))
     }
@@ -66,7 +66,7 @@ impl App {
         }
         self.unsaved_since = None;
         self.autosaved = Some(working);
-        if let Err(sentence) = self.worker.autosave(path, export::own_session(self)) {
+        if let Err(sentence) = self.jobs.files.autosave(path, export::own_session(self)) {
             self.say(sentence);
         }
     }

@@ -1,13 +1,24 @@
 //! Reads a file into a measurement, or into a foreign file that has questions.
 
 use crate::app::text::i18n::phrase;
-use crate::export;
+use crate::files::export;
 use pbrdf::measurement::formats::{self, ForeignFile, ImportError, ImportNote, ImportOptions, Imported, Opened};
 use pbrdf::measurement::{Progress, ReadError, ReadErrorKind};
 use sha2::{Digest as _, Sha256};
 use std::io::Read;
+use std::path::PathBuf;
 use std::sync::Arc;
 use tr::tr;
+
+/// Where a measurement comes from.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    pub name: String,
+    /// The file, if there is one.
+    pub path: Option<PathBuf>,
+    /// SHA-256 of its bytes, of a file.
+    pub sha256: Option<String>,
+}
 
 /// What came out of a file.
 pub enum Loaded {

@@ -6,4 +6,5 @@ pub mod export;
 pub mod fit_record;
 pub mod import;
 pub mod session;
+pub mod session_file;
 pub mod settings_file;

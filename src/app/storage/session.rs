@@ -10,7 +10,7 @@ use crate::app::work::document::{Mask, masked_rows};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, can_be_set};
-use crate::export::program;
+use crate::files::export::program;
 use pbrdf::fit::{Bounds, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
 use pbrdf::measurement::{Measurement, ReadError};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};

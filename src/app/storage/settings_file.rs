@@ -1,10 +1,11 @@
 //! The settings file: read at start, written in one move, set aside when damaged.
 
+use crate::app::platform;
 use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::text::i18n::Language;
 use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::{SettingsFile, WindowSettings};
-use std::io::Write as _;
+use crate::files::write_file::write_file;
 use std::path::{Path, PathBuf};
 use tr::tr;
 
@@ -13,12 +14,12 @@ pub const APP: &str = "pbrdf-explorer";
 
 /// Where the settings are, if the machine has a place for them.
 pub fn path() -> Option<PathBuf> {
-    directories::ProjectDirs::from("", "", APP).map(|folders| folders.config_dir().join("settings.json"))
+    platform::config_folder(APP).map(|folder| folder.join("settings.json"))
 }
 
 /// Where the working state is, if the machine has a place for it.
 pub fn working_path() -> Option<PathBuf> {
-    directories::ProjectDirs::from("", "", APP).map(|folders| folders.data_local_dir().join("working.pbrdf.json"))
+    platform::local_data_folder(APP).map(|folder| folder.join("working.pbrdf.json"))
 }
 
 /// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
@@ -67,9 +68,5 @@ fn read(bytes: &[u8]) -> serde_json::Result<SettingsFile> {
 pub fn save(path: &Path, settings: &SettingsFile) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    serde_json::to_writer_pretty(&mut file, settings)?;
-    file.flush()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
+    write_file(path, |out| Ok(serde_json::to_writer_pretty(out, settings)?))
 }

@@ -11,7 +11,6 @@
 #[path = "../../../core/tests/common/damage.rs"]
 mod damage;
 
-use crate::app::jobs::worker::OpenedSession;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::docking::Dock;
@@ -20,6 +19,7 @@ use crate::app::storage::export;
 use crate::app::storage::import;
 use crate::app::storage::import::Loaded;
 use crate::app::storage::session::Session;
+use crate::app::storage::session_file::OpenedSession;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, wait};
 use crate::app::work::layout::Layout;

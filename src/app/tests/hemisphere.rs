@@ -94,7 +94,7 @@ fn the_map_follows_a_slider_and_rests_when_nothing_moves() {
     // The slider moves in one frame, the job begins before the next.
     harness.step();
     logic(&mut harness);
-    while explorer(&mut harness).background.is_busy() {
+    while explorer(&mut harness).jobs.spawner.is_busy() {
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     logic(&mut harness);

@@ -1,10 +1,10 @@
 //! Plots, curves, fits and reports as files and on the clipboard.
 
-use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
+use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
+use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
@@ -173,8 +173,8 @@ fn each_export_writes_its_file_and_says_so() {
     order(&mut harness, Command::StartFit);
     for subject in BenchmarkId::ALL {
         let stop = || true;
-        let made = Box::new(subject.make(Host { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
-        explorer(&mut harness).receive(Event::Reported { made, is_part: true });
+        let result = Box::new(subject.run(Host { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
+        benchmark_finished(explorer(&mut harness), FinishedBenchmark { result, is_part: true });
     }
     let mut exports =
         vec![(ExportKind::Curves, "c.csv"), (ExportKind::Fitted, "f.csv"), (ExportKind::Report, "r.html"), (ExportKind::Report, "r.md")];
@@ -259,5 +259,5 @@ fn a_file_is_known_by_its_hash() {
     let mut harness = harness();
     assert_eq!(explorer(&mut harness).work.document.sha256, None);
     order(&mut harness, Command::OpenMeasurement(path));
-    assert_eq!(explorer(&mut harness).work.document.sha256, Some(crate::export::sha256(text.as_bytes())));
+    assert_eq!(explorer(&mut harness).work.document.sha256, Some(crate::files::export::sha256(text.as_bytes())));
 }

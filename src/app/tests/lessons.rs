@@ -2,9 +2,12 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
+use crate::app::shell::job_results::dialog_answered;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::settings_file;
+use crate::app::tasks::file_request::FileRequest;
+use crate::app::tasks::files::DialogAnswer;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
 use crate::app::work::document::{EXAMPLES, Mask};
@@ -425,9 +428,9 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     explorer(&mut harness).work.settings.parameters.k = 4.5;
     wait(&mut harness);
     // The lesson is asked for in the very frame in which the answer comes.
-    let question = crate::app::shell::file_dialogs::FileRequest::Export(ExportKind::Session, String::new());
+    let request = FileRequest::Export(ExportKind::Session, String::new());
     explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
-    explorer(&mut harness).receive(crate::app::jobs::worker::Event::Answered(question, Ok(Some(path.clone()))));
+    dialog_answered(explorer(&mut harness), DialogAnswer { request, reply: Ok(Some(path.clone())) });
     wait(&mut harness);
     let text = std::fs::read_to_string(&path).expect("a file");
     assert_eq!(Session::read(&text).expect("a session").settings.parameters.k, 4.5);

@@ -1,10 +1,10 @@
 //! Messages of the core and the program in both languages.
 
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::{Session, SessionError};
+use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::tests::sources::literals_after;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n;
@@ -13,9 +13,9 @@ use crate::app::text::messages::{Localized, short_method};
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
-use crate::export::{expect_ending, picture_kind, report_kind};
 use crate::figure::PngError;
-use crate::open_file::{OpenError, open_file};
+use crate::files::export::{expect_ending, picture_kind, report_kind};
+use crate::files::open_file::{OpenError, open_file};
 use pbrdf::fit::{
     BoundsError, DesignError, DistributionComparison, FitResult, ProblemError, StopReason, Undetermined, UndeterminedDirection,
     UndeterminedReason,
@@ -565,7 +565,7 @@ fn rows_and_notes_of_the_reports_are_in_chinese() {
         // Fits and large scenes take long.
         let asked = AtomicU32::new(0);
         let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 5;
-        match subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} }) {
+        match subject.run(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} }) {
             BenchmarkResult::ErrorVsTime(report) => {
                 _ = translated(report.title);
                 assert_localized(report.notes);

@@ -79,8 +79,8 @@ fn explorer<'a>(harness: &'a mut Harness<'static, Option<App>>) -> &'a mut App {
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Whether no job is on its way.
-fn is_at_rest(explorer: &App) -> bool {
-    !explorer.worker.is_busy() && !explorer.background.is_busy() && explorer.commands.is_empty() && explorer.reports.running.is_none()
+fn is_at_rest(explorer: &mut App) -> bool {
+    !explorer.jobs.is_busy() && explorer.commands.is_empty()
 }
 
 /// Draws frames until no job is on its way and nothing moves: a frame of those may begin a job.

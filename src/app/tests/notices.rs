@@ -1,8 +1,8 @@
 //! Sentences to the user: they move nothing, go or stay as they should, and are read out.
 
+use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::file_dialogs::DialogUnavailable;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::pane_id::PaneId;
@@ -110,7 +110,7 @@ fn escape_dismisses_sentences_after_what_lies_above_them() {
 #[test]
 fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
     let mut harness = harness();
-    explorer(&mut harness).worker.ask = |_| Err(DialogUnavailable);
+    explorer(&mut harness).jobs.files.ask = |_| Err(DialogUnavailable);
     for (command, place) in [
         (Command::ChooseMeasurement, "under “Type a path to open”"),
         (Command::ChooseSession, "under “Type a path to open”"),
@@ -124,7 +124,7 @@ fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
         assert!(sentence.contains("xdg-desktop-portal") && sentence.contains("zenity") && sentence.contains(place), "{sentence}");
     }
     // A dialog that was cancelled needs no word.
-    explorer(&mut harness).worker.ask = |_| Ok(None);
+    explorer(&mut harness).jobs.files.ask = |_| Ok(None);
     explorer(&mut harness).commands.push(Command::ChooseMeasurement);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).notices.text(), None);

@@ -1,10 +1,10 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
-use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::shell::commands::Command;
+use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
+use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult, FinishedBenchmark};
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
@@ -21,15 +21,24 @@ fn part(subject: BenchmarkId, looks: usize) -> BenchmarkResult {
     #[expect(clippy::cast_precision_loss, reason = "a handful of looks at the clock")]
     let clock = || 10.0 * time.fetch_add(1, Ordering::Relaxed) as f64;
     let cancelled = || seen.fetch_add(1, Ordering::Relaxed) >= looks;
-    subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} })
+    subject.run(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} })
+}
+
+/// The pane that shows a benchmark.
+fn pane_of(id: BenchmarkId) -> PaneId {
+    match id {
+        BenchmarkId::ErrorVsTime => PaneId::ErrorVsTime,
+        BenchmarkId::Stability => PaneId::Stability,
+        BenchmarkId::Cost => PaneId::Cost,
+    }
 }
 
 /// The window with that pane in front and a part of its report in it.
 fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(subject.pane());
-    let made = Box::new(part(subject, looks));
-    explorer(&mut harness).receive(Event::Reported { made, is_part: true });
+    explorer(&mut harness).panes.show(pane_of(subject));
+    let result = Box::new(part(subject, looks));
+    benchmark_finished(explorer(&mut harness), FinishedBenchmark { result, is_part: true });
     harness.run();
     harness
 }
@@ -81,13 +90,13 @@ fn every_case_of_the_gallery_can_be_drawn() {
 #[test]
 fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(BenchmarkId::Cost.pane());
+    explorer(&mut harness).panes.show(pane_of(BenchmarkId::Cost));
     harness.run();
     harness.get_by_label("Nothing is measured yet.");
     harness.get_by_label("Measure costs").click();
     harness.step();
     harness.step();
-    assert!(explorer(&mut harness).reports.progress().is_some());
+    assert!(explorer(&mut harness).jobs.benchmarks.progress().is_some());
     harness.get_by_label("Stop measuring").click();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
@@ -99,7 +108,7 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
 #[test]
 fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     let mut harness = harness();
-    let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).reports.progress().map(|(subject, _)| subject);
+    let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).jobs.benchmarks.progress().map(|(subject, _)| subject);
     explorer(&mut harness).commands.push(Command::MakeReport(BenchmarkId::Cost));
     explorer(&mut harness).panes.show(PaneId::Stability);
     harness.step();
@@ -162,14 +171,15 @@ fn errors_against_time_are_a_table_and_diagrams() {
 fn the_figure_in_front_is_the_one_that_is_exported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = with_report(BenchmarkId::ErrorVsTime, 5);
-    let title =
-        |harness: &mut Harness<'static, Option<App>>| explorer(harness).figure(BenchmarkId::ErrorVsTime.pane()).map(|figure| figure.title);
+    let title = |harness: &mut Harness<'static, Option<App>>| {
+        explorer(harness).figure(pane_of(BenchmarkId::ErrorVsTime)).map(|figure| figure.title)
+    };
     let first = title(&mut harness).expect("a figure");
     harness.get_by_label("Performance profile").click();
     harness.run();
     assert_ne!(title(&mut harness), Some(first));
     let path = folder.path().join("profile.svg");
-    explorer(&mut harness).commands.push(Command::Export(ExportKind::Plot(BenchmarkId::ErrorVsTime.pane()), path.clone()));
+    explorer(&mut harness).commands.push(Command::Export(ExportKind::Plot(pane_of(BenchmarkId::ErrorVsTime)), path.clone()));
     wait(&mut harness);
     assert!(path.exists());
 }

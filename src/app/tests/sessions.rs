@@ -1,11 +1,11 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
-use crate::app::jobs::worker::save_session;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
+use crate::app::storage::session_file::save_session;
 use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::pane_id::PaneId;

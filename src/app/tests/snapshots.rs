@@ -3,10 +3,10 @@
 //! Fonts are outlines of our own and the renderer runs on the processor, so that pictures hardly differ from machine to machine.
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
-use crate::app::jobs::worker::Event;
 use crate::app::shell::app::App;
-use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
+use crate::app::shell::job_results::benchmark_finished;
+use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::messages::english;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
@@ -113,19 +113,19 @@ fn fitted() -> Harness<'static, Option<App>> {
 
 /// The reports by a clock that goes on by a long repetition whenever it is looked at; of the first the evaluations alone, since the
 /// others take long.
-fn report(subject: BenchmarkId) -> Event {
+fn report(subject: BenchmarkId) -> FinishedBenchmark {
     let (looks, asked) = (AtomicU32::new(0), AtomicU32::new(0));
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
     let methods = 5;
     let cancelled = || subject == BenchmarkId::ErrorVsTime && asked.fetch_add(1, Ordering::Relaxed) >= methods;
-    let made = subject.make(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} });
-    Event::Reported { made: Box::new(made), is_part: false }
+    let result = Box::new(subject.run(Host { clock: &clock, cancelled: &cancelled, progress: &|_| {} }));
+    FinishedBenchmark { result, is_part: false }
 }
 
 /// The figures of all plots.
 fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)> {
     for subject in BenchmarkId::ALL {
-        explorer(harness).receive(report(subject));
+        benchmark_finished(explorer(harness), report(subject));
     }
     let mut shown = |pane: PaneId| {
         if !explorer(harness).panes.is_on_screen(pane) {

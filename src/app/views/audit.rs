@@ -119,7 +119,7 @@ impl View for AuditView {
             self.curves.clear();
             return;
         };
-        self.job.refresh(cx.background, &key, move |_| Audit::new(&surface));
+        self.job.refresh(&cx.jobs.spawner, &key, move |_| Audit::new(&surface));
         let (Some(key), Some(audit)) = (self.job.key(), self.job.get()) else { return };
         self.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
         let Some(curves) = self.curves.get() else { return };

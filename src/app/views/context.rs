@@ -1,9 +1,8 @@
 //! What a pane is, and what it gets to see of the window.
 
-use crate::app::jobs::async_memo::Background;
-use crate::app::jobs::worker::Worker;
 use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::commands::Command;
+use crate::app::tasks::jobs::Jobs;
 use crate::app::views::derived::Derived;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
@@ -23,8 +22,8 @@ pub struct Cx<'a> {
     pub fits: &'a FitHistory,
     pub comparison: &'a [ModelFit],
     pub derived: &'a mut Derived,
-    pub background: &'a Background,
-    pub worker: &'a Worker,
+    /// The progress of jobs; commands start and cancel them.
+    pub jobs: &'a Jobs,
     pub benchmarks: &'a mut Benchmarks,
     pub actions: &'a mut Vec<Command>,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.

@@ -1,7 +1,7 @@
 //! What scenes cost: a table with bars, and what is left out of each.
 
 use crate::app::plots::theme;
-use crate::app::shell::benchmarks::BenchmarkId;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::{label, translated};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};

@@ -1,7 +1,7 @@
 //! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
 
 use crate::app::plots::PanelStyle;
-use crate::app::shell::benchmarks::BenchmarkId;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::glossary::short;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::{Localized as _, short_method};

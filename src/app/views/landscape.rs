@@ -113,7 +113,7 @@ impl View for LandscapeView {
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
         self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
         let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
-        self.job.refresh(cx.background, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {

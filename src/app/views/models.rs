@@ -1,6 +1,6 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
-use crate::app::jobs::worker::Job;
+use crate::app::jobs::job::Job;
 use crate::app::panels::significant;
 use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
@@ -33,7 +33,7 @@ struct ModelsView;
 
 impl View for ModelsView {
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let running = cx.worker.comparison.as_ref().map(Job::progress);
+        let running = cx.jobs.fits.compare.job().map(Job::progress);
         ui.horizontal(|ui| {
             let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
             let help = tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit");

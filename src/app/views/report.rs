@@ -1,7 +1,8 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
-use crate::app::shell::benchmarks::{BenchmarkId, BenchmarkView};
+use crate::app::shell::benchmarks::BenchmarkView;
 use crate::app::shell::commands::Command;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized;
 use crate::app::views::context::Cx;
@@ -12,7 +13,7 @@ use tr::tr;
 
 /// The line with the button and what it does, and what has come out.
 pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &str), outcome: Option<&str>, ui: &mut Ui) {
-    let running = cx.benchmarks.progress();
+    let running = cx.jobs.benchmarks.progress();
     ui.horizontal(|ui| {
         match running {
             Some((own, done)) if own == subject => {
@@ -24,7 +25,7 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
                 // Nothing that moves by itself: frames would take their time from what is being measured.
                 ui.add(ProgressBar::new(done).desired_width(160.0).show_percentage());
             }
-            _ if cx.benchmarks.is_waiting(subject) => {
+            _ if cx.jobs.benchmarks.is_waiting(subject) => {
                 if ui.button(tr!("Do not wait")).on_hover_text(tr!("This report is not made after all")).clicked() {
                     cx.actions.push(Command::ForgetReport(subject));
                 }

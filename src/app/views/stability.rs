@@ -2,8 +2,8 @@
 //! table or in the figure, loads it.
 
 use crate::app::plots::{PanelStyle, theme};
-use crate::app::shell::benchmarks::BenchmarkId;
 use crate::app::shell::commands::Command;
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::messages::Localized as _;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};

@@ -7,7 +7,7 @@ mod past;
 mod result;
 mod scans;
 
-use crate::app::jobs::worker::Job;
+use crate::app::jobs::job::Job;
 use crate::app::panels::status::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
@@ -23,12 +23,12 @@ use tr::tr;
 
 pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
     let free = explorer.free();
-    let App { work, worker, commands, derived, show_predicted_errors, .. } = explorer;
+    let App { work, jobs, commands, derived, show_predicted_errors, .. } = explorer;
     let Workspace { shown_fit: last_fit, fit_history, document, settings, model_comparison: comparison, diagnostics: scans, .. } = work;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
-            let running = worker.fit.is_some();
+            let running = jobs.fits.fit.is_running();
             let fit =
                 ui.add_enabled(!running, egui::Button::new(egui::RichText::new(tr!("Fit")).strong()).min_size(egui::vec2(84.0, 26.0)));
             if fit.on_hover_text(tr!("Levenberg–Marquardt from the sliders, all parameters that are not fixed")).clicked() {
@@ -52,7 +52,7 @@ pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
         sigmas_ui(settings, derived, ui);
         ui.checkbox(&mut settings.refit_live, tr!("keep refitting while I drag"))
             .on_hover_text(tr!("Fixed parameters follow their sliders, the others are fitted again at once"));
-        match worker.fit.as_ref().map(Job::progress) {
+        match jobs.fits.fit.job().map(Job::progress) {
             Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
             Some(None) => ui.label(tr!("Fitting…")),
             None => ui.label(tr!("Sliders: {}", delta_e_text(derived.delta_e()))).on_hover_text(glossary::delta_e_help()),
@@ -75,7 +75,7 @@ pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
                         .on_hover_text(glossary::mask_help());
                 }
                 result::result_ui(fit, settings, scans.scatter.as_ref(), commands, ui);
-                scans::scans_ui(fit, scans, worker.scan.is_some(), commands, ui);
+                scans::scans_ui(fit, scans, jobs.fits.is_scanning(), commands, ui);
             }
             None => {
                 ui.label(tr!("Move the sliders until the curves are near the points, then press Fit."));
@@ -83,7 +83,7 @@ pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
         }
         past::past_fits_ui(fit_history, last_fit.as_ref(), document.number, commands, ui);
         ui.separator();
-        comparison::comparison_ui(comparison, worker.comparison.as_ref().map(Job::progress), commands, ui);
+        comparison::comparison_ui(comparison, jobs.fits.compare.job().map(Job::progress), commands, ui);
     });
 }
 

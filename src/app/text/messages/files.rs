@@ -1,9 +1,9 @@
 //! Messages about files.
 
 use crate::app::text::messages::Localized;
-use crate::export::{EndingError, Endings};
 use crate::figure::PngError;
-use crate::open_file::OpenError;
+use crate::files::export::{EndingError, Endings};
+use crate::files::open_file::OpenError;
 use tr::tr;
 
 impl Localized for OpenError {

@@ -155,7 +155,7 @@ impl View for HemisphereView {
         };
         let before = self.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
         let key = (parameters, model, theta_i);
-        self.job.refresh(cx.background, &key, move |stopped| Made::new(&surface, theta_i, before, stopped));
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(&surface, theta_i, before, stopped));
         self.measured.refresh((cx.document.generation, theta_i), |_| measured(cx.document, theta_i));
         let (Some(key), Some(Some(made))) = (self.job.key(), self.job.get()) else { return };
         let quantity = settings.shown.hemisphere;

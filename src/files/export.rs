@@ -1,10 +1,9 @@
 //! Figures and reports of fits as files: what the name of a file asks for, and writing it.
 
 use crate::figure::Figure;
+use crate::files::write_file::write_file;
 use crate::report::Document;
-use crate::write_file::write_file;
 use pbrdf::selftest::Machine;
-use sha2::{Digest as _, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -139,9 +138,11 @@ pub fn machine() -> Machine {
     Machine::new(&cpuinfo, std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
 }
 
-/// SHA-256 in hexadecimal digits.
+/// SHA-256 in hexadecimal digits; the window computes it while it reads.
+#[cfg(any(feature = "cli", test))]
 pub fn sha256(bytes: &[u8]) -> String {
-    hexadecimal(&Sha256::digest(bytes))
+    use sha2::Digest as _;
+    hexadecimal(&sha2::Sha256::digest(bytes))
 }
 
 /// Two digits a byte.

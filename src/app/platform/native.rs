@@ -1,0 +1,111 @@
+//! The desktop: threads, the clock of the system, folders by the desktop's conventions, dialogs of the desktop.
+
+use std::cell::Cell;
+use std::io;
+use std::path::PathBuf;
+
+/// The clock of the window and of its jobs.
+pub use std::time::Instant;
+
+/// Runs work on a thread of its own.
+///
+/// # Errors
+/// The system refuses a thread.
+pub fn spawn(name: &str, body: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    std::thread::Builder::new().name(name.to_owned()).spawn(body).map(drop)
+}
+
+fn folders(app: &str) -> Option<directories::ProjectDirs> {
+    directories::ProjectDirs::from("", "", app)
+}
+
+/// The user's folder for settings of a program; `None` where the user has no home.
+pub fn config_folder(app: &str) -> Option<PathBuf> {
+    folders(app).map(|folders| folders.config_dir().to_owned())
+}
+
+/// The user's folder for data of a program that may be shared between machines.
+pub fn data_folder(app: &str) -> Option<PathBuf> {
+    folders(app).map(|folders| folders.data_dir().to_owned())
+}
+
+/// The user's folder for data of a program that stay on this machine.
+pub fn local_data_folder(app: &str) -> Option<PathBuf> {
+    folders(app).map(|folders| folders.data_local_dir().to_owned())
+}
+
+/// A dialog that asks for a path.
+#[derive(Debug, Clone)]
+pub struct FileDialog {
+    pub title: String,
+    pub purpose: PathPurpose,
+    pub filters: Vec<FileFilter>,
+}
+
+/// What the path is for.
+#[derive(Debug, Clone)]
+pub enum PathPurpose {
+    /// The file exists and is read.
+    Open,
+    /// The file is written; the dialog suggests a name and asks before an existing file is replaced.
+    Save { suggested_name: String },
+}
+
+/// Files that a dialog offers.
+#[derive(Debug, Clone)]
+pub struct FileFilter {
+    pub name: String,
+    /// Without dots; `*` for any file.
+    pub extensions: Vec<&'static str>,
+}
+
+/// Neither the desktop's portal nor zenity opened a dialog.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DialogUnavailable;
+
+/// Shows a dialog and waits for the answer; `None` where the user cancels.
+///
+/// # Errors
+/// No dialog can open.
+pub fn show_file_dialog(dialog: FileDialog) -> Result<Option<PathBuf>, DialogUnavailable> {
+    // A program has one logger. Where another one is installed, a dialog that cannot open counts as cancelled.
+    let _ = log::set_logger(&RFD_LOG).map(|()| log::set_max_level(log::LevelFilter::Error));
+    DIALOG_FAILED.set(false);
+    let FileDialog { title, purpose, filters } = dialog;
+    let dialog = filters
+        .iter()
+        .fold(rfd::FileDialog::new().set_title(title), |dialog, FileFilter { name, extensions }| dialog.add_filter(name, extensions));
+    let path = match purpose {
+        PathPurpose::Open => dialog.pick_file(),
+        PathPurpose::Save { suggested_name } => dialog.set_file_name(suggested_name).save_file(),
+    };
+    if path.is_none() && DIALOG_FAILED.get() { Err(DialogUnavailable) } else { Ok(path) }
+}
+
+thread_local! {
+    /// Whether rfd's last way to a dialog failed on this thread.
+    static DIALOG_FAILED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// rfd returns `None` both where the user cancels and where no dialog opens; only its log tells which.
+struct RfdLog;
+
+static RFD_LOG: RfdLog = RfdLog;
+
+/// The module of rfd that tries zenity after the portal has failed. An error from this module means that no way is left; the test
+/// `a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled` fails where a new version of rfd logs otherwise.
+const RFD_LOG_TARGET: &str = "rfd::backend::xdg_desktop_portal";
+
+impl log::Log for RfdLog {
+    fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
+        metadata.level() == log::Level::Error && metadata.target() == RFD_LOG_TARGET
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        if self.enabled(record.metadata()) {
+            DIALOG_FAILED.set(true);
+        }
+    }
+
+    fn flush(&self) {}
+}

@@ -1,0 +1,48 @@
+//! Sessions on disk.
+
+use crate::app::storage::session::{RestoredFit, SavedFit, Session};
+use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
+use crate::files::open_file::open_file;
+use crate::files::write_file::write_file;
+use std::io::Read as _;
+use std::path::Path;
+use tr::tr;
+
+/// A session with its fits restored, the newest first.
+pub struct OpenedSession {
+    pub session: Session,
+    pub fits: Vec<RestoredFit>,
+}
+
+impl OpenedSession {
+    /// Reads a session.
+    ///
+    /// # Errors
+    /// The file cannot be read or is no session; a sentence.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let mut text = String::new();
+        let sentence = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", path.display(), phrase(reason));
+        let mut file = open_file(path).map_err(|reason| sentence(&reason.localized()))?;
+        file.read_to_string(&mut text).map_err(|error| sentence(&tr!("the file cannot be read: {}", error.localized())))?;
+        let session = Session::read(&text).map_err(|error| sentence(&error))?;
+        Ok(Self::new(session))
+    }
+
+    /// Restores the fits that the data of the session still allow.
+    pub fn new(session: Session) -> Self {
+        let restore = |fit: &SavedFit| fit.again(session.measurement.as_ref()?);
+        let fits = session.fits.iter().filter_map(restore).collect();
+        Self { session, fits }
+    }
+}
+
+/// Writes a session in one move, and makes its folder.
+///
+/// # Errors
+/// The file cannot be written; a sentence.
+pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
+    written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), error.localized()))
+}

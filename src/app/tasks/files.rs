@@ -1,0 +1,242 @@
+//! Jobs that read and write files, and wait for file dialogs.
+
+use crate::app::jobs::job::JobContext;
+#[cfg(test)]
+use crate::app::jobs::slot::AnySlot;
+use crate::app::jobs::slot::Slot;
+use crate::app::jobs::spawner::Spawner;
+use crate::app::storage::export::{ExportKind, Write};
+use crate::app::storage::import;
+use crate::app::storage::import::{Hashing, Loaded, Origin, with_notes};
+use crate::app::storage::session::Session;
+use crate::app::storage::session_file::{OpenedSession, save_session};
+use crate::app::tasks::file_request::{FileReply, FileRequest};
+use crate::app::tasks::start_error::start_error;
+use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
+use crate::files::open_file::open_file;
+use crate::files::write_file::write_file;
+use pbrdf::measurement::Measurement;
+use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported};
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+use tr::tr;
+
+/// The answer of a dialog.
+pub struct DialogAnswer {
+    pub request: FileRequest,
+    pub reply: FileReply,
+}
+
+/// What a file holds; the error is a sentence.
+pub struct LoadedFile {
+    pub origin: Origin,
+    pub result: Result<Loaded, String>,
+}
+
+/// The session of a file; the error is a sentence.
+pub struct LoadedSession {
+    pub path: PathBuf,
+    pub result: Result<Box<OpenedSession>, String>,
+}
+
+/// The file of an export; the error is a sentence.
+pub struct ExportedFile {
+    pub kind: ExportKind,
+    pub result: Result<PathBuf, String>,
+}
+
+/// Slots of the jobs around files.
+pub struct FileJobs {
+    spawner: Spawner,
+    /// Asks for a path; tests answer without a dialog.
+    pub ask: fn(FileRequest) -> FileReply,
+    pub dialog: Slot<DialogAnswer>,
+    /// Reads a file or an example; the progress is a fraction.
+    pub load: Slot<LoadedFile, f64>,
+    /// Reads a foreign file with the user's options; the progress is a fraction.
+    pub import: Slot<Result<Imported, ImportError>, f64>,
+    pub session: Slot<LoadedSession>,
+    /// Writes the measurement; the error is a sentence.
+    pub save: Slot<Result<PathBuf, String>>,
+    pub export: Slot<ExportedFile>,
+    /// Writes the working state; the error is a sentence.
+    pub autosave: Slot<Result<(), String>>,
+}
+
+impl FileJobs {
+    pub fn new(spawner: Spawner) -> Self {
+        Self {
+            spawner,
+            ask: |_| Ok(None),
+            dialog: Slot::default(),
+            load: Slot::default(),
+            import: Slot::default(),
+            session: Slot::default(),
+            save: Slot::default(),
+            export: Slot::default(),
+            autosave: Slot::default(),
+        }
+    }
+
+    /// Every slot.
+    #[cfg(test)]
+    pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
+        let Self { spawner: _, ask: _, dialog, load, import, session, save, export, autosave } = self;
+        vec![dialog, load, import, session, save, export, autosave]
+    }
+
+    /// Asks the user for a path, unless a dialog is open.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn ask(&mut self, request: FileRequest) -> Result<(), String> {
+        if self.dialog.is_running() {
+            return Ok(());
+        }
+        let ask = self.ask;
+        self.dialog
+            .start(&self.spawner, "dialog", move |_| DialogAnswer { request: request.clone(), reply: ask(request) })
+            .map_err(start_error)
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        self.read(name, Some(path.clone()), move || {
+            let file = open_file(&path).map_err(|reason| tr!("{0}: {1}.", path.display(), reason.localized()))?;
+            let length = file.metadata().ok().map(|data| data.len());
+            Ok((path, file, length))
+        })
+    }
+
+    /// Reads a text that is in memory.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn open_text(&mut self, name: String, text: &'static str) -> Result<(), String> {
+        let path = PathBuf::from(&name);
+        self.read(name, None, move || Ok((path, text.as_bytes(), None)))
+    }
+
+    fn read<R: Read>(
+        &mut self,
+        name: String,
+        path: Option<PathBuf>,
+        source: impl FnOnce() -> Result<(PathBuf, R, Option<u64>), String> + Send + 'static,
+    ) -> Result<(), String> {
+        self.abandon_reading();
+        let job = move |context: &JobContext<f64>| {
+            let mut progress = reading_progress(context);
+            let mut sha256 = None;
+            let result = source().and_then(|(at, source, length)| {
+                let mut source = Hashing::new(source);
+                let sentence = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", at.display(), phrase(reason));
+                let bytes = import::bytes_of(&mut source, length, &mut progress).map_err(|error| sentence(&error))?;
+                sha256 = Some(source.finish());
+                import::read(bytes, &mut progress).map_err(|reason| sentence(&reason))
+            });
+            let sha256 = sha256.filter(|_| path.is_some());
+            LoadedFile { origin: Origin { name, path, sha256 }, result }
+        };
+        self.load.start(&self.spawner, "read measurement", job).map_err(start_error)
+    }
+
+    /// Reads a foreign file, which is in memory, with the user's options.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn import(&mut self, file: Arc<dyn ForeignFile>, options: ImportOptions) -> Result<(), String> {
+        self.abandon_load();
+        let job = move |context: &JobContext<f64>| {
+            let imported = file.import(&options, &mut reading_progress(context));
+            imported.map(|imported| with_notes(&*file, imported))
+        };
+        self.import.start(&self.spawner, "import measurement", job).map_err(start_error)
+    }
+
+    /// Reads a session.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn open_session(&mut self, path: PathBuf) -> Result<(), String> {
+        self.abandon_reading();
+        let job = move |_: &JobContext| {
+            let result = OpenedSession::read(&path).map(Box::new);
+            LoadedSession { path, result }
+        };
+        self.session.start(&self.spawner, "read session", job).map_err(start_error)
+    }
+
+    /// Writes a measurement in one move. One job at a time: the last order is the last one written.
+    ///
+    /// # Errors
+    /// A measurement is still being written, or the job does not start; a sentence.
+    pub fn save(&mut self, path: PathBuf, measurement: Arc<Measurement>) -> Result<(), String> {
+        if self.save.is_running() {
+            return Err(tr!("The measurement is still being saved."));
+        }
+        let job = move |_: &JobContext| match write_file(&path, |out| measurement.write(out)) {
+            Ok(()) => Ok(path),
+            Err(error) => Err(tr!("{0} cannot be written: {1}.", path.display(), error.localized())),
+        };
+        self.save.start(&self.spawner, "save measurement", job).map_err(start_error)
+    }
+
+    /// Writes an export, one at a time.
+    ///
+    /// # Errors
+    /// An export is still being written, or the job does not start; a sentence.
+    pub fn export(&mut self, kind: ExportKind, path: PathBuf, write: Write) -> Result<(), String> {
+        if self.export.is_running() {
+            return Err(tr!("The export before this one is still being written."));
+        }
+        let job = move |_: &JobContext| ExportedFile { kind, result: write(&path).map(|()| path) };
+        self.export.start(&self.spawner, "export", job).map_err(start_error)
+    }
+
+    /// Writes the working state.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn autosave(&mut self, path: PathBuf, session: Session) -> Result<(), String> {
+        self.autosave.start(&self.spawner, "autosave", move |_| save_session(&path, &session)).map_err(start_error)
+    }
+
+    /// The fraction that is read of a measurement, while one is being read.
+    pub fn reading_fraction(&self) -> Option<f64> {
+        let fractions = [self.load.job().map(|job| job.progress()), self.import.job().map(|job| job.progress())];
+        fractions.into_iter().flatten().next().map(|fraction| fraction.unwrap_or(0.0))
+    }
+
+    /// Asks the job that reads a measurement to stop; it ends with an error.
+    pub fn cancel_load(&self) {
+        self.load.cancel();
+        self.import.cancel();
+    }
+
+    /// Stops reading a measurement.
+    pub fn abandon_load(&mut self) {
+        self.load.abandon();
+        self.import.abandon();
+    }
+
+    /// Stops reading measurements and sessions.
+    pub fn abandon_reading(&mut self) {
+        self.abandon_load();
+        self.session.abandon();
+    }
+}
+
+/// Reports the fraction that is read; breaks where the job is cancelled.
+fn reading_progress(context: &JobContext<f64>) -> impl FnMut(f64) -> ControlFlow<()> {
+    |done| {
+        context.report(done);
+        if context.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,172 @@
+//! Jobs that fit, and that examine a fit.
+
+use crate::app::jobs::job::JobContext;
+#[cfg(test)]
+use crate::app::jobs::slot::AnySlot;
+use crate::app::jobs::slot::Slot;
+use crate::app::jobs::spawner::Spawner;
+use crate::app::platform::Instant;
+use crate::app::tasks::start_error::start_error;
+use crate::app::work::document::{Document, Mask};
+use crate::app::work::model_fit::ModelFit;
+use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile};
+use pbrdf::model::{Parameter, Preset};
+use std::sync::Arc;
+
+/// A fit with the data that it is made from.
+pub struct FinishedFit {
+    pub report: Box<FitResult>,
+    pub problem: Arc<Problem>,
+    /// Of the document.
+    pub generation: u64,
+    pub mask: Mask,
+}
+
+/// How the parameters scatter over so many data sets.
+pub struct FinishedBootstrap {
+    pub replicates: usize,
+    pub scatter: Vec<BootstrapEstimate>,
+}
+
+/// Slots of the jobs around fits.
+pub struct FitJobs {
+    spawner: Spawner,
+    pub fit: Slot<FinishedFit, TracePoint>,
+    /// Fits from the sliders while they move.
+    pub refit: Slot<Box<FitResult>>,
+    /// Fits several models; the progress is the name of the model.
+    pub compare: Slot<Vec<ModelFit>, &'static str>,
+    pub profile: Slot<Profile>,
+    pub bootstrap: Slot<FinishedBootstrap>,
+}
+
+impl FitJobs {
+    pub fn new(spawner: Spawner) -> Self {
+        Self {
+            spawner,
+            fit: Slot::default(),
+            refit: Slot::default(),
+            compare: Slot::default(),
+            profile: Slot::default(),
+            bootstrap: Slot::default(),
+        }
+    }
+
+    /// Every slot.
+    #[cfg(test)]
+    pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
+        let Self { spawner: _, fit, refit, compare, profile, bootstrap } = self;
+        vec![fit, refit, compare, profile, bootstrap]
+    }
+
+    /// Fits a document from so many starts.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn fit(&mut self, problem: Problem, document: &Document, starts: Starts, seed: u64) -> Result<(), String> {
+        let (generation, mask) = (document.generation, document.mask().clone());
+        let job = move |context: &JobContext<TracePoint>| {
+            let begun = Instant::now();
+            let observer = Observer {
+                clock: &|| milliseconds_since(begun),
+                cancelled: &|| context.is_cancelled(),
+                progress: &|point| context.report(point),
+            };
+            let report = Box::new(fit(&problem, starts, seed, observer));
+            FinishedFit { report, problem: Arc::new(problem), generation, mask }
+        };
+        self.fit.start(&self.spawner, "fit", job).map_err(start_error)
+    }
+
+    /// Fits from the sliders alone.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn refit(&mut self, problem: Problem) -> Result<(), String> {
+        let job = move |context: &JobContext| Box::new(fit(&problem, Starts::One, 0, observer(&|| context.is_cancelled())));
+        self.refit.start(&self.spawner, "refit", job).map_err(start_error)
+    }
+
+    /// Fits several models, one after the other; a model without a problem keeps the reason.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn compare(
+        &mut self,
+        problems: Vec<(&'static Preset, Result<Problem, ProblemError>)>,
+        starts: Starts,
+        seed: u64,
+    ) -> Result<(), String> {
+        let job = move |context: &JobContext<&'static str>| {
+            let mut fits = Vec::new();
+            for (preset, problem) in problems {
+                if context.is_cancelled() {
+                    break;
+                }
+                context.report(preset.name);
+                let begun = Instant::now();
+                let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
+                fits.push(ModelFit { preset, result: problem.map(|problem| Box::new(fit(&problem, starts, seed, observer))) });
+            }
+            fits
+        };
+        self.compare.start(&self.spawner, "compare models", job).map_err(start_error)
+    }
+
+    /// Profiles a parameter of a finished fit, in place of the running scan.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn profile(&mut self, problem: Problem, report: FitResult, parameter: Parameter) -> Result<(), String> {
+        self.abandon_scan();
+        let job = move |context: &JobContext| profile(&problem, &report, parameter, observer(&|| context.is_cancelled()));
+        self.profile.start(&self.spawner, "profile", job).map_err(start_error)
+    }
+
+    /// Fits resampled data of a finished fit, in place of the running scan.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn bootstrap(&mut self, problem: Problem, report: FitResult, replicates: usize, seed: u64) -> Result<(), String> {
+        self.abandon_scan();
+        let job = move |context: &JobContext| {
+            let scatter = bootstrap(&problem, &report, replicates, seed, observer(&|| context.is_cancelled()));
+            FinishedBootstrap { replicates, scatter }
+        };
+        self.bootstrap.start(&self.spawner, "bootstrap", job).map_err(start_error)
+    }
+
+    /// Whether a profile or a bootstrap is being made.
+    pub fn is_scanning(&self) -> bool {
+        self.profile.is_running() || self.bootstrap.is_running()
+    }
+
+    /// Asks the profile or the bootstrap to stop; it shows what it has.
+    pub fn cancel_scan(&self) {
+        self.profile.cancel();
+        self.bootstrap.cancel();
+    }
+
+    /// Stops the scan of a fit that is no longer shown.
+    pub fn abandon_scan(&mut self) {
+        self.profile.abandon();
+        self.bootstrap.abandon();
+    }
+
+    /// Stops all work on a measurement that is being replaced.
+    pub fn abandon(&mut self) {
+        self.fit.abandon();
+        self.refit.abandon();
+        self.compare.abandon();
+        self.abandon_scan();
+    }
+}
+
+/// An observer that only cancels.
+fn observer<'a>(cancelled: &'a (dyn Fn() -> bool + Sync)) -> Observer<'a> {
+    Observer { cancelled, ..Observer::NONE }
+}
+
+fn milliseconds_since(begun: Instant) -> f64 {
+    begun.elapsed().as_secs_f64() * 1e3
+}

@@ -1,0 +1,11 @@
+//! A job that does not start.
+
+use crate::app::text::messages::Localized as _;
+use std::io;
+use tr::tr;
+
+/// Why a job did not start, as a sentence.
+#[expect(clippy::needless_pass_by_value, reason = "an argument of map_err")]
+pub(super) fn start_error(error: io::Error) -> String {
+    tr!("The job cannot be started: {}.", error.localized())
+}
