@@ -28,7 +28,7 @@ fn main() {
 fn tell_noisy_sets() {
     let time = |problem: &Problem| {
         let begun = Instant::now();
-        divan::black_box(fit_local(divan::black_box(problem), Effort::Full, Observer::NONE));
+        divan::black_box(fit_local(divan::black_box(problem), Effort::Thorough, Observer::NONE));
         begun.elapsed().as_secs_f64() * 1e3
     };
     let of_set = |seed| {
@@ -65,8 +65,8 @@ fn steel(noise: f64, seed: u64) -> Problem {
 #[divan::bench]
 fn noise_free_to_the_last_digits(bencher: divan::Bencher<'_, '_>) {
     let problem = steel(0.0, 0);
-    assert!(fit_local(&problem, Effort::Full, Observer::NONE).sum_of_squares <= EXACT);
-    bencher.bench(|| fit_local(divan::black_box(&problem), Effort::Full, Observer::NONE));
+    assert!(fit_local(&problem, Effort::Thorough, Observer::NONE).sum_of_squares <= EXACT);
+    bencher.bench(|| fit_local(divan::black_box(&problem), Effort::Thorough, Observer::NONE));
 }
 
 /// One start with noise of 0.005 in DoLP, another draw for each sample: how much longer is the valley of the noisy problem? No budget; the
@@ -78,7 +78,7 @@ fn noisy(bencher: divan::Bencher<'_, '_>) {
         seed += 1;
         steel(0.005, seed)
     };
-    bencher.with_inputs(draw).bench_local_values(|problem| fit_local(&problem, Effort::Full, Observer::NONE));
+    bencher.with_inputs(draw).bench_local_values(|problem| fit_local(&problem, Effort::Thorough, Observer::NONE));
 }
 
 /// A thousand starts: below 0.5 s on two cores.

@@ -177,7 +177,7 @@ fn certified_digits_from_both_starts() {
     let mut reached = 0;
     for (name, model) in MODELS {
         let problem = read(name, model);
-        let solve = |start: &Vec<f64>| minimise(&From(&problem, start), Effort::Full, Observer::NONE);
+        let solve = |start: &Vec<f64>| minimise(&From(&problem, start), Effort::Thorough, Observer::NONE);
         let [first, second]: [Solution; 2] = [solve(&problem.starts[0]), solve(&problem.starts[1])];
         let [digits_1, digits_2] = [&first, &second].map(|solution| digits(&solution.x, &problem.certified));
         println!("{:10} {digits_1:7.1} {digits_2:7.1} {:11} {:11}", problem.name, first.evaluations, second.evaluations);

@@ -29,7 +29,7 @@ pub fn fit_json(preset: &Preset, report: &FitResult) -> Value {
     let starts: Vec<Value> = report
         .minima
         .iter()
-        .map(|minimum| json!({ "objective": minimum.objective, "stop_reason": minimum.stop_reason, "reached": minimum.reached }))
+        .map(|minimum| json!({ "objective": minimum.objective, "stop_reason": minimum.stop_reason, "reached": minimum.hits }))
         .collect();
     json!({
         "model": preset.key,

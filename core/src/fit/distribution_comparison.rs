@@ -6,9 +6,9 @@
 //! Equal σ means different widths, so that the better of two fits may win by its width alone. Gauss is therefore fitted twice more beside
 //! Cauchy's (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where only the tail differs.
 
-use crate::fit::local::solver::Observer;
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
+use crate::fit::observer::Observer;
 use crate::fit::result::{FitResult, fit};
 use crate::model::{Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;

@@ -12,8 +12,10 @@ mod least_squares;
 mod local;
 mod multistart;
 mod objective;
+mod observer;
 mod options;
 mod result;
+mod stop_reason;
 
 pub use bounds::{Bounds, BoundsError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
@@ -24,10 +26,14 @@ pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, 
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
-pub use local::solver::{Effort, LocalFit, Observer, Solution, StopReason, TracePoint, fit_local, minimise};
-pub use multistart::search::{Basin, MultistartResult, Starts, search};
+pub use local::solution::{LocalFit, Solution};
+pub use local::solver::{Effort, fit_local, minimise};
+pub use multistart::basin::{Basin, MultistartResult};
+pub use multistart::search::{Starts, multistart};
 pub use objective::{Problem, ProblemError, free_by_default};
+pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, Loss, Weights};
 pub use result::{
     Edge, Estimate, EstimateStatus, FitResult, Minimum, Undetermined, fit, is_poorly_determined, relative_error_base, symbols,
 };
+pub use stop_reason::StopReason;

@@ -2,10 +2,13 @@
 
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
-use crate::fit::local::solver::{LocalFit, Observer, StopReason, TracePoint};
-use crate::fit::multistart::search::{MultistartResult, Starts, search};
+use crate::fit::local::solution::LocalFit;
+use crate::fit::multistart::basin::MultistartResult;
+use crate::fit::multistart::search::{Starts, multistart};
 use crate::fit::objective::Problem;
+use crate::fit::observer::{Observer, TracePoint};
 use crate::fit::options::{Loss, Weights};
+use crate::fit::stop_reason::StopReason;
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
 use nalgebra::DMatrix;
 use std::fmt;
@@ -133,7 +136,7 @@ pub struct Minimum {
     /// Why it ended there.
     pub stop_reason: StopReason,
     /// How many starts ended there.
-    pub reached: usize,
+    pub hits: usize,
 }
 
 /// The result of a fit.
@@ -197,14 +200,17 @@ const AT_BOUND: f64 = 1e-9;
 pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Observer<'_>) -> FitResult {
     let choices = problem.choices();
     if choices.loss == Loss::Squared || choices.loss_scale.is_some() {
-        let found = search(problem, starts, seed, watch);
+        let found = multistart(problem, starts, seed, watch);
         return FitResult::new(problem, found, (watch.clock)());
     }
-    let linear = search(&problem.with_linear_loss(), starts, seed, watch);
-    let scaled = linear.found.first().map(|best| problem.with_loss_scale_of(&best.descent.parameters).with_start(best.descent.parameters));
+    let squared = multistart(&problem.with_linear_loss(), starts, seed, watch);
+    let scaled = squared.basins.first().map(|best| {
+        let parameters = best.local_fit.parameters;
+        problem.with_loss_scale_of(&parameters).with_start(parameters)
+    });
     let robust = scaled.unwrap_or_else(|| problem.clone());
-    let mut found = search(&robust, starts, seed, watch);
-    found.evaluations += linear.evaluations;
+    let mut found = multistart(&robust, starts, seed, watch);
+    found.evaluations += squared.evaluations;
     FitResult::new(&robust.with_start(*problem.start()), found, (watch.clock)())
 }
 
@@ -218,20 +224,20 @@ impl FitResult {
 
     /// The report of a search that was made before, on a problem with the loss scales that it had then; none where it found nothing.
     #[must_use]
-    pub fn again(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> Option<Self> {
-        (!search.found.is_empty()).then(|| Self::new(problem, search, elapsed_ms))
+    pub fn restore(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> Option<Self> {
+        (!search.basins.is_empty()).then(|| Self::new(problem, search, elapsed_ms))
     }
 
     fn new(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> Self {
-        let MultistartResult { mut found, evaluations } = search;
-        let minima = found.iter().map(|found| Minimum {
-            parameters: found.descent.parameters,
-            objective: problem.delta_e(&found.descent.parameters).unwrap_or(f64::NAN),
-            stop_reason: found.descent.stop_reason,
-            reached: found.reached,
+        let MultistartResult { mut basins, evaluations } = search;
+        let minima = basins.iter().map(|basin| Minimum {
+            parameters: basin.local_fit.parameters,
+            objective: problem.delta_e(&basin.local_fit.parameters).unwrap_or(f64::NAN),
+            stop_reason: basin.local_fit.stop_reason,
+            hits: basin.hits,
         });
         let mut minima: Vec<Minimum> = minima.collect();
-        let LocalFit { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = found.swap_remove(0).descent;
+        let LocalFit { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = basins.swap_remove(0).local_fit;
         let at_bound: ParameterSet =
             problem.free().iter().copied().filter(|&parameter| edge(problem, &parameters, parameter).is_some()).collect();
         let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));

@@ -108,7 +108,7 @@ impl Method {
             }
             Self::One => {
                 let watch = Observer { clock: &|| 0.0, cancelled: surroundings.cancelled, progress: &|_| {} };
-                _ = minimise(&Recorded { problem: task.problem, log: &log }, Effort::Full, watch);
+                _ = minimise(&Recorded { problem: task.problem, log: &log }, Effort::Thorough, watch);
             }
             Self::Many => {
                 let clock = surroundings.clock;

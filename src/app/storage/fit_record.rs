@@ -80,7 +80,7 @@ impl FitRecord {
         let is_robust = problem.choices().loss != Loss::Squared;
         let at = |parameters: &Parameters| free.iter().map(|&parameter| parameters[parameter]).collect();
         let minima = report.minima.iter().map(|minimum| Ending {
-            reached: minimum.reached,
+            reached: minimum.hits,
             stop_reason: minimum.stop_reason,
             at: at(&minimum.parameters),
         });
@@ -153,7 +153,7 @@ impl FitRecord {
                 evaluations: step.evaluations,
                 objective: step.delta_e.unwrap_or(f64::NAN),
             };
-            let descent = LocalFit {
+            let local_fit = LocalFit {
                 parameters,
                 sum_of_squares: problem.sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
                 stop_reason: ending.stop_reason,
@@ -161,10 +161,10 @@ impl FitRecord {
                 trace: way.iter().map(point).collect(),
                 path: way.iter().map(|step| place(start, free, &step.at)).collect(),
             };
-            Basin { descent, reached: ending.reached }
+            Basin { local_fit, hits: ending.reached }
         });
-        let search = MultistartResult { found: found.collect(), evaluations: self.evaluations };
-        FitResult::again(&problem, search, self.elapsed_ms)
+        let search = MultistartResult { basins: found.collect(), evaluations: self.evaluations };
+        FitResult::restore(&problem, search, self.elapsed_ms)
     }
 }
 

@@ -3,8 +3,9 @@
 //! Data of each replicate are the fitted values and residuals drawn with replacement, widened by `√(N/(N − rank))` for what the
 //! fit took out of them (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted from the solution.
 
-use crate::fit::local::solver::{Effort, Observer, fit_local};
+use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::objective::Problem;
+use crate::fit::observer::Observer;
 use crate::fit::result::FitResult;
 use crate::model::{Parameter, Parameters};
 use rand_pcg::Pcg64;
@@ -38,7 +39,7 @@ pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed:
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
     let widen = (problem.len() as f64 / report.dof.max(1) as f64).sqrt();
     let solution = problem.with_start(report.parameters);
-    let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| fit_local(replicate, Effort::Full, watch).parameters);
+    let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| fit_local(replicate, Effort::Thorough, watch).parameters);
     let mut fits = Vec::new();
     let mut left = replicates;
     // Data sets are drawn in their order, and no more of them are held than are being fitted.

@@ -3,8 +3,9 @@
 //! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
 //! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
 
-use crate::fit::local::solver::{Effort, Observer, fit_local};
+use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::objective::Problem;
+use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
 use crate::fit::result::FitResult;
 use crate::model::{Parameter, ParameterSet, Parameters};
@@ -59,7 +60,7 @@ pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watc
                 break;
             }
             from[parameter] = best + (side - best) * f64::from(step) / f64::from(STEPS);
-            let descent = fit_local(&held.with_start(from), Effort::Full, watch);
+            let descent = fit_local(&held.with_start(from), Effort::Thorough, watch);
             from = descent.parameters;
             scan.push((from[parameter], descent.sum_of_squares, from));
         }

@@ -1,82 +1,91 @@
 //! Levenberg–Marquardt in a box with geodesic acceleration.
 //!
-//! Each step minimises `‖J d + r‖² + λ ‖D d‖²` over the steps that stay in the box; unknowns that rest on an edge with the objective falling
-//! outwards do not move. D holds the norms of the columns of J. Where the straight step d meets the curvature of the residuals, half of
-//! their second derivative along d is fitted away too (Transtrum and Sethna, arXiv:1201.5885): in a curved valley such a step follows the
-//! geodesic_acceleration, and goes several times as far.
+//! Each step minimises `‖J d + r‖² + λ ‖D d‖²` over the steps that stay in the box, D being the norms of the columns of J. Unknowns
+//! on a bound do not move where the objective falls outwards (an active set). Where the residuals are curved along the step d, the
+//! geodesic acceleration, half of their second derivative along d fitted by the same matrix, is added to it (Transtrum and Sethna,
+//! arXiv:1201.5885). In a curved valley such a step follows the geodesic and goes several times as far.
 //!
-//! It ends where the undamped linear problem promises no further fall: `‖Qᵀ r‖² ≤ ε ‖r‖²`, the relative offset of Bates and Watts
-//! (Technometrics 23, 179 (1981)), which knows no unit.
+//! The minimum is reached where the undamped linear problem promises no further reduction, `‖Qᵀ r‖² ≤ ε ‖r‖²`: the relative offset
+//! of Bates and Watts (Technometrics 23, 179 (1981)), which is free of units. λ follows Nielsen (IMM-REP-1999-05, DTU).
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::qr::{Damped, Qr, Workspace};
-use crate::fit::local::solver::{Recorder, StopReason};
+use crate::fit::local::qr::{Buffers, Damped, Qr};
+use crate::fit::local::recorder::Recorder;
+use crate::fit::stop_reason::StopReason;
 use nalgebra::{DMatrix, DVector};
 
-/// Relative offset, squared, at which the minimum is reached for every purpose of the objective.
+/// Square of the relative offset at which the sum of squares is at its minimum to every digit that matters.
 const GRADIENT_TOLERANCE: f64 = 1e-12;
-/// Steps at the end that sharpen the unknowns, not the objective, which is down to rounding by then.
-const SHARPENING: usize = 40;
-/// Each must make the relative offset, squared, smaller by this factor.
-const SHARPER: f64 = 0.7;
-/// What rounding may add to the sum of squares, as a fraction.
+/// Steps that refine the unknowns at the end, where the sum of squares is down to rounding.
+const REFINEMENT_STEPS: usize = 40;
+/// Each of them must multiply the square of the relative offset by no more than this.
+const REFINEMENT_CONTRACTION: f64 = 0.7;
+/// Relative change of the sum of squares that is rounding.
 const ROUNDING: f64 = 1e-11;
-/// First damping.
+/// First damping: starts are mostly poor, but a good one is to be left by nearly full steps.
 const FIRST_DAMPING: f64 = 1e-2;
-/// Damping beyond which steps are lost in rounding, and below which there is none.
-const MOST_DAMPING: f64 = 1e16;
-const LEAST_DAMPING: f64 = 1e-18;
-/// Part of a step at which the curvature along it is measured.
-const PROBE: f64 = 0.1;
-/// The acceleration may be this fraction of the step; beyond, the step is too long for its curvature.
+/// Damping beyond which steps are lost in rounding.
+const MAX_DAMPING: f64 = 1e16;
+/// Damping below which there is none in f64.
+const MIN_DAMPING: f64 = 1e-18;
+/// Part of a step at which the curvature along it is measured, as Transtrum and Sethna recommend.
+const DIFFERENCE_STEP: f64 = 0.1;
+/// Largest ratio of acceleration to step (their α): beyond, the step is too long for its curvature.
 const MAX_ACCELERATION_RATIO: f64 = 0.75;
-/// An unknown that could not change the residuals by more than this fraction of their size if it crossed its whole box is idle: what its
-/// column says is rounding.
+/// An unknown is insensitive if it cannot change the residuals by more than this fraction of their norm when it crosses its whole
+/// box: its column of the Jacobian is rounding.
 const INSENSITIVE: f64 = 1e-10;
-/// Promised relative falls below this are too small to measure a curvature by.
-const STRAIGHT: f64 = 1e-8;
+/// Predicted relative reduction below which the curvature is lost in rounding and is not measured.
+const ACCELERATION_THRESHOLD: f64 = 1e-8;
 
-/// How far a walk goes.
+/// How far a minimisation goes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     /// Steps taken.
     pub steps: usize,
     /// Residual evaluations.
     pub evaluations: usize,
-    /// Whether the unknowns are sharpened at the end.
-    pub sharpen: bool,
+    /// Whether the unknowns are refined at the end.
+    pub refine: bool,
 }
 
-/// A point with what is known there.
+/// A point, its residuals and the sum of their squares.
 struct Point {
     x: DVector<f64>,
     residuals: DVector<f64>,
     sum_of_squares: f64,
 }
 
-/// A walk through a problem, with its buffers.
+/// The solver on a problem, with its buffers.
 pub(crate) struct BoundedLm<'a, P: LeastSquares> {
     problem: &'a P,
-    here: Point,
-    there: Point,
+    /// The box.
+    bounds: Vec<(f64, f64)>,
+    current: Point,
+    trial: Point,
     jacobian: DMatrix<f64>,
+    /// The unknowns that move: those inside, or pulled inwards from a bound, that are not insensitive.
     moving: Vec<usize>,
+    /// D.
     scale: Vec<f64>,
     qr: Qr,
     /// Qᵀ r.
     rotated: Vec<f64>,
-    ends: Vec<(f64, f64)>,
+    /// The least and the largest step of each moving unknown.
+    step_bounds: Vec<(f64, f64)>,
     step: Vec<f64>,
     acceleration: Vec<f64>,
-    space: Workspace,
+    buffers: Buffers,
     damping: f64,
-    bounds: Vec<(f64, f64)>,
 }
 
-/// What came of trying to leave a point.
-enum Try {
-    Better,
+/// What came of the attempt to leave a point.
+enum StepOutcome {
+    /// The current point is a better one.
+    Improved,
+    /// No step improves the sum of squares.
     Stalled,
+    /// A limit or a cancel.
     Stopped(StopReason),
 }
 
@@ -88,77 +97,77 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         let inside = DVector::from_fn(n, |j, _| start[j].clamp(bounds[j].0, bounds[j].1));
         Self {
             problem,
-            here: point(inside.clone()),
-            there: point(inside),
+            current: point(inside.clone()),
+            trial: point(inside),
             jacobian: DMatrix::zeros(m, n),
             moving: Vec::with_capacity(n),
             scale: Vec::with_capacity(n),
             qr: Qr::default(),
             rotated: Vec::with_capacity(m.max(n)),
-            ends: Vec::with_capacity(n),
+            step_bounds: Vec::with_capacity(n),
             step: Vec::with_capacity(n),
             acceleration: Vec::with_capacity(n),
-            space: Workspace::default(),
+            buffers: Buffers::default(),
             damping: FIRST_DAMPING,
             bounds,
         }
     }
 
-    /// Goes on until it is there, or cannot.
-    pub(crate) fn run(&mut self, limits: Limits, log: &mut Recorder<'_>) -> StopReason {
-        self.here.sum_of_squares = log.evaluate(self.problem, &self.here.x, &mut self.here.residuals);
-        if log.is_cancelled() {
+    /// Minimises until the minimum or a limit is reached, or no step improves.
+    pub(crate) fn run(&mut self, limits: Limits, recorder: &mut Recorder<'_>) -> StopReason {
+        self.current.sum_of_squares = recorder.evaluate(self.problem, &self.current.x, &mut self.current.residuals);
+        if recorder.is_cancelled() {
             return StopReason::Cancelled;
         }
-        if !self.here.sum_of_squares.is_finite() {
+        if !self.current.sum_of_squares.is_finite() {
             return StopReason::Numerical;
         }
-        let last = log.evaluations().saturating_add(limits.evaluations);
+        let last = recorder.evaluations().saturating_add(limits.evaluations);
         for _ in 0..limits.steps {
-            if self.here.sum_of_squares <= self.problem.negligible() {
+            if self.current.sum_of_squares <= self.problem.negligible() {
                 return StopReason::ResidualsZero;
             }
             if !self.linearise() {
                 return StopReason::Numerical;
             }
             let offset = self.offset();
-            if offset <= GRADIENT_TOLERANCE * self.here.sum_of_squares {
-                if limits.sharpen {
-                    return self.sharpen(log);
+            if offset <= GRADIENT_TOLERANCE * self.current.sum_of_squares {
+                if limits.refine {
+                    return self.refine(recorder);
                 }
                 return StopReason::Converged;
             }
-            match self.advance(last, log) {
-                Try::Better => {}
-                Try::Stalled => return StopReason::NoImprovement,
-                Try::Stopped(reason) => return reason,
+            match self.advance(last, recorder) {
+                StepOutcome::Improved => {}
+                StepOutcome::Stalled => return StopReason::NoImprovement,
+                StepOutcome::Stopped(reason) => return reason,
             }
         }
         StopReason::EvaluationLimit
     }
 
-    /// Derivatives, moving unknowns and factorisation where it is.
+    /// Writes Jacobian, moving unknowns and factorisation at the current point; false where a derivative is not finite.
     fn linearise(&mut self) -> bool {
-        let Self { problem, here, jacobian, moving, scale, qr, rotated, ends, .. } = self;
-        if !problem.jacobian_at(&here.x, jacobian) {
+        let Self { problem, current, jacobian, moving, scale, qr, rotated, step_bounds, .. } = self;
+        if !problem.jacobian_at(&current.x, jacobian) {
             return false;
         }
         let bounds = &self.bounds;
         moving.clear();
-        moving.extend((0..here.x.len()).filter(|&j| {
+        moving.extend((0..current.x.len()).filter(|&j| {
             let (low, high) = bounds[j];
-            let (at_low, at_high) = (here.x[j] <= low, here.x[j] >= high);
+            let (at_low, at_high) = (current.x[j] <= low, current.x[j] >= high);
             if !at_low && !at_high {
                 return true;
             }
-            let slope = jacobian.column(j).dot(&here.residuals);
+            let slope = jacobian.column(j).dot(&current.residuals);
             !((at_low && slope >= 0.0) || (at_high && slope <= 0.0))
         }));
-        problem.to_local(&here.x, moving, jacobian);
-        let idle = INSENSITIVE * here.residuals.norm();
+        problem.to_local(&current.x, moving, jacobian);
+        let insensitive = INSENSITIVE * current.residuals.norm();
         moving.retain(|&j| {
-            let (low, high) = problem.local_bounds(&here.x, j);
-            jacobian.column(j).norm() * (high - low) > idle
+            let (low, high) = problem.local_bounds(&current.x, j);
+            jacobian.column(j).norm() * (high - low) > insensitive
         });
         let m = jacobian.nrows();
         qr.factorise(m, moving.len(), |a| {
@@ -169,74 +178,74 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         });
         scale.clear();
         scale.extend(moving.iter().map(|&j| jacobian.column(j).norm().max(f64::MIN_POSITIVE)));
-        ends.clear();
-        ends.extend(moving.iter().map(|&j| problem.local_bounds(&here.x, j)));
+        step_bounds.clear();
+        step_bounds.extend(moving.iter().map(|&j| problem.local_bounds(&current.x, j)));
         rotated.clear();
-        rotated.extend_from_slice(here.residuals.as_slice());
+        rotated.extend_from_slice(current.residuals.as_slice());
         rotated.resize(qr.rows(), 0.0);
         qr.transposed_times(rotated);
         true
     }
 
-    /// The fall that the undamped linear problem promises.
+    /// ‖Qᵀ r‖², the reduction that the undamped linear problem predicts: the relative offset, squared, times ‖r‖².
     fn offset(&self) -> f64 {
         self.rotated[..self.moving.len()].iter().map(|c| c * c).sum()
     }
 
-    /// Takes a step that makes the sum of squares smaller.
-    fn advance(&mut self, last: usize, log: &mut Recorder<'_>) -> Try {
+    /// Takes a step that reduces the sum of squares, raising the damping until there is one.
+    fn advance(&mut self, last: usize, recorder: &mut Recorder<'_>) -> StepOutcome {
         let mut growth = 2.0;
-        while self.damping < MOST_DAMPING {
-            if log.is_cancelled() {
-                return Try::Stopped(StopReason::Cancelled);
+        while self.damping < MAX_DAMPING {
+            if recorder.is_cancelled() {
+                return StepOutcome::Stopped(StopReason::Cancelled);
             }
-            if log.evaluations() >= last {
-                return Try::Stopped(StopReason::EvaluationLimit);
+            if recorder.evaluations() >= last {
+                return StepOutcome::Stopped(StopReason::EvaluationLimit);
             }
-            let promised = self.damped_step();
-            if promised.is_nan() || promised <= f64::EPSILON * self.here.sum_of_squares {
-                return Try::Stalled;
+            let predicted = self.damped_step();
+            if predicted.is_nan() || predicted <= f64::EPSILON * self.current.sum_of_squares {
+                return StepOutcome::Stalled;
             }
-            let bent = promised > STRAIGHT * self.here.sum_of_squares && self.geodesic_acceleration(log);
-            if !bent {
-                self.try_step(log);
-                let ratio = (self.here.sum_of_squares - self.there.sum_of_squares) / promised;
+            let is_too_long = predicted > ACCELERATION_THRESHOLD * self.current.sum_of_squares && self.geodesic_acceleration(recorder);
+            if !is_too_long {
+                self.try_step(recorder);
+                let ratio = (self.current.sum_of_squares - self.trial.sum_of_squares) / predicted;
                 if ratio > 0.0 {
-                    std::mem::swap(&mut self.here, &mut self.there);
+                    std::mem::swap(&mut self.current, &mut self.trial);
                     let x = 2.0 * ratio - 1.0;
-                    self.damping = (self.damping * (1.0 - x * x * x).clamp(0.1, 2.0)).max(LEAST_DAMPING);
-                    return Try::Better;
+                    self.damping = (self.damping * (1.0 - x * x * x).clamp(0.1, 2.0)).max(MIN_DAMPING);
+                    return StepOutcome::Improved;
                 }
             }
             self.damping *= growth;
             growth *= 2.0;
         }
-        Try::Stalled
+        StepOutcome::Stalled
     }
 
-    /// The damped step; what it promises.
+    /// Writes the damped step; returns the reduction that it predicts.
     fn damped_step(&mut self) -> f64 {
-        let Self { qr, scale, damping, rotated, ends, step, space, moving, .. } = self;
+        let Self { qr, scale, damping, rotated, step_bounds, step, buffers, moving, .. } = self;
         step.clear();
         step.resize(moving.len(), 0.0);
         let damped = Damped { qr, scale, damping: *damping };
-        damped.solve_within(rotated, ends, step, space);
+        damped.solve_within(rotated, step_bounds, step, buffers);
         damped.reduction(rotated, step)
     }
 
-    /// Adds the acceleration to the step; true if the step is too long for it.
-    fn geodesic_acceleration(&mut self, log: &mut Recorder<'_>) -> bool {
-        let Self { problem, here, there, jacobian, moving, scale, qr, step, acceleration, space, damping, .. } = self;
+    /// Adds the geodesic acceleration to the step; true if the step is too long for its curvature.
+    fn geodesic_acceleration(&mut self, recorder: &mut Recorder<'_>) -> bool {
+        let Self { problem, current, trial, jacobian, moving, scale, qr, step, acceleration, buffers, damping, .. } = self;
         acceleration.clear();
-        acceleration.extend(step.iter().map(|d| PROBE * d));
-        problem.retract(&here.x, moving, acceleration, &mut there.x);
-        confine(&self.bounds, &mut there.x);
-        log.evaluate(*problem, &there.x, &mut there.residuals);
-        let mut second: Vec<f64> = (0..here.residuals.len())
+        acceleration.extend(step.iter().map(|d| DIFFERENCE_STEP * d));
+        problem.retract(&current.x, moving, acceleration, &mut trial.x);
+        confine(&self.bounds, &mut trial.x);
+        recorder.evaluate(*problem, &trial.x, &mut trial.residuals);
+        let mut second: Vec<f64> = (0..current.residuals.len())
             .map(|i| {
                 let along: f64 = moving.iter().zip(step.iter()).map(|(&j, d)| jacobian[(i, j)] * d).sum();
                 // Half of the second derivative.
-                ((there.residuals[i] - here.residuals[i]) / PROBE - along) / PROBE
+                ((trial.residuals[i] - current.residuals[i]) / DIFFERENCE_STEP - along) / DIFFERENCE_STEP
             })
             .collect();
         if second.iter().any(|x| !x.is_finite()) {
@@ -245,7 +254,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         second.resize(qr.rows(), 0.0);
         qr.transposed_times(&mut second);
         let damped = Damped { qr, scale, damping: *damping };
-        damped.resolve_with_rhs(&second, acceleration, space);
+        damped.resolve_with_rhs(&second, acceleration, buffers);
         let size = |d: &[f64]| d.iter().zip(scale.iter()).map(|(d, s)| (d * s) * (d * s)).sum::<f64>().sqrt();
         if 2.0 * size(acceleration) > MAX_ACCELERATION_RATIO * size(step) {
             return true;
@@ -254,38 +263,39 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         false
     }
 
-    fn try_step(&mut self, log: &mut Recorder<'_>) {
-        let Self { problem, here, there, moving, step, .. } = self;
-        problem.retract(&here.x, moving, step, &mut there.x);
-        confine(&self.bounds, &mut there.x);
-        there.sum_of_squares = log.evaluate(*problem, &there.x, &mut there.residuals);
+    /// Evaluates the residuals where the step leads.
+    fn try_step(&mut self, recorder: &mut Recorder<'_>) {
+        let Self { problem, current, trial, moving, step, .. } = self;
+        problem.retract(&current.x, moving, step, &mut trial.x);
+        confine(&self.bounds, &mut trial.x);
+        trial.sum_of_squares = recorder.evaluate(*problem, &trial.x, &mut trial.residuals);
     }
 
-    /// Undamped steps as long as they bring the offset down: the sum of squares no longer tells.
-    fn sharpen(&mut self, log: &mut Recorder<'_>) -> StopReason {
-        let smallest = self.here.sum_of_squares;
-        for _ in 0..SHARPENING {
+    /// Undamped (Gauss–Newton) steps as long as they bring the offset down: the sum of squares is rounding by now.
+    fn refine(&mut self, recorder: &mut Recorder<'_>) -> StopReason {
+        let smallest = self.current.sum_of_squares;
+        for _ in 0..REFINEMENT_STEPS {
             let offset = self.offset();
             self.damping = 0.0;
-            if offset == 0.0 || !self.damped_step().is_finite() || log.is_cancelled() {
+            if offset == 0.0 || !self.damped_step().is_finite() || recorder.is_cancelled() {
                 break;
             }
-            self.try_step(log);
-            if self.there.sum_of_squares > smallest * (1.0 + ROUNDING) {
+            self.try_step(recorder);
+            if self.trial.sum_of_squares > smallest * (1.0 + ROUNDING) {
                 break;
             }
-            std::mem::swap(&mut self.here, &mut self.there);
-            if !self.linearise() || self.offset() > SHARPER * offset {
-                std::mem::swap(&mut self.here, &mut self.there);
+            std::mem::swap(&mut self.current, &mut self.trial);
+            if !self.linearise() || self.offset() > REFINEMENT_CONTRACTION * offset {
+                std::mem::swap(&mut self.current, &mut self.trial);
                 break;
             }
         }
-        log.settle(&self.here.x, self.here.sum_of_squares, ROUNDING);
+        recorder.accept(&self.current.x, self.current.sum_of_squares, ROUNDING);
         StopReason::Converged
     }
 }
 
-/// Puts what strayed by rounding back into the box.
+/// Clamps to the box what rounding took out of it.
 fn confine(bounds: &[(f64, f64)], x: &mut DVector<f64>) {
     for (value, (low, high)) in x.iter_mut().zip(bounds) {
         *value = value.clamp(*low, *high);
@@ -330,16 +340,16 @@ mod tests {
     const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
     #[test]
-    fn it_follows_a_curved_valley_to_its_end() {
-        let found = minimise(&Valley { bounds: [ANYWHERE; 2] }, Effort::Finish, Observer::NONE);
+    fn it_follows_a_curved_valley_to_the_minimum() {
+        let found = minimise(&Valley { bounds: [ANYWHERE; 2] }, Effort::Polish, Observer::NONE);
         assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-12, "{:?}", found.stop_reason);
-        // A step takes two evaluations; without a way of following the bend it would be thousands.
+        // A step takes two evaluations; without acceleration it would be thousands.
         assert!(found.evaluations < 100, "{}", found.evaluations);
     }
 
     #[test]
-    fn it_ends_exactly_on_the_edge_that_stops_it() {
-        let found = minimise(&Valley { bounds: [(-2.0, 0.5), ANYWHERE] }, Effort::Finish, Observer::NONE);
+    fn it_ends_exactly_on_the_bound_that_stops_it() {
+        let found = minimise(&Valley { bounds: [(-2.0, 0.5), ANYWHERE] }, Effort::Polish, Observer::NONE);
         // On x = ½ the valley floor is y = ¼, and 1 − x is left over.
         assert_eq!((found.x[0], found.stop_reason), (0.5, StopReason::Converged));
         assert!((found.x[1] - 0.25).abs() < 1e-9 && (found.sum_of_squares - 0.25).abs() < 1e-12);
@@ -347,7 +357,7 @@ mod tests {
 
     #[test]
     fn a_start_outside_the_box_is_put_inside() {
-        let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Finish, Observer::NONE);
+        let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Polish, Observer::NONE);
         assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-9);
     }
 }

@@ -1,29 +1,31 @@
 //! The crate `levenberg-marquardt` (MINPACK's lmder) on a problem in a box.
 //!
-//! Each unknown x in [a, b] becomes an angle φ with `x = a + (b − a) sin²φ`: smooth, onto the closed box, and a step too long folds back
-//! instead of running away. An unknown without bounds stays itself.
+//! Each unknown x in [a, b] becomes an angle φ with `x = a + (b − a) sin²φ`. The transform is smooth and maps onto the closed box,
+//! and a step too long folds back instead of running away. An unknown without bounds is not transformed.
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::solver::{Recorder, StopReason};
+use crate::fit::local::recorder::Recorder;
+use crate::fit::stop_reason::StopReason;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
 
-/// The fraction of the box that a start keeps from an edge, where the slope by φ vanishes.
+/// The fraction of the box that a start keeps from a bound, where dx/dφ vanishes and MINPACK would see no slope.
 const START_MARGIN: f64 = 1e-3;
-/// First step bound: MINPACK's 100 overshoots from far starts.
+/// First step bound, relative to the scaled start. MINPACK's default of 100 overshoots from far starts.
 const STEP_BOUND: f64 = 1.0;
-/// Relative fall of the objective in a step below which the minpack_sin2 has done its part.
+/// Relative reduction of the sum of squares in a step below which progress counts as slow.
 const TOLERANCE: f64 = 1e-5;
 
-/// From anywhere until progress is slow, or for `patience` evaluations per unknown and one.
+/// Minimises until progress is slow, for at most `patience` evaluations per unknown and one. Returns the best point, and why it
+/// ended.
 pub(crate) fn minpack_sin2<P: LeastSquares>(
     problem: &P,
     start: &DVector<f64>,
     patience: usize,
-    log: &mut Recorder<'_>,
+    recorder: &mut Recorder<'_>,
 ) -> (DVector<f64>, StopReason) {
     let boxes: Vec<(f64, f64)> = (0..start.len()).map(|j| problem.bounds_of(j)).collect();
     let angle = |j: usize| {
@@ -35,7 +37,7 @@ pub(crate) fn minpack_sin2<P: LeastSquares>(
         FRAC_PI_2 - libm::acos(fraction.sqrt())
     };
     let z = DVector::from_fn(start.len(), |j, _| angle(j));
-    let adapter = Adapter { problem, boxes, z, best: RefCell::new((f64::INFINITY, start.clone())), log: RefCell::new(log) };
+    let adapter = Adapter { problem, boxes, z, best: RefCell::new((f64::INFINITY, start.clone())), recorder: RefCell::new(recorder) };
     let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_ftol(TOLERANCE).with_patience(patience);
     let (adapter, report) = solver.minimize(adapter);
     let reason = match report.termination {
@@ -51,13 +53,13 @@ pub(crate) fn minpack_sin2<P: LeastSquares>(
 }
 
 /// The problem in the angles φ.
-struct Adapter<'a, 'l, 'w, P: LeastSquares> {
+struct Adapter<'a, 'r, 'o, P: LeastSquares> {
     problem: &'a P,
     boxes: Vec<(f64, f64)>,
     z: DVector<f64>,
-    /// The best point: the crate returns rejected ones.
+    /// The best point and its sum of squares: the crate returns rejected points.
     best: RefCell<(f64, DVector<f64>)>,
-    log: RefCell<&'l mut Recorder<'w>>,
+    recorder: RefCell<&'r mut Recorder<'o>>,
 }
 
 impl<P: LeastSquares> Adapter<'_, '_, '_, P> {
@@ -88,13 +90,13 @@ impl<P: LeastSquares> LeastSquaresProblem<f64, Dyn, Dyn> for Adapter<'_, '_, '_,
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let mut log = self.log.borrow_mut();
-        if log.is_cancelled() {
+        let mut recorder = self.recorder.borrow_mut();
+        if recorder.is_cancelled() {
             return None;
         }
         let mut residuals = DVector::zeros(self.problem.residual_count());
         let x = self.unknowns();
-        let sum_of_squares = log.evaluate(self.problem, &x, &mut residuals);
+        let sum_of_squares = recorder.evaluate(self.problem, &x, &mut residuals);
         let mut best = self.best.borrow_mut();
         if !sum_of_squares.is_finite() {
             residuals.fill(f64::NAN);

@@ -1,7 +1,9 @@
-//! One descent from one start: MINPACK until its progress stalls, then the bounded Levenberg–Marquardt.
+//! From one start to a minimum: two solvers, the coordinates that straighten valleys, and small dense linear algebra.
 
 pub(crate) mod bounded_lm;
 pub(crate) mod minpack;
 pub(crate) mod qr;
+pub(crate) mod recorder;
 pub(crate) mod reparametrisation;
+pub(crate) mod solution;
 pub(crate) mod solver;

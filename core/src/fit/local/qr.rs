@@ -1,6 +1,7 @@
-//! Householder's QR factorisation of small dense matrices, and damped least squares in a box on top of it.
+//! Householder's QR factorisation of small dense matrices, and damped least squares in a box on top of it (Golub and Van Loan,
+//! *Matrix Computations*, 2013, sec. 5.2).
 //!
-//! The matrices of a fit have a handful of columns: plain loops over one buffer, which is used again from step to step, cost less than the
+//! The matrices of a fit have a handful of columns. Plain loops over one buffer, used again from step to step, cost less than the
 //! allocations of a general library. Normal equations would cost half the digits.
 
 /// `A = Q R`, in place: R on and above the diagonal, the reflectors below.
@@ -91,43 +92,43 @@ pub(crate) struct Damped<'a> {
     pub damping: f64,
 }
 
-/// What solving a damped problem needs from step to step.
+/// Buffers of a damped problem, used again from step to step.
 #[derive(Debug, Default)]
-pub(crate) struct Workspace {
+pub(crate) struct Buffers {
     qr: Qr,
     right: Vec<f64>,
     solution: Vec<f64>,
-    /// The unknowns that are not at their ends.
+    /// The unknowns that are not on their bounds.
     inside: Vec<usize>,
 }
 
 impl Damped<'_> {
-    /// Solves it within the ends; an unknown that would pass its end is put there and the rest solved again.
-    pub(crate) fn solve_within(&self, b: &[f64], ends: &[(f64, f64)], step: &mut [f64], space: &mut Workspace) {
+    /// Solves it within the bounds of the step. Of the unknowns that would pass their bounds, the one that does so by most of its
+    /// step is put on its bound, and the others are solved again, until none passes.
+    pub(crate) fn solve_within(&self, b: &[f64], bounds: &[(f64, f64)], step: &mut [f64], buffers: &mut Buffers) {
         let k = step.len();
-        space.inside.clear();
-        space.inside.extend(0..k);
+        buffers.inside.clear();
+        buffers.inside.extend(0..k);
         step.fill(0.0);
         loop {
-            self.factorise(space);
-            self.solve_inside(b, step, space);
-            // Of those that pass their ends the one that does so by most of its step.
+            self.factorise(buffers);
+            self.solve_inside(b, step, buffers);
             let excess = |(&j, &value): (&usize, &f64)| {
-                let (low, high) = ends[j];
-                let end = if value < low { low } else { high };
-                (value < low || value > high).then(|| (j, end, (value - end).abs() / value.abs()))
+                let (low, high) = bounds[j];
+                let bound = if value < low { low } else { high };
+                (value < low || value > high).then(|| (j, bound, (value - bound).abs() / value.abs()))
             };
-            let worst = space.inside.iter().zip(&space.solution).filter_map(excess).max_by(|a, b| a.2.total_cmp(&b.2));
+            let worst = buffers.inside.iter().zip(&buffers.solution).filter_map(excess).max_by(|a, b| a.2.total_cmp(&b.2));
             match worst {
-                Some((j, end, _)) => {
-                    step[j] = end;
-                    space.inside.retain(|&other| other != j);
-                    if space.inside.is_empty() {
+                Some((j, bound, _)) => {
+                    step[j] = bound;
+                    buffers.inside.retain(|&other| other != j);
+                    if buffers.inside.is_empty() {
                         return;
                     }
                 }
                 None => {
-                    for (&j, &value) in space.inside.iter().zip(&space.solution) {
+                    for (&j, &value) in buffers.inside.iter().zip(&buffers.solution) {
                         step[j] = value;
                     }
                     return;
@@ -136,18 +137,18 @@ impl Damped<'_> {
         }
     }
 
-    /// Solves it for another b with the unknowns that the last solution put at their ends at 0.
-    pub(crate) fn resolve_with_rhs(&self, b: &[f64], step: &mut [f64], space: &mut Workspace) {
+    /// Solves it for another b, the unknowns that the last solution put on their bounds held at 0.
+    pub(crate) fn resolve_with_rhs(&self, b: &[f64], step: &mut [f64], buffers: &mut Buffers) {
         step.fill(0.0);
-        self.solve_inside(b, step, space);
-        for (&j, &value) in space.inside.iter().zip(&space.solution) {
+        self.solve_inside(b, step, buffers);
+        for (&j, &value) in buffers.inside.iter().zip(&buffers.solution) {
             step[j] = value;
         }
     }
 
-    fn factorise(&self, space: &mut Workspace) {
+    fn factorise(&self, buffers: &mut Buffers) {
         let k = self.scale.len();
-        let Workspace { qr, inside, .. } = space;
+        let Buffers { qr, inside, .. } = buffers;
         qr.factorise(2 * k, inside.len(), |a| {
             for (column, &j) in a.chunks_exact_mut(2 * k).zip(inside.iter()) {
                 for (i, slot) in column[..=j].iter_mut().enumerate() {
@@ -159,9 +160,9 @@ impl Damped<'_> {
     }
 
     /// With the unknowns outside `inside` at the values in `step`.
-    fn solve_inside(&self, b: &[f64], step: &[f64], space: &mut Workspace) {
+    fn solve_inside(&self, b: &[f64], step: &[f64], buffers: &mut Buffers) {
         let k = step.len();
-        let Workspace { qr, right, solution, inside } = space;
+        let Buffers { qr, right, solution, inside } = buffers;
         solution.clear();
         if inside.is_empty() {
             return;
@@ -179,7 +180,7 @@ impl Damped<'_> {
         qr.solve(right, solution);
     }
 
-    /// By how much the undamped sum of squares falls in a step: ‖b‖² − ‖A d + b‖², summed without a difference of large numbers.
+    /// Reduction of the undamped sum of squares by a step, ‖b‖² − ‖A d + b‖², summed without a difference of large numbers.
     pub(crate) fn reduction(&self, b: &[f64], step: &[f64]) -> f64 {
         let k = step.len();
         (0..k)
@@ -193,7 +194,7 @@ impl Damped<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Damped, Qr, Workspace};
+    use super::{Buffers, Damped, Qr};
     use nalgebra::{DMatrix, DVector};
 
     const ROWS: usize = 7;
@@ -256,26 +257,26 @@ mod tests {
         let (qr, scale, damping) = (factorised(&a), [0.5, 1.0, 2.0], 0.3);
         let mut step = vec![0.0; COLUMNS];
         let free = [(f64::NEG_INFINITY, f64::INFINITY); COLUMNS];
-        Damped { qr: &qr, scale: &scale, damping }.solve_within(&rotated(&qr, &b), &free, &mut step, &mut Workspace::default());
+        Damped { qr: &qr, scale: &scale, damping }.solve_within(&rotated(&qr, &b), &free, &mut step, &mut Buffers::default());
         let squares = DMatrix::from_diagonal(&DVector::from_iterator(COLUMNS, scale.iter().map(|s| damping * s * s)));
         let expected = (a.transpose() * &a + squares).lu().solve(&(a.transpose() * -b)).unwrap();
         assert!((DVector::from_vec(step) - expected).amax() < ROUNDING);
     }
 
     #[test]
-    fn in_a_box_the_ends_hold_and_the_rest_has_no_slope() {
+    fn in_a_box_the_bounds_hold_and_the_other_unknowns_have_no_slope() {
         let (a, b) = (matrix(), right());
         let (qr, scale) = (factorised(&a), [1.0; COLUMNS]);
         let damped = Damped { qr: &qr, scale: &scale, damping: 0.0 };
         let rotated = rotated(&qr, &b);
         let mut free = vec![0.0; COLUMNS];
-        damped.solve_within(&rotated, &[(f64::NEG_INFINITY, f64::INFINITY); COLUMNS], &mut free, &mut Workspace::default());
-        // The unknown that would go furthest is held at half of its way.
+        damped.solve_within(&rotated, &[(f64::NEG_INFINITY, f64::INFINITY); COLUMNS], &mut free, &mut Buffers::default());
+        // The unknown with the longest step is held at half of it.
         let held = (0..COLUMNS).max_by(|&i, &j| free[i].abs().total_cmp(&free[j].abs())).unwrap();
-        let mut ends = [(-10.0, 10.0); COLUMNS];
-        ends[held] = (-0.5 * free[held].abs(), 0.5 * free[held].abs());
+        let mut bounds = [(-10.0, 10.0); COLUMNS];
+        bounds[held] = (-0.5 * free[held].abs(), 0.5 * free[held].abs());
         let mut step = vec![0.0; COLUMNS];
-        damped.solve_within(&rotated, &ends, &mut step, &mut Workspace::default());
+        damped.solve_within(&rotated, &bounds, &mut step, &mut Buffers::default());
         assert_eq!(step[held], 0.5 * free[held]);
         let residuals = &a * DVector::from_column_slice(&step) + &b;
         let slope = a.transpose() * &residuals;

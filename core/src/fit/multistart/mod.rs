@@ -1,4 +1,6 @@
-//! Many starts: a first guess by variable projection on a grid, a low-discrepancy sequence of starts, and the search that ends early.
+//! Many starts: first guesses by variable projection on a grid, a low-discrepancy sequence, and the search that ends early.
 
+pub(crate) mod basin;
 pub(crate) mod initial_guess;
 pub(crate) mod search;
+pub(crate) mod sequence;

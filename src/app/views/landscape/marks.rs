@@ -95,7 +95,7 @@ impl Marks {
         for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.minima).take(MOST_MINIMA).enumerate() {
             minima.push(place(&minimum.parameters), || {
                 let objective = format!("{:.4e}", minimum.objective);
-                tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.reached)
+                tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.hits)
             });
         }
         let (metals, names) = metals(key);

@@ -1,0 +1,61 @@
+//! The distinct minima that a multistart search has found.
+
+use crate::fit::local::solution::LocalFit;
+use crate::fit::stop_reason::StopReason;
+
+/// One minimum and how many starts led to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Basin {
+    /// The best descent that ended there.
+    pub local_fit: LocalFit,
+    /// How many starts ended there.
+    pub hits: usize,
+}
+
+/// What all starts together have found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MultistartResult {
+    /// The distinct minima, best first.
+    pub basins: Vec<Basin>,
+    /// Residual evaluations of all starts.
+    pub evaluations: usize,
+}
+
+/// Minima whose sums of squares differ by less than this fraction are the same: far more than the tolerance of the solver leaves
+/// open, far less than data can tell.
+pub(crate) const SAME: f64 = 1e-6;
+/// Sums of squares that differ by less than this are the same: of noise-free data, rounding alone is left.
+pub(crate) const SAME_ABSOLUTE: f64 = 1e-20;
+
+impl MultistartResult {
+    /// The smallest sum of squares; infinite before the first descent.
+    pub(crate) fn best(&self) -> f64 {
+        self.basins.first().map_or(f64::INFINITY, |basin| basin.local_fit.sum_of_squares)
+    }
+
+    /// Whether the best minimum is at rounding, so that no better one can be.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.basins.first().is_some_and(|basin| basin.local_fit.stop_reason == StopReason::ResidualsZero)
+    }
+
+    /// Adds the descent of one start.
+    pub(crate) fn add(&mut self, local_fit: LocalFit) {
+        self.evaluations += local_fit.evaluations;
+        self.merge(Basin { local_fit, hits: 1 });
+    }
+
+    /// Merges a minimum into one already found, or adds it, in the order of sums of squares.
+    pub(crate) fn merge(&mut self, new: Basin) {
+        let value = new.local_fit.sum_of_squares;
+        let is_same = |other: f64| (value - other).abs() <= (SAME * other.abs()).max(SAME_ABSOLUTE);
+        if let Some(i) = self.basins.iter().position(|basin| is_same(basin.local_fit.sum_of_squares)) {
+            self.basins[i].hits += new.hits;
+            if value < self.basins[i].local_fit.sum_of_squares {
+                self.basins[i].local_fit = new.local_fit;
+            }
+        } else {
+            self.basins.push(new);
+        }
+        self.basins.sort_by(|a, b| a.local_fit.sum_of_squares.total_cmp(&b.local_fit.sum_of_squares));
+    }
+}
