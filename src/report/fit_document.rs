@@ -140,7 +140,7 @@ impl FitDocument<'_> {
     }
 
     fn choices(&self) -> &FitOptions {
-        self.problem.choices()
+        self.problem.options()
     }
 
     fn summary(&self) -> String {

@@ -4,9 +4,10 @@
 //! σ at the planned surface, without χ²/dof, which nobody knows beforehand.
 
 use crate::fit::bounds::Bounds;
+use crate::fit::free_parameters::free_by_default;
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
-use crate::fit::objective::{Problem, ProblemError, free_by_default};
+use crate::fit::objective::{Problem, ProblemError};
 use crate::fit::options::{FitOptions, Weights};
 use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};

@@ -6,12 +6,15 @@
 mod bounds;
 mod design;
 mod distribution_comparison;
+mod free_parameters;
 mod intervals;
 mod landscape;
 mod least_squares;
 mod local;
+mod loss;
 mod multistart;
 mod objective;
+mod observations;
 mod observer;
 mod options;
 mod result;
@@ -19,10 +22,11 @@ mod stop_reason;
 
 pub use bounds::{Bounds, BoundsError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
-pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
+pub use distribution_comparison::{DistributionComparison, GaussAtFixedSigma};
+pub use free_parameters::free_by_default;
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
-pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
+pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection};
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
@@ -30,10 +34,10 @@ pub use local::solution::{LocalFit, Solution};
 pub use local::solver::{Effort, fit_local, minimise};
 pub use multistart::basin::{Basin, MultistartResult};
 pub use multistart::search::{Starts, multistart};
-pub use objective::{Problem, ProblemError, free_by_default};
+pub use objective::{Problem, ProblemError};
 pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, Loss, Weights};
 pub use result::{
-    Edge, Estimate, EstimateStatus, FitResult, Minimum, Undetermined, fit, is_poorly_determined, relative_error_base, symbols,
+    Edge, Estimate, EstimateStatus, FitResult, Minimum, describe_poorly_determined, fit, is_poorly_determined, relative_error_base,
 };
 pub use stop_reason::StopReason;

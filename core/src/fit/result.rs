@@ -198,12 +198,12 @@ const AT_BOUND: f64 = 1e-9;
 /// Fits from one start or many and says what came out.
 #[must_use]
 pub fn fit(problem: &Problem, starts: Starts, seed: u64, watch: Observer<'_>) -> FitResult {
-    let choices = problem.choices();
+    let choices = problem.options();
     if choices.loss == Loss::Squared || choices.loss_scale.is_some() {
         let found = multistart(problem, starts, seed, watch);
         return FitResult::new(problem, found, (watch.clock)());
     }
-    let squared = multistart(&problem.with_linear_loss(), starts, seed, watch);
+    let squared = multistart(&problem.with_squared_loss(), starts, seed, watch);
     let scaled = squared.basins.first().map(|best| {
         let parameters = best.local_fit.parameters;
         problem.with_loss_scale_of(&parameters).with_start(parameters)
@@ -270,7 +270,7 @@ impl FitResult {
             start_sum_of_squares: problem.sum_of_squares(problem.start()).map(|sum| sum * problem.sum_of_squares_scale()),
             minimises_delta_e: problem.minimises_delta_e(),
             loss_scales: problem.loss_scales(),
-            chi2: (problem.choices().weights == Weights::Sigma).then_some(sum_of_squares),
+            chi2: (problem.options().weights == Weights::Sigma).then_some(sum_of_squares),
             dof: problem.len().saturating_sub(uncertainty.rank),
             aicc: aicc(problem, in_data_units),
             stop_reason,
@@ -332,7 +332,7 @@ fn edge(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> Opt
 fn aicc(problem: &Problem, sum_of_squares: f64) -> Option<f64> {
     let n = problem.len() as f64;
     let free = problem.free().len() as f64;
-    let (misfit, k) = match problem.choices().weights {
+    let (misfit, k) = match problem.options().weights {
         Weights::None => (n * libm::log(sum_of_squares / n), free + 1.0),
         Weights::Sigma => (sum_of_squares, free),
     };

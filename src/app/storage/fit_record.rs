@@ -77,7 +77,7 @@ impl FitRecord {
     pub fn new(fit: &FitEntry) -> Option<Self> {
         let FitEntry { report, problem, mask, .. } = fit;
         let free = problem.free();
-        let is_robust = problem.choices().loss != Loss::Squared;
+        let is_robust = problem.options().loss != Loss::Squared;
         let at = |parameters: &Parameters| free.iter().map(|&parameter| parameters[parameter]).collect();
         let minima = report.minima.iter().map(|minimum| Ending {
             reached: minimum.hits,

@@ -149,7 +149,7 @@ impl SavedFit {
             start: *problem.start(),
             free: problem.free().to_vec(),
             bounds: bounds.collect(),
-            choices: *problem.choices(),
+            choices: *problem.options(),
             parameters: fit.report.parameters,
             before: fit.before,
             account,

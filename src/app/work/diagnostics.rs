@@ -52,7 +52,7 @@ pub struct ProfileCurve {
 impl ProfileCurve {
     pub fn new(profile: &Profile, problem: &Problem, report: &FitResult) -> Self {
         let smallest = report.sum_of_squares;
-        let is_chi2 = problem.choices().weights == Weights::Sigma;
+        let is_chi2 = problem.options().weights == Weights::Sigma;
         #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
         let limit = if is_chi2 { 1.0 } else { smallest / report.dof.max(1) as f64 };
         let points = profile.points.iter().map(|point| PlotPoint::new(point.value, point.sum_of_squares - smallest));

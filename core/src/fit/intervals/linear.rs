@@ -222,7 +222,7 @@ fn scale(parameter: Parameter, value: f64) -> f64 {
 
 /// SS/(N − rank), or 1 where the residuals are in units of their own standard deviation; not a number without a degree of freedom.
 fn variance_of_unit_weight(problem: &Problem, sum_of_squares: f64, rank: usize) -> f64 {
-    match problem.choices().weights {
+    match problem.options().weights {
         Weights::Sigma => 1.0,
         #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
         Weights::None if problem.len() > rank => sum_of_squares / (problem.len() - rank) as f64,

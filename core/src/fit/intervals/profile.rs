@@ -92,7 +92,7 @@ pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watc
 }
 
 fn limit(problem: &Problem, report: &FitResult, smallest: f64) -> f64 {
-    match problem.choices().weights {
+    match problem.options().weights {
         Weights::Sigma => smallest + 1.0,
         #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
         Weights::None => smallest * (1.0 + 1.0 / report.dof.max(1) as f64),

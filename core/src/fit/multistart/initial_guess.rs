@@ -72,7 +72,7 @@ impl<'a> Grid<'a> {
         if !problem.knows_only_ratios() || !model.specular || !(fit_d || fit_v) {
             return None;
         }
-        let rows = problem.dolp_rows(ROWS);
+        let rows = problem.observations().dolp_rows(ROWS);
         // Where all is dark, so are the lowest points.
         if rows.iter().all(|(_, measured)| *measured <= 0.0) {
             return None;
@@ -127,7 +127,7 @@ impl<'a> Grid<'a> {
 
     fn column(&self, parameters: Parameters, value: impl Fn(Reflection) -> f64) -> Vec<f64> {
         let Ok(surface) = Pbrdf::new(self.problem.model(), parameters) else { return vec![0.0; self.rows.len()] };
-        self.rows.iter().map(|&(point, _)| value(self.problem.scene().reflection(&surface, point))).collect()
+        self.rows.iter().map(|&(point, _)| value(self.problem.geometries().reflection(&surface, point))).collect()
     }
 
     /// The guesses for one specular lobe.
@@ -135,7 +135,7 @@ impl<'a> Grid<'a> {
         // Alone, the specular lobe has the Fresnel limit for its DoLP.
         let alone = Model { diffuse: Diffuse::Absent, volume: false, ..self.problem.model() };
         let specular = Pbrdf::new(alone, *optics).ok().map(|surface| {
-            let row = |&(point, measured): &(usize, f64)| Row::new(measured, self.problem.scene().reflection(&surface, point));
+            let row = |&(point, measured): &(usize, f64)| Row::new(measured, self.problem.geometries().reflection(&surface, point));
             self.rows.iter().map(row).collect::<Vec<_>>()
         });
         let mut guesses = Vec::with_capacity(self.axes[4].len() * self.axes[5].len());

@@ -112,7 +112,7 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
 /// What fell, where that was not ΔE, named for what it is.
 fn minimised_text(fit: &FitEntry) -> String {
     let report = &fit.report;
-    let choices = fit.problem.choices();
+    let choices = fit.problem.options();
     let Some(start) = report.start_sum_of_squares.filter(|_| !report.minimises_delta_e) else { return String::new() };
     let has_brdf = !fit.problem.knows_only_ratios() && !choices.dolp_only;
     let form = match choices.brdf_residuals {

@@ -76,9 +76,9 @@ impl Drawn {
 
 /// What is minimised.
 fn title(problem: &Problem) -> &'static str {
-    match problem.choices().weights {
+    match problem.options().weights {
         _ if problem.minimises_delta_e() => "ΔE",
-        Weights::Sigma if problem.choices().loss == Loss::Squared => "χ²",
+        Weights::Sigma if problem.options().loss == Loss::Squared => "χ²",
         _ => "Σ r²",
     }
 }

@@ -1,0 +1,241 @@
+//! What a fit is compared with: measured values, their weights, and prepared geometries.
+//!
+//! Objective (18): `ΔE = Σ (X − Xm)² / Σ Xm²` over all measured rows; with DoLP and BRDF both measured, the sum of both ΔE.
+//! Every residual is divided by the root of its own Σ Xm², so that the sum of their squares *is* the objective. BRDF residuals may
+//! instead be relative, (X − Xm)/Xm, or logarithmic, ln(X/Xm), divided by the root of their number: lobes span decades.
+//! With stated standard deviations the residual is (X − Xm)/σ and the sum of squares is χ².
+
+use crate::fit::options::{BrdfResiduals, FitOptions, Weights};
+use crate::measurement::{Measurement, Quantity};
+use crate::model::{GeometrySet, Gradient, Parameter, Reflection};
+use std::sync::Arc;
+
+/// A value whose standard deviation is needed and missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UnstatedSigma {
+    /// Index of the row in the measurement.
+    pub row: usize,
+    /// `dolp` or `brdf`.
+    pub quantity: &'static str,
+}
+
+/// What is compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    Dolp,
+    Brdf,
+    LogBrdf,
+}
+
+impl Kind {
+    /// 0 for DoLP, 1 for BRDF.
+    pub(crate) fn block(self) -> usize {
+        usize::from(self != Self::Dolp)
+    }
+
+    /// Derivative of the predicted value by a parameter.
+    pub(crate) fn derivative(self, parameter: Parameter, (reflection, gradient): &(Reflection, Gradient)) -> f64 {
+        let j = parameter as usize;
+        match self {
+            Self::Dolp => gradient.dolp[j],
+            Self::Brdf => gradient.brdf[j],
+            Self::LogBrdf => gradient.brdf[j] / reflection.brdf,
+        }
+    }
+}
+
+/// One measured value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Datum {
+    /// Index into the geometries.
+    pub point: usize,
+    pub kind: Kind,
+    /// The value, or its logarithm.
+    pub measured: f64,
+    /// The residual is the difference times this.
+    pub weight: f64,
+}
+
+impl Datum {
+    /// The weighted difference of a prediction from the measured value.
+    pub(crate) fn residual(&self, reflection: &Reflection) -> f64 {
+        let predicted = match self.kind {
+            Kind::Dolp => reflection.dolp,
+            Kind::Brdf => reflection.brdf,
+            Kind::LogBrdf => libm::log(reflection.brdf),
+        };
+        self.weight * (predicted - self.measured)
+    }
+
+    /// The difference from the measured value, neither weighted nor of logarithms.
+    fn difference(&self, reflection: &Reflection) -> f64 {
+        match self.kind {
+            Kind::Dolp => reflection.dolp - self.measured,
+            Kind::Brdf => reflection.brdf - self.measured,
+            Kind::LogBrdf => reflection.brdf - libm::exp(self.measured),
+        }
+    }
+}
+
+/// The data of a fit. All starts, profiles and subproblems of a fit share one.
+#[derive(Debug, Clone)]
+pub(crate) struct Observations {
+    data: Vec<Datum>,
+    geometries: Arc<GeometrySet>,
+    /// Σ Xm² of DoLP and of BRDF, where there are any.
+    square_sums: [Option<f64>; 2],
+    /// What the weight of DoLP and of BRDF residuals is multiplied by for Eq. (18); 1 where standard deviations weigh.
+    scales: [f64; 2],
+    left_out: usize,
+}
+
+impl Observations {
+    /// Of the rows that are not masked.
+    pub(crate) fn new(measurement: &Measurement, options: &FitOptions) -> Result<Self, UnstatedSigma> {
+        let rows = || measurement.rows.iter().enumerate().filter(|(_, row)| !row.masked);
+        let mut observations = Self {
+            data: Vec::new(),
+            geometries: Arc::new(GeometrySet::new(rows().map(|(_, row)| row.geometry))),
+            square_sums: [None; 2],
+            scales: [1.0; 2],
+            left_out: 0,
+        };
+        let brdf_kind = if options.brdf_residuals == BrdfResiduals::Log { Kind::LogBrdf } else { Kind::Brdf };
+        for (point, (row, values)) in rows().enumerate() {
+            if let Some(dolp) = values.dolp {
+                observations.add(point, row, Kind::Dolp, dolp, options)?;
+            }
+            if let Some(brdf) = values.brdf.filter(|_| !options.dolp_only) {
+                observations.add(point, row, brdf_kind, brdf, options)?;
+            }
+        }
+        observations.normalise(options);
+        Ok(observations)
+    }
+
+    fn add(&mut self, point: usize, row: usize, kind: Kind, quantity: Quantity, options: &FitOptions) -> Result<(), UnstatedSigma> {
+        let value = quantity.value;
+        *self.square_sums[kind.block()].get_or_insert(0.0) += value * value;
+        let relative = kind == Kind::Brdf && options.brdf_residuals == BrdfResiduals::Relative;
+        let by_sigma = options.weights == Weights::Sigma;
+        if value == 0.0 && (kind == Kind::LogBrdf || (relative && !by_sigma)) {
+            self.left_out += 1;
+            return Ok(());
+        }
+        let quantity_name = if kind == Kind::Dolp { "dolp" } else { "brdf" };
+        let sigma = match (by_sigma, quantity.sigma) {
+            (false, _) => None,
+            (true, Some(sigma)) => Some(sigma),
+            (true, None) => return Err(UnstatedSigma { row, quantity: quantity_name }),
+        };
+        let (measured, weight) = match (kind, sigma) {
+            // The standard deviation of ln X is σ/X.
+            (Kind::LogBrdf, sigma) => (libm::log(value), sigma.map_or(1.0, |sigma| value / sigma)),
+            (_, Some(sigma)) => (value, 1.0 / sigma),
+            (_, None) => (value, if relative { 1.0 / value } else { 1.0 }),
+        };
+        self.data.push(Datum { point, kind, measured, weight });
+        Ok(())
+    }
+
+    /// Divides the residuals of each quantity by the root of what makes the sum of squares ΔE, Eq. (18).
+    fn normalise(&mut self, options: &FitOptions) {
+        if options.weights == Weights::Sigma {
+            return;
+        }
+        for block in [0, 1] {
+            let members = || self.data.iter().filter(|datum| datum.kind.block() == block);
+            #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
+            let count = members().count() as f64;
+            let whole = if block == 0 || options.brdf_residuals == BrdfResiduals::Absolute {
+                members().map(|datum| datum.measured * datum.measured).sum()
+            } else {
+                count
+            };
+            if whole > 0.0 {
+                let scale = 1.0 / whole.sqrt();
+                self.data.iter_mut().filter(|datum| datum.kind.block() == block).for_each(|datum| datum.weight *= scale);
+                self.scales[block] = scale;
+            }
+        }
+    }
+
+    /// The measured values, those of one geometry side by side.
+    pub(crate) fn data(&self) -> &[Datum] {
+        &self.data
+    }
+
+    /// The prepared geometries of the rows that are not masked.
+    pub(crate) fn geometries(&self) -> &Arc<GeometrySet> {
+        &self.geometries
+    }
+
+    /// What the residuals of DoLP and of BRDF are multiplied by for Eq. (18).
+    pub(crate) fn scales(&self) -> [f64; 2] {
+        self.scales
+    }
+
+    /// Measured values that the chosen residuals cannot use.
+    pub(crate) fn left_out(&self) -> usize {
+        self.left_out
+    }
+
+    /// Whether any DoLP is compared.
+    pub(crate) fn has_dolp(&self) -> bool {
+        self.data.iter().any(|datum| datum.kind == Kind::Dolp)
+    }
+
+    /// Whether any BRDF is compared.
+    pub(crate) fn has_brdf(&self) -> bool {
+        self.data.iter().any(|datum| datum.kind != Kind::Dolp)
+    }
+
+    /// Σ Xm² of DoLP (0) or BRDF (1), where it is above 0.
+    pub(crate) fn square_sum(&self, block: usize) -> Option<f64> {
+        self.square_sums[block].filter(|&sum| sum > 0.0)
+    }
+
+    /// ΔE of Eq. (18), given the reflection at each geometry: of DoLP if measured, else of BRDF; with both, the sum.
+    pub(crate) fn delta_e(&self, reflection: impl Fn(usize) -> Reflection) -> Option<f64> {
+        let mut sums = [0.0; 2];
+        for datum in &self.data {
+            let difference = datum.difference(&reflection(datum.point));
+            sums[datum.kind.block()] += difference * difference;
+        }
+        let present = |block: usize| self.square_sum(block).map(|whole| sums[block] / whole);
+        match (present(0), present(1).filter(|_| self.has_brdf())) {
+            (Some(dolp), Some(brdf)) => Some(dolp + brdf),
+            (dolp, brdf) => dolp.or(brdf),
+        }
+    }
+
+    /// Indices of geometries with their measured DoLP, evenly picked where there are more than `most`, zeros too.
+    pub(crate) fn dolp_rows(&self, most: usize) -> Vec<(usize, f64)> {
+        let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp);
+        let step = dolp().count().div_ceil(most).max(1);
+        dolp().step_by(step).map(|datum| (datum.point, datum.measured)).collect()
+    }
+
+    /// Those residuals by quantity: of DoLP, of BRDF.
+    pub(crate) fn by_block(&self, residuals: &[f64]) -> [Vec<f64>; 2] {
+        [0, 1].map(|block| {
+            let of_block = residuals.iter().zip(&self.data).filter(|(_, datum)| datum.kind.block() == block);
+            of_block.map(|(residual, _)| *residual).collect()
+        })
+    }
+
+    /// Other data on the same geometries: each value becomes what was predicted less `widen` times a residual drawn from those of its
+    /// quantity by `pick` (an index below its argument), given the residuals of the prediction.
+    pub(crate) fn resampled(&self, residuals: &[f64], widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self {
+        let mut data = self.data.clone();
+        for block in [0, 1] {
+            let members: Vec<usize> = (0..data.len()).filter(|&i| data[i].kind.block() == block).collect();
+            for &i in &members {
+                let drawn = residuals[members[pick(members.len())]];
+                let datum = &mut data[i];
+                datum.measured += (residuals[i] + widen * drawn) / datum.weight;
+            }
+        }
+        Self { data, geometries: self.geometries.clone(), ..*self }
+    }
+}
