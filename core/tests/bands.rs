@@ -104,9 +104,9 @@ fn without_a_degree_of_freedom_there_is_no_band_and_the_estimates_say_why() {
     measurement.rows.truncate(2);
     let problem = problem(&measurement, set([Parameter::N, Parameter::K]), FitOptions::default());
     let report = fit(&problem, Starts::One, 0, Observer::NONE);
-    let standing = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("of the model").standing();
+    let standing = |parameter| report.estimates.iter().find(|estimate| estimate.parameter == parameter).expect("of the model").status();
     assert_eq!(
-        (report.dof, standing(Parameter::N), standing(Parameter::Kd)),
+        (report.statistics.dof, standing(Parameter::N), standing(Parameter::Kd)),
         (0, EstimateStatus::NoDegreesOfFreedom, EstimateStatus::Fixed)
     );
     assert!(report.band.dolp(&facets(50.0)).iter().all(Option::is_none));

@@ -119,7 +119,7 @@ fn a_cancelled_fit_keeps_the_best_so_far() {
     let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= 6;
     let report = fit(&problem, Starts::One, 0, Observer { cancelled: &cancelled, ..Observer::NONE });
     assert_eq!(report.stop_reason, StopReason::Cancelled);
-    let best = report.trace.iter().map(|point| point.objective).fold(f64::INFINITY, f64::min);
+    let best = report.course.trace.iter().map(|point| point.objective).fold(f64::INFINITY, f64::min);
     // The trace holds sums in another order than ΔE is summed in.
     assert!((report.objective.expect("an objective") / best - 1.0).abs() < 1e-12);
     assert!(report.objective < report.start_objective);
@@ -140,8 +140,8 @@ fn a_fit_cancelled_before_it_began_returns_its_start() {
 fn the_trace_falls_and_ends_at_the_objective() {
     let measurement = simulate(Cauchy, TRUTH, Columns::Dolp, grid(30, 50, 10), grid(20, 60, 5), 0.005);
     let report = fit(&problem(&measurement, Cauchy, Parameters::default()), Starts::One, 0, Observer::NONE);
-    assert!(report.trace.windows(2).all(|pair| pair[1].objective < pair[0].objective && pair[1].evaluations > pair[0].evaluations));
-    let last = report.trace.last().expect("a trace").objective;
+    assert!(report.course.trace.windows(2).all(|pair| pair[1].objective < pair[0].objective && pair[1].evaluations > pair[0].evaluations));
+    let last = report.course.trace.last().expect("a trace").objective;
     // The trace holds sums in another order than ΔE is summed in.
     assert!((report.objective.expect("an objective") / last - 1.0).abs() < 1e-12);
 }
@@ -158,16 +158,16 @@ fn the_path_leads_from_the_winning_start_to_the_solution_and_lies_on_the_trace()
         let free = free_by_default(Model::full(Cauchy), &noisy, &choices);
         let problem = Problem::new(&noisy, Model::full(Cauchy), start, free, Bounds::default(), choices).expect("a valid problem");
         let report = fit(&problem, starts, 1, Observer::NONE);
-        assert_eq!(report.path.len(), report.trace.len());
-        for (point, parameters) in report.trace.iter().zip(&report.path) {
+        assert_eq!(report.course.path.len(), report.course.trace.len());
+        for (point, parameters) in report.course.trace.iter().zip(&report.course.path) {
             let objective = problem.delta_e(parameters).expect("a surface");
             // Between the batch kernel or the solver's coordinates and this lies rounding alone.
             assert!((objective - point.objective).abs() <= 1e-9 * objective, "{objective:e} {:e}", point.objective);
         }
         if starts == Starts::One && choices.loss == Loss::Squared {
-            assert_eq!(report.path[0], start);
+            assert_eq!(report.course.path[0], start);
         }
-        let best = report.minima.first().expect("a minimum");
+        let best = report.course.minima.first().expect("a minimum");
         assert!(worst_difference(&best.parameters, &report.parameters, ParameterSet::ALL) < TRUE_TO);
     }
 }
@@ -195,7 +195,7 @@ fn all_dolp_zero_has_no_relative_objective() {
     measurement.rows.iter_mut().filter_map(|row| row.dolp.as_mut()).for_each(|dolp| dolp.value = 0.0);
     let report = fit(&problem(&measurement, Gauss, Parameters::default()), Starts::One, 0, Observer::NONE);
     assert_eq!(report.objective, None);
-    assert!(report.sum_of_squares.is_finite());
+    assert!(report.statistics.rss.is_finite());
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn degenerate_data_end_in_a_typed_answer() {
     ] {
         for distribution in [Gauss, Cauchy] {
             let report = fit(&problem(&measurement, distribution, Parameters::default()), Starts::Automatic, 1, Observer::NONE);
-            assert!(report.sum_of_squares.is_finite(), "{name}");
+            assert!(report.statistics.rss.is_finite(), "{name}");
             for estimate in &report.estimates {
                 assert!(estimate.value.is_finite() && estimate.std_error.is_none_or(f64::is_finite), "{name}: {estimate:?}");
             }
@@ -309,7 +309,7 @@ fn a_parameter_without_effect_is_open_and_not_at_a_bound() {
     assert_eq!(estimate(Parameter::Kd).at_bound, Some(Edge::Lower));
     // With k_d = 0 there is no lobe for c to shape: wherever the search left it, it goes back to its start.
     let c = estimate(Parameter::C);
-    assert_eq!((c.value, c.at_bound, c.standing()), (Parameters::default().c, None, EstimateStatus::Open));
+    assert_eq!((c.value, c.at_bound, c.status()), (Parameters::default().c, None, EstimateStatus::Undetermined));
 }
 
 #[test]
@@ -334,5 +334,5 @@ fn a_start_whose_radiance_overflows_ends_the_fit_and_not_the_program() {
     let problem = Problem::new(&data, model, start, model.parameters(), bounds, FitOptions::default()).expect("a valid problem");
     let report = fit(&problem, Starts::One, 0, Observer::NONE);
     assert_eq!(report.stop_reason, StopReason::Numerical);
-    assert!(report.determined.is_empty() && report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
+    assert!(report.correlations.parameters.is_empty() && report.estimates.iter().all(|estimate| estimate.std_error.is_none()));
 }

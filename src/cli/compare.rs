@@ -88,17 +88,17 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
             Ok((_, report)) => {
                 let number = |value: Option<f64>, digits: usize| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"));
                 #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-                let reduced = report.chi2.map(|chi2| chi2 / report.dof as f64);
+                let reduced = report.statistics.chi2.map(|chi2| chi2 / report.statistics.dof as f64);
                 writeln!(
                     out,
                     "{:<16} {:>12} {:>12} {:>10} {:>5} {:>11} {:>10.1}  {}",
                     preset.key,
                     report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")),
                     number(reduced, 4),
-                    number(report.aicc, 1),
-                    report.dof,
-                    report.evaluations,
-                    report.elapsed_ms,
+                    number(report.statistics.aicc, 1),
+                    report.statistics.dof,
+                    report.course.evaluations,
+                    report.course.elapsed_ms,
                     report.stop_reason.text()
                 )?;
             }
@@ -117,12 +117,12 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
         for (_, report) in &fitted {
             let cell = report.estimates.iter().find(|estimate| estimate.parameter == parameter).map_or_else(
                 || "-".to_owned(),
-                |estimate| match estimate.standing() {
+                |estimate| match estimate.status() {
                     EstimateStatus::Fixed => format!("{:.5} fixed", estimate.value),
                     EstimateStatus::AtBound(_) => format!("{:.5} at bound", estimate.value),
                     EstimateStatus::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
                     EstimateStatus::NoDegreesOfFreedom => format!("{:.5} no d.o.f.", estimate.value),
-                    EstimateStatus::Open => format!("{:.5} open", estimate.value),
+                    EstimateStatus::Undetermined => format!("{:.5} open", estimate.value),
                 },
             );
             write!(out, " {cell:>22}")?;

@@ -86,7 +86,7 @@ impl Design {
         let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);
         Ok(DesignPrediction {
             errors: problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
-            undetermined: uncertainty.open.clone(),
+            undetermined: uncertainty.undetermined.clone(),
             rank: uncertainty.rank,
             condition: uncertainty.condition,
             band: PredictionBand::new(&problem, &self.parameters, uncertainty),

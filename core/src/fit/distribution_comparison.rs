@@ -9,7 +9,8 @@
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
-use crate::fit::result::{FitResult, fit};
+use crate::fit::result::FitResult;
+use crate::fit::solve::fit;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;
 use std::fmt;
@@ -43,12 +44,12 @@ impl DistributionComparison {
     /// Of two fits of the same data by the same choices; none where a sum is not finite.
     #[must_use]
     pub fn new(gauss: &FitResult, cauchy: &FitResult) -> Option<Self> {
-        let sums = [gauss.sum_of_squares, cauchy.sum_of_squares];
+        let sums = [gauss.statistics.rss, cauchy.statistics.rss];
         sums.iter().all(|sum| sum.is_finite()).then(|| Self {
             gauss: sums[0],
             cauchy: sums[1],
-            aicc_gain: gauss.aicc.zip(cauchy.aicc).map(|(gauss, cauchy)| gauss - cauchy),
-            is_delta_e: gauss.minimises_delta_e && cauchy.minimises_delta_e,
+            aicc_gain: gauss.statistics.aicc.zip(cauchy.statistics.aicc).map(|(gauss, cauchy)| gauss - cauchy),
+            is_delta_e: gauss.statistics.minimises_delta_e && cauchy.statistics.minimises_delta_e,
         })
     }
 
@@ -182,7 +183,7 @@ impl GaussAtFixedSigma {
         let rest: ParameterSet = problem.free().iter().copied().filter(|&parameter| parameter != Parameter::Sigma).collect();
         let held = |sigma: f64| {
             let start = Parameters { sigma, ..gauss.parameters };
-            (sigma, fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch).sum_of_squares)
+            (sigma, fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch).statistics.rss)
         };
         Some(Self { equal_sigma: held(sigma), equal_median: held(median) })
     }

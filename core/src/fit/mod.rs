@@ -3,9 +3,11 @@
 //! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitResult`]: a value with parameters, standard errors, what
 //! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Observer`]).
 
+mod analysis;
 mod bounds;
 mod design;
 mod distribution_comparison;
+mod estimate;
 mod free_parameters;
 mod intervals;
 mod landscape;
@@ -18,11 +20,14 @@ mod observations;
 mod observer;
 mod options;
 mod result;
+mod solve;
 mod stop_reason;
 
+pub use analysis::analyse;
 pub use bounds::{Bounds, BoundsError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
 pub use distribution_comparison::{DistributionComparison, GaussAtFixedSigma};
+pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols, with_error};
 pub use free_parameters::free_by_default;
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
@@ -37,7 +42,6 @@ pub use multistart::search::{Starts, multistart};
 pub use objective::{Problem, ProblemError};
 pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, Loss, Weights};
-pub use result::{
-    Edge, Estimate, EstimateStatus, FitResult, Minimum, describe_poorly_determined, fit, is_poorly_determined, relative_error_base,
-};
+pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
+pub use solve::fit;
 pub use stop_reason::StopReason;

@@ -337,10 +337,15 @@ impl Problem {
         self.observations.delta_e(|point| self.geometries.reflection(&surface, point))
     }
 
-    /// What the sum of squared residuals is multiplied by to give the sum of squares of the data's own differences:
-    /// Σ Xm² of Eq. (18) where one quantity alone is fitted without weights, 1 otherwise.
+    /// Residual sum of squares in the unit of the data: that of [`Self::sum_of_squares`], not divided by Σ Xm² of Eq. (18) or by the
+    /// number of residuals where one quantity alone is fitted without weights. None without data and where it is not finite.
     #[must_use]
-    pub fn sum_of_squares_scale(&self) -> f64 {
+    pub fn rss(&self, parameters: &Parameters) -> Option<f64> {
+        self.sum_of_squares(parameters).map(|sum| sum * self.rss_scale())
+    }
+
+    /// What the sum of squares is multiplied by to give [`Self::rss`].
+    pub(crate) fn rss_scale(&self) -> f64 {
         match (self.options.weights, self.request.dolp, self.request.brdf) {
             (Weights::None, true, false) => self.observations.square_sum(0).unwrap_or(1.0),
             (Weights::None, false, true) => {

@@ -115,7 +115,7 @@ impl Method {
                 let watch = Observer { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
                 let report = fit(task.problem, Starts::Automatic, SEED, watch);
                 let mut log = log.borrow_mut();
-                log.run.steps = report.trace.iter().map(|point| [point.elapsed_ms, point.objective, f64::NAN]).collect();
+                log.run.steps = report.course.trace.iter().map(|point| [point.elapsed_ms, point.objective, f64::NAN]).collect();
                 log.run.parameters = report.parameters;
                 log.run.objective = objective(task.problem, &report.parameters);
             }

@@ -499,7 +499,7 @@ impl App {
     fn shown_fit(&self) -> Option<(Problem, FitResult)> {
         let fit = self.work.shown_fit.as_ref()?;
         // An automatic scale of the loss belongs to the fit, not to its problem.
-        Some((fit.problem.with_loss_scales(fit.report.loss_scales), fit.report.clone()))
+        Some((fit.problem.with_loss_scales(fit.report.statistics.loss_scales), fit.report.clone()))
     }
 
     fn start_fit(&mut self) -> Result<(), String> {

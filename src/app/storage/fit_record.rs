@@ -2,7 +2,7 @@
 //! again.
 
 use crate::app::work::fit_history::FitEntry;
-use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint};
+use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse};
 use pbrdf::model::{Parameter, Parameters};
 use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Deserialize, Serialize, Serializer};
@@ -79,7 +79,7 @@ impl FitRecord {
         let free = problem.free();
         let is_robust = problem.options().loss != Loss::Squared;
         let at = |parameters: &Parameters| free.iter().map(|&parameter| parameters[parameter]).collect();
-        let minima = report.minima.iter().map(|minimum| Ending {
+        let minima = report.course.minima.iter().map(|minimum| Ending {
             reached: minimum.hits,
             stop_reason: minimum.stop_reason,
             at: at(&minimum.parameters),
@@ -92,12 +92,12 @@ impl FitRecord {
             at: at(parameters),
         };
         let account = Self {
-            evaluations: report.evaluations,
-            elapsed_ms: report.elapsed_ms,
+            evaluations: report.course.evaluations,
+            elapsed_ms: report.course.elapsed_ms,
             masked: mask.to_vec(),
-            loss_scales: Some(report.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
+            loss_scales: Some(report.statistics.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
             minima,
-            way: thinned(report.trace.iter().zip(&report.path).map(step).collect()),
+            way: thinned(report.course.trace.iter().zip(&report.course.path).map(step).collect()),
         };
         Some(account).filter(|account| !account.is_empty())
     }
@@ -163,8 +163,8 @@ impl FitRecord {
             };
             Basin { local_fit, hits: ending.reached }
         });
-        let search = MultistartResult { basins: found.collect(), evaluations: self.evaluations };
-        FitResult::restore(&problem, search, self.elapsed_ms)
+        let search = MultistartResult::new(found.collect(), self.evaluations)?;
+        Some(analyse(&problem, search, self.elapsed_ms))
     }
 }
 

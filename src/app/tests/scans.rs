@@ -33,7 +33,7 @@ fn a_profile_is_scanned_and_its_interval_told() {
     // With two parameters on clean data the interval is nearly the symmetric one.
     let half = 0.5 * (high - low) / error.expect("k is determined");
     assert!((0.8..1.25).contains(&half), "{half}");
-    assert!(profile.points.iter().all(|point| point.y >= -1e-9 * fit.report.sum_of_squares));
+    assert!(profile.points.iter().all(|point| point.y >= -1e-9 * fit.report.statistics.rss));
     harness.get_by_label_contains("(one standard error)");
     // Another fit has another profile.
     explorer(&mut harness).commands.push(Command::StartFit);

@@ -97,7 +97,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let (before, after) = (explorer(&mut before), explorer(&mut after));
     for (old, new) in before.work.fit_history.iter().zip(after.work.fit_history.iter()) {
         assert_eq!(old.report, new.report);
-        assert!(old.report.trace.len() > 1 && old.report.evaluations > 1 && old.report.elapsed_ms > 0.0);
+        assert!(old.report.course.trace.len() > 1 && old.report.course.evaluations > 1 && old.report.course.elapsed_ms > 0.0);
     }
     let shown = |explorer: &App| explorer.work.shown_fit.as_ref().map(|fit| fit.id);
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));

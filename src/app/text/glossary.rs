@@ -27,7 +27,7 @@ pub fn standing_help(standing: EstimateStatus) -> String {
         EstimateStatus::NoDegreesOfFreedom => {
             tr!("As many values as free parameters (no degree of freedom): nothing is left over to tell an error from.")
         }
-        EstimateStatus::Open => open_help(),
+        EstimateStatus::Undetermined => open_help(),
     }
 }
 

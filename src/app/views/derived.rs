@@ -101,6 +101,6 @@ impl Identifiability {
         let misfit = problem.sum_of_squares(&parameters)?;
         let uncertainty = Uncertainty::at(&problem, &parameters, misfit, ParameterSet::EMPTY);
         let errors = free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect();
-        Some(Self { errors, open: uncertainty.open, from_stated })
+        Some(Self { errors, open: uncertainty.undetermined, from_stated })
     }
 }

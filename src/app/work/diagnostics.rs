@@ -51,11 +51,11 @@ pub struct ProfileCurve {
 
 impl ProfileCurve {
     pub fn new(profile: &Profile, problem: &Problem, report: &FitResult) -> Self {
-        let smallest = report.sum_of_squares;
+        let smallest = report.statistics.rss;
         let is_chi2 = problem.options().weights == Weights::Sigma;
         #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-        let limit = if is_chi2 { 1.0 } else { smallest / report.dof.max(1) as f64 };
-        let points = profile.points.iter().map(|point| PlotPoint::new(point.value, point.sum_of_squares - smallest));
+        let limit = if is_chi2 { 1.0 } else { smallest / report.statistics.dof.max(1) as f64 };
+        let points = profile.points.iter().map(|point| PlotPoint::new(point.value, point.rss - smallest));
         Self {
             parameter: profile.parameter,
             points: points.filter(|point| point.y.is_finite()).collect(),

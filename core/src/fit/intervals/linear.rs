@@ -91,7 +91,7 @@ impl Serialize for ByKey<'_> {
     }
 }
 
-/// Standard errors, correlations and open directions at a point.
+/// Standard errors, correlations and undetermined directions at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uncertainty {
     /// Number of directions that the data determine.
@@ -102,13 +102,13 @@ pub struct Uncertainty {
     pub determined: Vec<Parameter>,
     /// Covariance of those.
     pub covariance: DMatrix<f64>,
-    /// What is left open.
-    pub open: Vec<UndeterminedDirection>,
+    /// The directions that the data do not determine.
+    pub undetermined: Vec<UndeterminedDirection>,
     /// The parameters that took part: the free ones that do not rest on a bound.
     pub(crate) analysed: Vec<Parameter>,
     /// Pseudo-inverse covariance of all of those.
     spread: DMatrix<f64>,
-    /// The open directions as orthonormal rows, in units of the scales.
+    /// The undetermined directions as orthonormal rows, in units of the scales.
     null_space: DMatrix<f64>,
     /// The size that a change of each is measured by.
     scales: Vec<f64>,
@@ -160,7 +160,7 @@ impl Uncertainty {
             condition: (!counted.is_empty()).then(|| largest / smallest),
             determined: kept.iter().map(|&j| free[j]).collect(),
             covariance,
-            open: describe(null_space.clone(), free, problem.knows_only_ratios()),
+            undetermined: describe(null_space.clone(), free, problem.knows_only_ratios()),
             analysed: free.to_vec(),
             spread,
             null_space,
@@ -170,14 +170,14 @@ impl Uncertainty {
 
     /// Nothing is determined.
     fn nothing(free: &[Parameter]) -> Self {
-        let open = free.iter().map(|&parameter| UndeterminedDirection::new(vec![(parameter, 1.0)], false));
+        let undetermined = free.iter().map(|&parameter| UndeterminedDirection::new(vec![(parameter, 1.0)], false));
         let count = free.len();
         Self {
             rank: 0,
             condition: None,
             determined: Vec::new(),
             covariance: DMatrix::zeros(0, 0),
-            open: open.collect(),
+            undetermined: undetermined.collect(),
             analysed: free.to_vec(),
             spread: DMatrix::zeros(count, count),
             null_space: DMatrix::identity(count, count),

@@ -18,8 +18,9 @@ pub struct ProfilePoint {
     pub value: f64,
     /// ΔE of Eq. (18) of the best fit there.
     pub objective: f64,
-    /// Sum of squares of what was minimised.
-    pub sum_of_squares: f64,
+    /// Residual sum of squares, [`Problem::rss`].
+    #[serde(rename = "sum_of_squares")]
+    pub rss: f64,
 }
 
 /// A parameter's profile.
@@ -45,7 +46,7 @@ const REACH: f64 = 3.0;
 pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watch: Observer<'_>) -> Profile {
     let best = report.parameters[parameter];
     let (low, high) = problem.bounds().of(parameter);
-    let error = report.estimates.iter().find(|estimate| estimate.parameter == parameter).and_then(|estimate| estimate.std_error);
+    let error = report.estimate(parameter).and_then(|estimate| estimate.std_error);
     let reach = error.map_or(high - low, |error| REACH * error);
     let end = |bound: f64| if bound < best { bound.max(best - reach) } else { bound.min(best + reach) };
     let rest: ParameterSet = problem.free().iter().copied().filter(|&other| other != parameter).collect();
@@ -85,7 +86,7 @@ pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watc
         .map(|(value, sum, at)| ProfilePoint {
             value: *value,
             objective: problem.objective(*sum, at),
-            sum_of_squares: sum * problem.sum_of_squares_scale(),
+            rss: sum * problem.rss_scale(),
         })
         .collect();
     Profile { parameter, points, low, high }
@@ -95,6 +96,6 @@ fn limit(problem: &Problem, report: &FitResult, smallest: f64) -> f64 {
     match problem.options().weights {
         Weights::Sigma => smallest + 1.0,
         #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-        Weights::None => smallest * (1.0 + 1.0 / report.dof.max(1) as f64),
+        Weights::None => smallest * (1.0 + 1.0 / report.statistics.dof.max(1) as f64),
     }
 }

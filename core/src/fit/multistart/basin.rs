@@ -12,13 +12,13 @@ pub struct Basin {
     pub hits: usize,
 }
 
-/// What all starts together have found.
+/// What all starts together have found: at least one minimum.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MultistartResult {
     /// The distinct minima, best first.
-    pub basins: Vec<Basin>,
+    pub(crate) basins: Vec<Basin>,
     /// Residual evaluations of all starts.
-    pub evaluations: usize,
+    pub(crate) evaluations: usize,
 }
 
 /// Minima whose sums of squares differ by less than this fraction are the same: far more than the tolerance of the solver leaves
@@ -28,6 +28,12 @@ pub(crate) const SAME: f64 = 1e-6;
 pub(crate) const SAME_ABSOLUTE: f64 = 1e-20;
 
 impl MultistartResult {
+    /// Of the distinct minima, best first, and the residual evaluations of all starts; none without a minimum.
+    #[must_use]
+    pub fn new(basins: Vec<Basin>, evaluations: usize) -> Option<Self> {
+        (!basins.is_empty()).then_some(Self { basins, evaluations })
+    }
+
     /// The smallest sum of squares; infinite before the first descent.
     pub(crate) fn best(&self) -> f64 {
         self.basins.first().map_or(f64::INFINITY, |basin| basin.local_fit.sum_of_squares)

@@ -80,7 +80,7 @@ impl Marks {
         };
         let way = |fit: &FitEntry| {
             let mut way = Noted::default();
-            for (step, parameters) in fit.report.trace.iter().zip(&fit.report.path) {
+            for (step, parameters) in fit.report.course.trace.iter().zip(&fit.report.course.path) {
                 way.push(place(parameters), || {
                     let objective = format!("{:.4e}", step.objective);
                     tr!("fit {0}, evaluation {1}\nΔE = {2}", fit.id, step.evaluations, objective)
@@ -92,7 +92,7 @@ impl Marks {
         let own = past.iter().filter(|fit| fit.number == document.number);
         let ways = own.take(WAYS).map(|fit| way(fit)).collect();
         let mut minima = Noted::default();
-        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.minima).take(MOST_MINIMA).enumerate() {
+        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.course.minima).take(MOST_MINIMA).enumerate() {
             minima.push(place(&minimum.parameters), || {
                 let objective = format!("{:.4e}", minimum.objective);
                 tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.hits)

@@ -1,0 +1,144 @@
+//! From the minima that a search has found to a result: what rests on a bound, uncertainties, statistics.
+
+use crate::fit::estimate::{Edge, Estimate};
+use crate::fit::intervals::band::PredictionBand;
+use crate::fit::intervals::linear::Uncertainty;
+use crate::fit::local::solution::LocalFit;
+use crate::fit::multistart::basin::{Basin, MultistartResult};
+use crate::fit::objective::Problem;
+use crate::fit::options::Weights;
+use crate::fit::result::{Correlations, Course, FitResult, Minimum, Statistics};
+use crate::fit::stop_reason::StopReason;
+use crate::model::{Parameter, ParameterSet, Parameters};
+
+/// Cosine between the residuals and a parameter's column of the Jacobian above which the data press the parameter against its
+/// bound: far above rounding, and at an inner minimum the cosine is 0.
+const PRESSED: f64 = 1e-6;
+/// Relative rise of the sum of squares that is rounding.
+const ROUNDING: f64 = 1e-12;
+/// A parameter this near a bound, as a fraction of the box, rests on it: the sin² transform of MINPACK never quite reaches one.
+const AT_BOUND: f64 = 1e-9;
+
+/// The result of a search, which may have been made before. The problem has the loss scales that the search had.
+#[must_use]
+pub fn analyse(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> FitResult {
+    let MultistartResult { mut basins, evaluations } = search;
+    let minimum = |Basin { local_fit, hits }: &Basin| Minimum {
+        parameters: local_fit.parameters,
+        objective: problem.delta_e(&local_fit.parameters).unwrap_or(f64::NAN),
+        stop_reason: local_fit.stop_reason,
+        hits: *hits,
+    };
+    let mut minima: Vec<Minimum> = basins.iter().map(minimum).collect();
+    let LocalFit { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = basins.swap_remove(0).local_fit;
+    let at_bound: ParameterSet =
+        problem.free().iter().copied().filter(|&parameter| edge(problem, &parameters, parameter).is_some()).collect();
+    let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
+    let parameters = without_idle_changes(problem, parameters, sum_of_squares, &uncertainty);
+    let is_undetermined = !uncertainty.undetermined.is_empty() || problem.len() < problem.free().len();
+    let is_final = matches!(
+        stop_reason,
+        StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit
+    );
+    if is_undetermined && !is_final {
+        stop_reason = StopReason::Underdetermined;
+    }
+    if let Some(best) = minima.first_mut() {
+        best.stop_reason = stop_reason;
+    }
+    FitResult {
+        model: problem.model(),
+        estimates: estimates(problem, &parameters, &uncertainty),
+        objective: (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten(),
+        start_objective: problem.delta_e(problem.start()),
+        stop_reason,
+        statistics: statistics(problem, sum_of_squares, uncertainty.rank),
+        correlations: Correlations { parameters: uncertainty.determined.clone(), matrix: uncertainty.correlations() },
+        undetermined: uncertainty.undetermined.clone(),
+        band: PredictionBand::new(problem, &parameters, uncertainty),
+        course: Course { evaluations, elapsed_ms, minima, trace, path },
+        parameters,
+    }
+}
+
+fn estimates(problem: &Problem, parameters: &Parameters, uncertainty: &Uncertainty) -> Vec<Estimate> {
+    let estimate = |parameter| Estimate {
+        parameter,
+        start: problem.start()[parameter],
+        value: parameters[parameter],
+        free: problem.free().contains(&parameter),
+        std_error: uncertainty.standard_error(parameter),
+        at_bound: problem.free().contains(&parameter).then(|| edge(problem, parameters, parameter)).flatten(),
+        determined: uncertainty.determined.contains(&parameter),
+    };
+    problem.model().parameters().iter().map(estimate).collect()
+}
+
+fn statistics(problem: &Problem, sum_of_squares: f64, rank: usize) -> Statistics {
+    let rss = sum_of_squares * problem.rss_scale();
+    Statistics {
+        rss: if problem.is_empty() { 0.0 } else { rss },
+        start_rss: problem.rss(problem.start()),
+        minimises_delta_e: problem.minimises_delta_e(),
+        chi2: (problem.options().weights == Weights::Sigma).then_some(sum_of_squares),
+        dof: problem.len().saturating_sub(rank),
+        aicc: aicc(problem, rss),
+        loss_scales: problem.loss_scales(),
+    }
+}
+
+/// Parameters that have no effect at the solution, each by itself, return to their starts if that changes nothing: the fit had no
+/// reason to move them.
+fn without_idle_changes(problem: &Problem, parameters: Parameters, sum_of_squares: f64, uncertainty: &Uncertainty) -> Parameters {
+    let lone = uncertainty.undetermined.iter().filter(|undetermined| undetermined.direction.len() == 1);
+    lone.fold(parameters, |so_far, undetermined| {
+        let parameter = undetermined.direction[0].0;
+        let mut back = so_far;
+        back[parameter] = problem.start()[parameter];
+        let is_idle = problem.sum_of_squares(&back).is_some_and(|sum| sum <= sum_of_squares * (1.0 + ROUNDING));
+        if is_idle { back } else { so_far }
+    })
+}
+
+/// Those parameters on a bound that the data press against it. One that merely came to lie there, along a direction that the data
+/// leave undetermined, takes part in the analysis of what they determine.
+fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -> ParameterSet {
+    if at_bound.is_empty() {
+        return at_bound;
+    }
+    let part = problem.with_free(at_bound);
+    let Some((residuals, jacobian)) = part.linearised(parameters) else { return at_bound };
+    let is_pressed = |j: usize| {
+        let column = jacobian.column(j);
+        column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
+    };
+    part.free().iter().enumerate().filter(|(j, _)| is_pressed(*j)).map(|(_, &parameter)| parameter).collect()
+}
+
+/// The bound that a parameter rests on.
+fn edge(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> Option<Edge> {
+    let (low, high) = problem.bounds().of(parameter);
+    let fraction = (parameters[parameter] - low) / (high - low);
+    if fraction <= AT_BOUND {
+        Some(Edge::Lower)
+    } else if fraction >= 1.0 - AT_BOUND {
+        Some(Edge::Upper)
+    } else {
+        None
+    }
+}
+
+/// Akaike's corrected criterion, `N ln(RSS/N) + 2K + 2K(K + 1)/(N − K − 1)` with K = free + 1; with stated standard deviations
+/// `χ² + …` with K = free (Burnham and Anderson, *Model Selection and Multimodel Inference*, 2002, sec. 2.4).
+#[expect(clippy::cast_precision_loss, reason = "numbers of residuals and parameters")]
+fn aicc(problem: &Problem, rss: f64) -> Option<f64> {
+    let n = problem.len() as f64;
+    let free = problem.free().len() as f64;
+    let (misfit, k) = match problem.options().weights {
+        Weights::None => (n * libm::log(rss / n), free + 1.0),
+        Weights::Sigma => (rss, free),
+    };
+    let left = n - k - 1.0;
+    let aicc = misfit + 2.0 * k + 2.0 * k * (k + 1.0) / left;
+    (left > 0.0 && aicc.is_finite()).then_some(aicc)
+}

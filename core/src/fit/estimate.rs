@@ -1,0 +1,204 @@
+//! One parameter after a fit: its value, and how well the data determine it.
+
+use crate::fit::intervals::linear::UndeterminedDirection;
+use crate::model::Parameter;
+use serde::Serialize;
+use std::fmt;
+
+/// Which bound a parameter rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Edge {
+    /// The lower one.
+    Lower,
+    /// The upper one.
+    Upper,
+}
+
+/// One parameter of the model after a fit.
+///
+/// `Display` rounds the value by its standard error: `2.07 ± 0.02`, `undetermined`, `at lower bound 0`, `1 (fixed)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// Which.
+    pub parameter: Parameter,
+    /// Where it started.
+    pub start: f64,
+    /// Its value, in its own unit.
+    pub value: f64,
+    /// Whether the fit could change it.
+    pub free: bool,
+    /// Its standard error, in its own unit; none where the data do not determine it, and on a bound.
+    pub std_error: Option<f64>,
+    /// The bound it rests on.
+    pub at_bound: Option<Edge>,
+    /// Whether the data determine it. Without degrees of freedom there is no standard error even so.
+    pub determined: bool,
+}
+
+/// How well the data determine an estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EstimateStatus {
+    /// The fit did not change it.
+    Fixed,
+    /// It rests on a bound, where there is no standard error.
+    AtBound(Edge),
+    /// The data determine it, with this standard error in its own unit.
+    Determined(f64),
+    /// The data determine it, but no degree of freedom is left to estimate the noise from.
+    NoDegreesOfFreedom,
+    /// The data do not determine it.
+    Undetermined,
+}
+
+impl Estimate {
+    /// How well the data determine it. Of a free parameter on a bound, the bound is what is said.
+    #[must_use]
+    pub fn status(&self) -> EstimateStatus {
+        match (self.free, self.at_bound, self.std_error) {
+            (false, ..) => EstimateStatus::Fixed,
+            (true, Some(edge), _) => EstimateStatus::AtBound(edge),
+            (true, None, Some(error)) => EstimateStatus::Determined(error),
+            (true, None, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
+            (true, None, None) => EstimateStatus::Undetermined,
+        }
+    }
+
+    /// Whether the data determine it, but to no better than half its size.
+    #[must_use]
+    pub fn is_poorly_determined(&self) -> bool {
+        matches!(self.status(), EstimateStatus::Determined(error) if is_poorly_determined(self.parameter, self.value, error))
+    }
+}
+
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.status() {
+            EstimateStatus::Fixed => write!(f, "{} (fixed)", self.value),
+            EstimateStatus::AtBound(Edge::Lower) => write!(f, "at lower bound {}", self.value),
+            EstimateStatus::AtBound(Edge::Upper) => write!(f, "at upper bound {}", self.value),
+            EstimateStatus::Determined(error) => f.write_str(&with_error(self.value, error)),
+            EstimateStatus::NoDegreesOfFreedom => write!(f, "{} (no degrees of freedom)", self.value),
+            EstimateStatus::Undetermined => f.write_str("undetermined"),
+        }
+    }
+}
+
+/// A value and its standard error, both to the last digit that the error leaves: one digit of the error, two if it begins with 1.
+///
+/// ```
+/// use pbrdf::fit::with_error;
+///
+/// assert_eq!(with_error(2.0713, 0.0213), "2.07 ± 0.02");
+/// assert_eq!(with_error(2.0713, 0.0123), "2.071 ± 0.012");
+/// assert_eq!(with_error(2071.3, 213.0), "2100 ± 200");
+/// ```
+#[must_use]
+pub fn with_error(value: f64, error: f64) -> String {
+    if !(error > 0.0 && error.is_finite() && value.is_finite()) {
+        return format!("{value} ± {error}");
+    }
+    // Rounded to two digits first: 0.0999 is 0.10, and its digits are those of 0.1.
+    let two_digits = format!("{error:.1e}");
+    let (mantissa, exponent) = two_digits.split_once('e').unwrap_or((&two_digits, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let last = if mantissa.starts_with('1') { exponent - 1 } else { exponent };
+    match usize::try_from(-last) {
+        Ok(decimals) => format!("{value:.decimals$} ± {error:.decimals$}"),
+        Err(_) => {
+            let unit = libm::pow(10.0, f64::from(last));
+            format!("{} ± {}", (value / unit).round() * unit, (error / unit).round() * unit)
+        }
+    }
+}
+
+/// What the standard error of a parameter is compared with: the distance of its value from where its effect vanishes or, for c,
+/// which has no such place, the width of its range.
+#[must_use]
+pub fn relative_error_base(parameter: Parameter, value: f64) -> f64 {
+    match parameter {
+        Parameter::Q => value - 1.0,
+        Parameter::C => 1.0,
+        _ => value.abs(),
+    }
+}
+
+/// Whether an error is above half of [`relative_error_base`]: then the value says next to nothing.
+#[must_use]
+pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> bool {
+    error > 0.5 * relative_error_base(parameter, value)
+}
+
+/// Something that the data leave open.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Undetermined {
+    /// A direction that they do not determine at all.
+    Direction(UndeterminedDirection),
+    /// Parameters that they determine with a standard error above half of the value.
+    Poorly(Vec<Parameter>),
+}
+
+impl Undetermined {
+    /// The poorly determined parameters, if there are any.
+    #[must_use]
+    pub fn poorly(parameters: impl Iterator<Item = Parameter>) -> Option<Self> {
+        let parameters: Vec<Parameter> = parameters.collect();
+        (!parameters.is_empty()).then_some(Self::Poorly(parameters))
+    }
+}
+
+impl fmt::Display for Undetermined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Direction(direction) => direction.fmt(f),
+            Self::Poorly(parameters) => write!(f, "a standard error above half of the value: {}", symbols(parameters)),
+        }
+    }
+}
+
+/// Symbols of parameters, with commas between them.
+#[must_use]
+pub fn symbols(parameters: &[Parameter]) -> String {
+    parameters.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Edge, Estimate, with_error};
+    use crate::model::Parameter;
+
+    #[test]
+    fn a_value_is_rounded_by_its_error() {
+        let cases = [
+            (2.0713, 0.0213, "2.07 ± 0.02"),
+            (2.0713, 0.0195, "2.07 ± 0.02"),
+            (2.0713, 0.0194, "2.071 ± 0.019"),
+            (2.0713, 0.0999, "2.07 ± 0.10"),
+            (-0.5, 3.0, "-0 ± 3"),
+            (12_345.0, 678.0, "12300 ± 700"),
+            (1e-5, 2.3e-7, "0.0000100 ± 0.0000002"),
+        ];
+        for (value, error, text) in cases {
+            assert_eq!(with_error(value, error), text);
+        }
+    }
+
+    #[test]
+    fn an_estimate_says_how_it_is_determined() {
+        let free = Estimate {
+            parameter: Parameter::N,
+            start: 2.0,
+            value: 2.0713,
+            free: true,
+            std_error: Some(0.021),
+            at_bound: None,
+            determined: true,
+        };
+        assert_eq!(free.to_string(), "2.07 ± 0.02");
+        assert_eq!(Estimate { free: false, value: 1.0, ..free }.to_string(), "1 (fixed)");
+        assert_eq!(Estimate { at_bound: Some(Edge::Lower), value: 0.0, ..free }.to_string(), "at lower bound 0");
+        assert_eq!(Estimate { std_error: None, determined: false, ..free }.to_string(), "undetermined");
+        assert_eq!(Estimate { std_error: None, ..free }.to_string(), "2.0713 (no degrees of freedom)");
+    }
+}
