@@ -37,6 +37,11 @@
 //! 4. [`fit`]: choices, bounds, residuals, solver and its coordinates, starts, uncertainty, profiles, bootstrap
 //! 5. `selftest` (a feature): error against run time, stability, cost
 
+pub use fit::{Fit, FitResult};
+pub use measurement::Measurement;
+pub use model::{Model, Parameter, Parameters, Pbrdf};
+pub use optics::Geometry;
+
 pub mod fit;
 pub mod measurement;
 pub mod model;

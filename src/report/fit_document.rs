@@ -186,7 +186,7 @@ impl FitDocument<'_> {
         let head = self.head(["", "parameter", "value", "standard error", "start", "bounds", "unit"]);
         let row = |estimate: &Estimate| {
             let Estimate { parameter, start, value, free, .. } = *estimate;
-            let standing = estimate.standing();
+            let standing = estimate.status();
             let (value, error) = with_error(value, if let EstimateStatus::Determined(error) = standing { Some(error) } else { None });
             let error = match standing {
                 EstimateStatus::Fixed => self.text("fixed"),
@@ -194,7 +194,7 @@ impl FitDocument<'_> {
                 EstimateStatus::AtBound(Edge::Upper) => self.text("at upper bound"),
                 EstimateStatus::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
                 EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
-                EstimateStatus::Open => self.text("open"),
+                EstimateStatus::Undetermined => self.text("open"),
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
@@ -220,8 +220,11 @@ impl FitDocument<'_> {
         let open = self.report.describe_undetermined();
         let mut blocks = vec![self.heading("What the data leave open")];
         if open.is_empty() {
-            let text =
-                if self.report.determined.is_empty() { "No parameter was free." } else { "Nothing: every free parameter is determined." };
+            let text = if self.report.correlations.parameters.is_empty() {
+                "No parameter was free."
+            } else {
+                "Nothing: every free parameter is determined."
+            };
             blocks.push(self.paragraph(text));
         } else {
             blocks.push(Block::List(open.iter().map(|what| self.words.undetermined(what)).collect()));
@@ -236,14 +239,14 @@ impl FitDocument<'_> {
     }
 
     fn correlations(&self) -> Vec<Block> {
-        let names: Vec<String> = self.report.determined.iter().map(|parameter| parameter.symbol().to_owned()).collect();
+        let names: Vec<String> = self.report.correlations.parameters.iter().map(|parameter| parameter.symbol().to_owned()).collect();
         if names.len() < 2 {
             return Vec::new();
         }
         let head = [String::new()].into_iter().chain(names.iter().cloned()).collect();
         let cell = |value: &f64| if value.is_finite() { format!("{value:.3}") } else { "–".to_owned() };
         let row = |(i, name): (usize, &String)| {
-            let cells = self.report.correlations.row(i).iter().map(cell).collect::<Vec<_>>();
+            let cells = self.report.correlations.matrix.row(i).iter().map(cell).collect::<Vec<_>>();
             [name.clone()].into_iter().chain(cells).collect()
         };
         let rows = names.iter().enumerate().map(row).collect();
@@ -254,22 +257,25 @@ impl FitDocument<'_> {
         let report = self.report;
         let mut rows = vec![
             ("ΔE, Eq. (18)", self.number(report.objective)),
-            ("sum of squares", significant(report.sum_of_squares, 6)),
-            ("degrees of freedom", report.dof.to_string()),
+            ("sum of squares", significant(report.statistics.rss, 6)),
+            ("degrees of freedom", report.statistics.dof.to_string()),
         ];
-        if let Some(chi2) = report.chi2 {
+        if let Some(chi2) = report.statistics.chi2 {
             rows.push(("χ²", significant(chi2, 6)));
             #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-            rows.push(("χ² per degree of freedom", self.number((report.dof > 0).then(|| chi2 / report.dof as f64))));
+            rows.push(("χ² per degree of freedom", self.number((report.statistics.dof > 0).then(|| chi2 / report.statistics.dof as f64))));
         }
-        rows.push(("AICc", self.number(report.aicc)));
+        rows.push(("AICc", self.number(report.statistics.aicc)));
         let mut blocks = vec![self.heading("Goodness of fit"), self.pairs(rows)];
-        if report.minima.len() > 1 {
+        if report.course.minima.len() > 1 {
             let row = |minimum: &pbrdf::fit::Minimum| {
-                vec![significant(minimum.objective, 6), minimum.reached.to_string(), self.words.stop_reason(minimum.stop_reason)]
+                vec![significant(minimum.objective, 6), minimum.hits.to_string(), self.words.stop_reason(minimum.stop_reason)]
             };
             blocks.push(self.paragraph("Where the starts ended, the best first:"));
-            blocks.push(Block::Table { head: self.head(["ΔE", "starts", "why there"]), rows: report.minima.iter().map(row).collect() });
+            blocks.push(Block::Table {
+                head: self.head(["ΔE", "starts", "why there"]),
+                rows: report.course.minima.iter().map(row).collect(),
+            });
         }
         blocks
     }

@@ -36,10 +36,7 @@ pub fn analyse(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> 
     let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
     let parameters = without_idle_changes(problem, parameters, sum_of_squares, &uncertainty);
     let is_undetermined = !uncertainty.undetermined.is_empty() || problem.len() < problem.free().len();
-    let is_final = matches!(
-        stop_reason,
-        StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit
-    );
+    let is_final = matches!(stop_reason, StopReason::NoData | StopReason::Cancelled | StopReason::Numerical | StopReason::EvaluationLimit);
     if is_undetermined && !is_final {
         stop_reason = StopReason::Underdetermined;
     }

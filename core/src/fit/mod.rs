@@ -1,10 +1,38 @@
 //! Floor 4: from a measurement to parameters, and how far they can be trusted.
 //!
-//! [`Problem`] holds what is minimised, [`fit`] minimises it and returns a [`FitResult`]: a value with parameters, standard errors, what
-//! the data leave open, the trace and a typed reason for stopping. Clock, cancel and progress come from outside ([`Observer`]).
+//! [`Fit`] describes a fit and runs it. Beneath, [`Problem`] holds what is minimised, [`fit`] minimises it, and a [`FitResult`] says
+//! what came of it: estimates, standard errors, what the data leave undetermined, and a typed reason for stopping. Clock, cancel
+//! flag and progress come from outside ([`Observer`]).
+//!
+//! # The chain of a fit
+//!
+//! ```text
+//! Fit ──► Problem = Observations (shared) + model + free parameters + bounds + start
+//!           │
+//! fit ──► multistart                                   multistart global optimisation
+//!           │  ├─ initial_guess   variable projection on a grid (separable least squares)
+//!           │  ├─ sequence        Kronecker low-discrepancy sequence with a Cranley–Patterson shift
+//!           │  └─ search          probes, rounds of descents, lobe restarts, polishing
+//!           ▼
+//!         fit_local, from each start
+//!           ├─ minpack            Levenberg–Marquardt (MINPACK's lmder) under a sin² transform
+//!           └─ bounded_lm         active-set Levenberg–Marquardt with geodesic acceleration,
+//!               │                 stopped by Bates and Watts' relative offset
+//!               ├─ reparametrisation   local coordinates that straighten valleys, and their retraction
+//!               └─ qr                  Householder QR, damped least squares in a box
+//!           ▼
+//!         analyse ──► FitResult   rank by SVD, pseudo-inverse covariance, AICc
+//!
+//! profile, bootstrap              profile likelihood, residual bootstrap
+//! PredictionBand                  delta method
+//! Design                          predicted errors of a choice of angles
+//! DistributionComparison          Gauss against Cauchy by AICc
+//! Landscape                       the objective over two parameters
+//! ```
 
 mod analysis;
 mod bounds;
+mod builder;
 mod design;
 mod distribution_comparison;
 mod estimate;
@@ -25,13 +53,14 @@ mod stop_reason;
 
 pub use analysis::analyse;
 pub use bounds::{Bounds, BoundsError};
+pub use builder::{Fit, FitError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
-pub use distribution_comparison::{DistributionComparison, GaussAtFixedSigma};
+pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
 pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols, with_error};
-pub use free_parameters::free_by_default;
+pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
-pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection};
+pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;

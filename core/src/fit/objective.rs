@@ -40,6 +40,18 @@ pub enum ProblemError {
     },
 }
 
+impl ProblemError {
+    /// What to do about it, where there is more to say than the error says.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::MissingSigma { .. } => Some("state all standard deviations, or fit without weights"),
+            Self::NothingToPredict => Some("choose a model with a BRDF, such as specular"),
+            Self::StartOutsideBounds { .. } => None,
+        }
+    }
+}
+
 impl From<UnstatedSigma> for ProblemError {
     fn from(UnstatedSigma { row, quantity }: UnstatedSigma) -> Self {
         Self::MissingSigma { row, quantity }

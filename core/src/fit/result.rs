@@ -7,131 +7,12 @@ use crate::fit::observer::TracePoint;
 use crate::fit::stop_reason::StopReason;
 use crate::model::{Model, Parameter, Parameters};
 use nalgebra::DMatrix;
-<<<<<<< HEAD
-use std::fmt;
-
-/// Which bound a parameter rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Edge {
-    /// The lower one.
-    Lower,
-    /// The upper one.
-    Upper,
-}
-
-/// One parameter of the model after a fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// Which.
-    pub parameter: Parameter,
-    /// Its value before.
-    pub start: f64,
-    /// Its value.
-    pub value: f64,
-    /// Whether the fit could change it.
-    pub free: bool,
-    /// Its standard error, where the data determine it.
-    pub std_error: Option<f64>,
-    /// The bound it rests on.
-    pub at_bound: Option<Edge>,
-    /// Whether the data determine it: only a degree of freedom may be missing for a standard error.
-    pub determined: bool,
-}
-
-/// How an estimate stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum EstimateStatus {
-    /// The fit did not touch it.
-    Fixed,
-    /// It rests on a bound, and has no standard error there.
-    AtBound(Edge),
-    /// The data determine it, with this standard error in its own unit.
-    Determined(f64),
-    /// The data determine it, but no degree of freedom is left to tell a standard error from.
-    NoDegreesOfFreedom,
-    /// The data leave it open.
-    Open,
-}
-
-impl Estimate {
-    /// How it stands; a bound comes before all else that is said of a free parameter.
-    #[must_use]
-    pub fn standing(&self) -> EstimateStatus {
-        match (self.free, self.at_bound, self.std_error) {
-            (false, ..) => EstimateStatus::Fixed,
-            (true, Some(edge), _) => EstimateStatus::AtBound(edge),
-            (true, None, Some(error)) => EstimateStatus::Determined(error),
-            (true, None, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
-            (true, None, None) => EstimateStatus::Open,
-        }
-    }
-
-    /// Whether the data determine it, but to no better than half its size.
-    #[must_use]
-    pub fn is_poorly_determined(&self) -> bool {
-        matches!(self.standing(), EstimateStatus::Determined(error) if is_poorly_determined(self.parameter, self.value, error))
-    }
-}
-
-/// What an error of a parameter is measured by: its distance from where its effect vanishes, or, for c, which has no such place, the width of
-/// its range.
-#[must_use]
-pub fn relative_error_base(parameter: Parameter, value: f64) -> f64 {
-    match parameter {
-        Parameter::Q => value - 1.0,
-        Parameter::C => 1.0,
-        _ => value.abs(),
-    }
-}
-
-/// Something that the data leave open.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Undetermined {
-    /// A direction that they do not determine at all.
-    Direction(UndeterminedDirection),
-    /// Parameters that they determine with a standard error above half of the value.
-    Poorly(Vec<Parameter>),
-}
-
-impl Undetermined {
-    /// The poorly determined parameters, if there are any.
-    #[must_use]
-    pub fn poorly(parameters: impl Iterator<Item = Parameter>) -> Option<Self> {
-        let parameters: Vec<Parameter> = parameters.collect();
-        (!parameters.is_empty()).then_some(Self::Poorly(parameters))
-    }
-}
-
-impl fmt::Display for Undetermined {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Direction(direction) => direction.fmt(f),
-            Self::Poorly(parameters) => write!(f, "a standard error above half of the value: {}", symbols(parameters)),
-        }
-    }
-}
-
-/// Symbols of parameters, with commas between them.
-#[must_use]
-pub fn symbols(parameters: &[Parameter]) -> String {
-    parameters.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
-}
-
-/// Whether an error is above half of that size: then the value says next to nothing.
-#[must_use]
-pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> bool {
-    error > 0.5 * relative_error_base(parameter, value)
-}
-
-/// The end of one start, for the list of minima.
-=======
 use serde::ser::{SerializeMap, SerializeStruct};
 use serde::{Serialize, Serializer};
 use std::fmt;
 use std::ops::Index;
 
 /// A distinct minimum that starts ended in.
->>>>>>> e6b9f40 (A fit's result in groups: statistics, correlations, course)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Minimum {
     /// Where it is.
@@ -242,18 +123,10 @@ pub struct FitResult {
 }
 
 impl FitResult {
-<<<<<<< HEAD
-    /// What the data leave open: directions, and the parameters that are poorly determined.
-    #[must_use]
-    pub fn describe_undetermined(&self) -> Vec<Undetermined> {
-        let poor = self.estimates.iter().filter(|estimate| estimate.is_poorly_determined()).map(|estimate| estimate.parameter);
-        self.undetermined.iter().cloned().map(Undetermined::Direction).chain(Undetermined::poorly(poor)).collect()
-=======
     /// The estimate of a parameter; none if the model does not have it.
     #[must_use]
     pub fn estimate(&self, parameter: Parameter) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.parameter == parameter)
->>>>>>> e6b9f40 (A fit's result in groups: statistics, correlations, course)
     }
 
     /// The directions in parameter space that the data leave undetermined; each displays as a sentence.

@@ -60,6 +60,13 @@ pub struct Model {
 }
 
 impl Model {
+    /// All terms with Cauchy facets: the nine-parameter model of Wang et al.
+    pub const CAUCHY: Self = Self::full(SlopeDistribution::Cauchy);
+    /// All terms with Gauss facets.
+    pub const GAUSS: Self = Self::full(SlopeDistribution::Gauss);
+    /// The specular lobe of Cauchy facets alone: its DoLP is that of Fresnel reflection.
+    pub const SPECULAR: Self = Self { diffuse: Diffuse::Absent, volume: false, ..Self::CAUCHY };
+
     /// All terms, with that distribution.
     #[must_use]
     pub const fn full(distribution: SlopeDistribution) -> Self {

@@ -114,7 +114,7 @@ impl ExportKind {
             Self::Fitted => {
                 let fit = explorer.work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (choices, measurement) = (*fit.problem.choices(), explorer.work.document.measurement.clone());
+                let (choices, measurement) = (*fit.problem.options(), explorer.work.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.dolp_only, out)))
             }
             Self::Report => report(explorer),

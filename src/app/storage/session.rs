@@ -11,7 +11,7 @@ use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, can_be_set};
 use crate::files::export::program;
-use pbrdf::fit::{Bounds, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
+use pbrdf::fit::{Bounds, Course, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
 use pbrdf::measurement::{Measurement, ReadError};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
@@ -225,11 +225,8 @@ impl SavedFit {
             estimate.start = self.start[estimate.parameter];
         }
         report.start_objective = problem.delta_e(&self.start);
-        report.start_sum_of_squares = problem.sum_of_squares(&self.start).map(|sum| sum * problem.sum_of_squares_scale());
-        report.evaluations = 0;
-        report.minima.clear();
-        report.trace.clear();
-        report.path.clear();
+        report.statistics.start_rss = problem.rss(&self.start);
+        report.course = Course::default();
         report
     }
 }

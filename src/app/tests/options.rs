@@ -94,8 +94,8 @@ fn options_reach_the_fit() {
     let settings = &explorer.work.settings;
     assert_eq!((settings.choices.weights, settings.choices.loss, settings.starts), (Weights::Sigma, Loss::Huber, Starts::One));
     let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
-    assert_eq!(report.minima.iter().map(|minimum| minimum.reached).sum::<usize>(), 1);
-    assert!(report.chi2.is_some() && !report.minimises_delta_e);
+    assert_eq!(report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>(), 1);
+    assert!(report.statistics.chi2.is_some() && !report.statistics.minimises_delta_e);
     harness.get_by_label_contains("over σ, Huber loss");
     harness.get_by_label("χ²/dof");
 }

@@ -273,7 +273,7 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         assert!(notice.contains("bad.pbrdf.json is opened without") && notice.contains(expected), "{place} {value}: {notice}");
         assert_eq!(other.work.settings, explorer(&mut source).work.settings);
         assert_eq!(other.work.document.mask(), explorer(&mut source).work.document.mask());
-        let (fits, shown) = (other.work.fit_history.len(), other.work.shown_fit.as_ref().map(|fit| fit.problem.choices().loss));
+        let (fits, shown) = (other.work.fit_history.len(), other.work.shown_fit.as_ref().map(|fit| fit.problem.options().loss));
         assert_eq!((fits, shown), (1, Some(Loss::Squared)), "{place}");
     }
 }

@@ -104,7 +104,7 @@ fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &D
         ui.end_row();
         for (index, rung) in comparison.iter().enumerate() {
             let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
-            let is_best = rung.result.as_ref().is_ok_and(|report| report.aicc == Some(best));
+            let is_best = rung.result.as_ref().is_ok_and(|report| report.statistics.aicc == Some(best));
             let name = translated(rung.preset.name);
             let text = RichText::new(if is_best { format!("★ {name}") } else { name.clone() });
             let text = if is_best { text.strong() } else { text };
@@ -131,15 +131,15 @@ fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &D
 fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-    let reduced = report.chi2.filter(|_| report.dof > 0).map(|chi2| chi2 / report.dof as f64);
+    let reduced = report.statistics.chi2.filter(|_| report.statistics.dof > 0).map(|chi2| chi2 / report.statistics.dof as f64);
     ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.localized());
     ui.monospace(number(reduced, |value| format!("{value:.3}")));
-    ui.monospace(number(report.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
-    let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
-    let reached = report.minima.first().map_or(0, |minimum| minimum.reached);
+    ui.monospace(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
+    let starts: usize = report.course.minima.iter().map(|minimum| minimum.hits).sum();
+    let reached = report.course.minima.first().map_or(0, |minimum| minimum.hits);
     ui.monospace(tr!("{} of {}", reached, starts));
-    ui.monospace(report.evaluations.to_string());
-    ui.monospace(format!("{:.1}", report.elapsed_ms));
+    ui.monospace(report.course.evaluations.to_string());
+    ui.monospace(format!("{:.1}", report.course.elapsed_ms));
 }
 
 /// The parameters of each model, with what is known of each under its value: side by side they would be wider than most screens.
@@ -168,17 +168,17 @@ fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
 const LETTERS: f32 = 11.0;
 
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
-    let standing = match estimate.standing() {
+    let standing = match estimate.status() {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(_) => tr!("at bound"),
         EstimateStatus::Determined(error) => format!("± {}", glossary::short(error)),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Open => tr!("open"),
+        EstimateStatus::Undetermined => tr!("open"),
     };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         ui.label(RichText::new(significant(estimate.value)).size(LETTERS));
-        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(glossary::standing_help(estimate.standing()));
+        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(glossary::standing_help(estimate.status()));
     });
 }
 
@@ -188,11 +188,11 @@ fn starts_ui(comparison: &[ModelFit], ui: &mut Ui) {
         glossary::minima_headings_ui(ui);
         ui.end_row();
         for rung in comparison {
-            let minima = rung.result.as_ref().map_or(&[][..], |report| &report.minima);
+            let minima = rung.result.as_ref().map_or(&[][..], |report| &report.course.minima);
             for (i, minimum) in minima.iter().take(MOST_MINIMA).enumerate() {
                 ui.label(if i == 0 { translated(rung.preset.name) } else { String::new() });
                 ui.monospace(format!("{:.6e}", minimum.objective));
-                ui.label(format!("{} ×", minimum.reached));
+                ui.label(format!("{} ×", minimum.hits));
                 ui.label(minimum.stop_reason.localized());
                 ui.end_row();
             }

@@ -83,11 +83,7 @@ pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watc
         (crossing(&mut scan.iter().rev().filter(|point| point.0 < best)), crossing(&mut scan.iter().filter(|point| point.0 > best)));
     let points = scan
         .iter()
-        .map(|(value, sum, at)| ProfilePoint {
-            value: *value,
-            objective: problem.objective(*sum, at),
-            rss: sum * problem.rss_scale(),
-        })
+        .map(|(value, sum, at)| ProfilePoint { value: *value, objective: problem.objective(*sum, at), rss: sum * problem.rss_scale() })
         .collect();
     Profile { parameter, points, low, high }
 }

@@ -32,7 +32,11 @@ pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u6
                     commands.push(Command::ReturnTo(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
-                ui.monospace(if report.course.minima.is_empty() { "–".to_owned() } else { format!("{:.1} ms", report.course.elapsed_ms) });
+                ui.monospace(if report.course.minima.is_empty() {
+                    "–".to_owned()
+                } else {
+                    format!("{:.1} ms", report.course.elapsed_ms)
+                });
                 ui.end_row();
             }
         });

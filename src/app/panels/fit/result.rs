@@ -48,7 +48,7 @@ pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstr
             (tr!("After"), delta_e_text(report.objective), glossary::delta_e_help()),
             (tr!("Minimised"), minimised_text(fit), minimised),
             (tr!("χ²/dof"), reduced_chi2_text(report), chi2),
-            (tr!("AICc"), report.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), glossary::aicc_help()),
+            (tr!("AICc"), report.statistics.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), glossary::aicc_help()),
             (tr!("Time"), effort_text(report), tr!("Of all starts together; an evaluation is the model at all rows once")),
         ] {
             if !value.is_empty() {
@@ -98,7 +98,7 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
             ui.monospace(significant(estimate.start));
             ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate)).on_hover_text(glossary::standing_help(estimate.standing()));
+            ui.label(error_text(estimate)).on_hover_text(glossary::standing_help(estimate.status()));
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
@@ -113,7 +113,7 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
 fn minimised_text(fit: &FitEntry) -> String {
     let report = &fit.report;
     let choices = fit.problem.options();
-    let Some(start) = report.start_sum_of_squares.filter(|_| !report.minimises_delta_e) else { return String::new() };
+    let Some(start) = report.statistics.start_rss.filter(|_| !report.statistics.minimises_delta_e) else { return String::new() };
     let has_brdf = !fit.problem.knows_only_ratios() && !choices.dolp_only;
     let form = match choices.brdf_residuals {
         BrdfResiduals::Relative if has_brdf => tr!("relative residuals"),
@@ -126,23 +126,25 @@ fn minimised_text(fit: &FitEntry) -> String {
         Loss::Huber => tr!(", Huber loss"),
         Loss::SoftL1 => tr!(", soft-L1 loss"),
     };
-    tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", report.sum_of_squares))
+    tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", report.statistics.rss))
 }
 
 /// What it took; a session of an older version does not tell.
 fn effort_text(report: &FitResult) -> String {
-    if report.minima.is_empty() {
+    if report.course.minima.is_empty() {
         return tr!("not known: from a session of an older version");
     }
-    tr!("{0} ms, {1} evaluations", format!("{:.2}", report.elapsed_ms), report.evaluations)
+    tr!("{0} ms, {1} evaluations", format!("{:.2}", report.course.elapsed_ms), report.course.evaluations)
 }
 
 /// χ² per degree of freedom where standard deviations were stated and used.
 fn reduced_chi2_text(report: &FitResult) -> String {
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-    let dof = report.dof as f64;
-    match report.chi2 {
-        Some(chi2) if report.dof > 0 => tr!("{0} ({1} of {2})", format!("{:.3}", chi2 / dof), format!("{chi2:.2}"), report.dof),
+    let dof = report.statistics.dof as f64;
+    match report.statistics.chi2 {
+        Some(chi2) if report.statistics.dof > 0 => {
+            tr!("{0} ({1} of {2})", format!("{:.3}", chi2 / dof), format!("{chi2:.2}"), report.statistics.dof)
+        }
         Some(chi2) => tr!("χ² = {}, no degree of freedom", format!("{chi2:.2}")),
         None => String::new(),
     }
@@ -150,17 +152,17 @@ fn reduced_chi2_text(report: &FitResult) -> String {
 
 /// Where the starts led: distinct minima, best first.
 fn minima_ui(report: &FitResult, ui: &mut Ui) {
-    if report.minima.is_empty() {
+    if report.course.minima.is_empty() {
         return;
     }
-    let starts: usize = report.minima.iter().map(|minimum| minimum.reached).sum();
-    ui.collapsing(tr!("{0} minima from {1} starts", report.minima.len(), starts), |ui| {
+    let starts: usize = report.course.minima.iter().map(|minimum| minimum.hits).sum();
+    ui.collapsing(tr!("{0} minima from {1} starts", report.course.minima.len(), starts), |ui| {
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
             glossary::minima_headings_ui(ui);
             ui.end_row();
-            for minimum in report.minima.iter().take(MOST_MINIMA) {
+            for minimum in report.course.minima.iter().take(MOST_MINIMA) {
                 ui.monospace(format!("{:.5e}", minimum.objective));
-                ui.label(format!("{} ×", minimum.reached));
+                ui.label(format!("{} ×", minimum.hits));
                 ui.add(egui::Label::new(minimum.stop_reason.localized()).truncate());
                 ui.end_row();
             }
@@ -170,21 +172,21 @@ fn minima_ui(report: &FitResult, ui: &mut Ui) {
 
 /// Correlations of the determined parameters as a coloured table: blue where two rise together, orange where one makes up for the other.
 fn correlations_ui(report: &FitResult, ui: &mut Ui) {
-    if report.determined.len() < 2 {
+    if report.correlations.parameters.len() < 2 {
         return;
     }
     ui.collapsing(tr!("Correlations"), |ui| {
         let dark = ui.visuals().dark_mode;
         Grid::new("correlations").spacing([2.0, 2.0]).show(ui, |ui| {
             ui.label("");
-            for parameter in &report.determined {
+            for parameter in &report.correlations.parameters {
                 ui.label(parameter.symbol());
             }
             ui.end_row();
-            for (i, parameter) in report.determined.iter().enumerate() {
+            for (i, parameter) in report.correlations.parameters.iter().enumerate() {
                 ui.label(parameter.symbol());
-                for (j, other) in report.determined.iter().enumerate() {
-                    let r = report.correlations[(i, j)];
+                for (j, other) in report.correlations.parameters.iter().enumerate() {
+                    let r = report.correlations.matrix[(i, j)];
                     let (rect, response) = ui.allocate_exact_size(egui::vec2(30.0, 20.0), egui::Sense::hover());
                     ui.painter().rect_filled(rect, 2.0, theme::correlation(r, dark));
                     ui.painter().text(
@@ -210,12 +212,12 @@ fn short_correlation(r: f64) -> String {
 }
 
 fn error_text(estimate: &Estimate) -> String {
-    match estimate.standing() {
+    match estimate.status() {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(Edge::Lower) => tr!("at lower bound"),
         EstimateStatus::AtBound(Edge::Upper) => tr!("at upper bound"),
         EstimateStatus::Determined(error) => format!("{} {}", glossary::short(error), estimate.parameter.unit()).trim_end().to_owned(),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Open => tr!("open"),
+        EstimateStatus::Undetermined => tr!("open"),
     }
 }

@@ -1,0 +1,187 @@
+//! A fit, described step by step and run.
+
+use crate::fit::bounds::{Bounds, BoundsError};
+use crate::fit::free_parameters::free_by_default;
+use crate::fit::multistart::search::Starts;
+use crate::fit::objective::{Problem, ProblemError};
+use crate::fit::observer::Observer;
+use crate::fit::options::{FitOptions, Loss, Weights};
+use crate::fit::result::FitResult;
+use crate::fit::solve::fit;
+use crate::measurement::Measurement;
+use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use std::ops::RangeInclusive;
+
+/// Why a fit cannot be run.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// A value that the model does not allow.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// Bounds that are none.
+    #[error(transparent)]
+    Bounds(#[from] BoundsError),
+    /// Data, model and options that do not go together.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl FitError {
+    /// What to do about it, where there is more to say than the error says.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Problem(error) => error.hint(),
+            Self::Bounds(BoundsError::Order { .. }) => Some("to hold a parameter at one value, fix it"),
+            _ => None,
+        }
+    }
+}
+
+/// A fit of a model to a measurement.
+///
+/// Without further ado the parameters that [`free_by_default`] names are free, bounds are the ranges of [`Parameter::range`], and an
+/// automatic search ([`Starts::Automatic`]) from the defaults of [`Parameter::default_value`] finds the minimum. What is said of a
+/// parameter that the model does not have is ignored.
+///
+/// ```
+/// use pbrdf::Parameter::{K, Ks, N};
+/// use pbrdf::fit::Starts;
+/// use pbrdf::{Fit, Measurement, Model};
+///
+/// let table = "theta_i,theta_r,dolp\n30,40,0.131\n40,40,0.182\n50,50,0.293\n60,60,0.455\n70,60,0.523\n70,70,0.667\n";
+/// let data = Measurement::read(table.as_bytes())?;
+/// let result = Fit::new(&data, Model::SPECULAR).fix(Ks, 1.0).bound(N, 0.1..=5.0).start(K, 3.0).starts(Starts::One).run()?;
+/// assert!(result[N].std_error.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+#[must_use = "a fit does nothing until it is run"]
+pub struct Fit<'a> {
+    measurement: &'a Measurement,
+    model: Model,
+    start: Parameters,
+    /// The parameters whose start was given.
+    given: ParameterSet,
+    fixed: ParameterSet,
+    freed: ParameterSet,
+    bounds: Vec<(Parameter, f64, f64)>,
+    options: FitOptions,
+    starts: Starts,
+    seed: u64,
+    observer: Observer<'a>,
+}
+
+impl<'a> Fit<'a> {
+    /// A fit of all rows that are not masked.
+    pub fn new(measurement: &'a Measurement, model: Model) -> Self {
+        Self {
+            measurement,
+            model,
+            start: Parameters::default(),
+            given: ParameterSet::EMPTY,
+            fixed: ParameterSet::EMPTY,
+            freed: ParameterSet::EMPTY,
+            bounds: Vec::new(),
+            options: FitOptions::default(),
+            starts: Starts::Automatic,
+            seed: 1,
+            observer: Observer::NONE,
+        }
+    }
+
+    /// Holds a parameter at a value.
+    pub fn fix(self, parameter: Parameter, value: f64) -> Self {
+        self.start(parameter, value).hold(parameter)
+    }
+
+    /// Holds a parameter at its start, by default [`Parameter::default_value`].
+    pub fn hold(self, parameter: Parameter) -> Self {
+        Self { fixed: self.fixed.with(parameter), ..self }
+    }
+
+    /// Frees a parameter that is not free by default, also where it was held before.
+    pub fn free(self, parameter: Parameter) -> Self {
+        Self { freed: self.freed.with(parameter), ..self }
+    }
+
+    /// Starts a parameter at a value.
+    pub fn start(mut self, parameter: Parameter, value: f64) -> Self {
+        self.start[parameter] = value;
+        Self { given: self.given.with(parameter), ..self }
+    }
+
+    /// Starts all parameters at those values.
+    pub fn start_at(self, start: Parameters) -> Self {
+        Self { start, given: ParameterSet::ALL, ..self }
+    }
+
+    /// Bounds a parameter; the default is [`Parameter::range`]. A start that was not given and lies outside moves to the middle.
+    pub fn bound(mut self, parameter: Parameter, range: RangeInclusive<f64>) -> Self {
+        self.bounds.push((parameter, *range.start(), *range.end()));
+        self
+    }
+
+    /// Weights the residuals; by default the scale of Eq. (18) alone does.
+    pub fn weights(self, weights: Weights) -> Self {
+        Self { options: FitOptions { weights, ..self.options }, ..self }
+    }
+
+    /// Counts the residuals by a loss; by default by their squares.
+    pub fn loss(self, loss: Loss) -> Self {
+        Self { options: FitOptions { loss, ..self.options }, ..self }
+    }
+
+    /// Replaces all options of the objective.
+    pub fn options(self, options: FitOptions) -> Self {
+        Self { options, ..self }
+    }
+
+    /// How many starts; by default [`Starts::Automatic`].
+    pub fn starts(self, starts: Starts) -> Self {
+        Self { starts, ..self }
+    }
+
+    /// Shifts the points that starts are spread over; the default is 1. The same seed gives the same result.
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// Clock, cancel flag and progress callback; by default [`Observer::NONE`].
+    pub fn observe(self, observer: Observer<'a>) -> Self {
+        Self { observer, ..self }
+    }
+
+    /// The problem that is fitted, for profiles, bootstrap and landscapes.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where a value, a bound, or what is measured does not allow the fit.
+    pub fn problem(&self) -> Result<Problem, FitError> {
+        let mut bounds = Bounds::default();
+        for &(parameter, low, high) in &self.bounds {
+            bounds.set(parameter, low, high)?;
+        }
+        let free = free_by_default(self.model, self.measurement, &self.options).without_all(self.fixed);
+        let free = free.union(self.freed.intersection(self.model.parameters()));
+        let mut start = self.start;
+        for parameter in free {
+            if !self.given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {
+                start[parameter] = bounds.at(parameter, 0.5);
+            }
+        }
+        start.validate(self.model.parameters())?;
+        Ok(Problem::new(self.measurement, self.model, start, free, bounds, self.options)?)
+    }
+
+    /// Runs the fit.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] where a value, a bound, or what is measured does not allow the fit. A fit without data is a result, with
+    /// [`crate::fit::StopReason::NoData`].
+    pub fn run(self) -> Result<FitResult, FitError> {
+        Ok(fit(&self.problem()?, self.starts, self.seed, self.observer))
+    }
+}
