@@ -97,29 +97,35 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
         arguments.model.name
     )?;
     let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
-    writeln!(out, "{} ({} evaluations, {:.1} ms)", capitalised(report.stop_reason.text()), report.evaluations, report.elapsed_ms)?;
+    writeln!(
+        out,
+        "{} ({} evaluations, {:.1} ms)",
+        capitalised(report.stop_reason.text()),
+        report.course.evaluations,
+        report.course.elapsed_ms
+    )?;
     writeln!(out, "ΔE {} -> {}", number(report.start_objective), number(report.objective))?;
-    if !report.minimises_delta_e {
-        let (before, after) = (number(report.start_sum_of_squares), number(Some(report.sum_of_squares)));
+    if !report.statistics.minimises_delta_e {
+        let (before, after) = (number(report.statistics.start_rss), number(Some(report.statistics.rss)));
         writeln!(out, "minimised, instead of ΔE: sum of squares of the {} {before} -> {after}", residuals_in_words(arguments))?;
     }
-    if let Some(chi2) = report.chi2 {
-        writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.dof)?;
+    if let Some(chi2) = report.statistics.chi2 {
+        writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.statistics.dof)?;
     }
     writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± std.err.", "start")?;
     for estimate in &report.estimates {
-        let error = match estimate.standing() {
+        let error = match estimate.status() {
             EstimateStatus::Fixed => "fixed".to_owned(),
             EstimateStatus::AtBound(Edge::Lower) => "at lower".to_owned(),
             EstimateStatus::AtBound(Edge::Upper) => "at upper".to_owned(),
             EstimateStatus::Determined(error) => format!("{error:.3e}"),
             EstimateStatus::NoDegreesOfFreedom => "no d.o.f.".to_owned(),
-            EstimateStatus::Open => "open".to_owned(),
+            EstimateStatus::Undetermined => "open".to_owned(),
         };
         let unit = estimate.parameter.unit();
         writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;
     }
-    if report.dof == 0 && !report.determined.is_empty() {
+    if report.statistics.dof == 0 && !report.correlations.parameters.is_empty() {
         writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
     }
     let open = report.describe_undetermined();
@@ -158,7 +164,7 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapE
             end(profile.high)
         )?;
         for point in &profile.points {
-            writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.sum_of_squares, point.objective)?;
+            writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.rss, point.objective)?;
         }
     }
     if !scatters.is_empty() {

@@ -144,16 +144,16 @@ impl FitDocument<'_> {
     }
 
     fn summary(&self) -> String {
-        let FitResult { stop_reason, evaluations, elapsed_ms, objective, start_objective, minima, .. } = self.report;
+        let FitResult { stop_reason, objective, start_objective, course, .. } = self.report;
         // A fit out of an old session does not know what it took.
         let (rows, reason) = (self.measurement.rows.len(), self.words.stop_reason(*stop_reason));
         let (before, after) = (self.number(*start_objective), self.number(*objective));
-        if minima.is_empty() {
+        if course.minima.is_empty() {
             let text = "{0} of {1} rows. How it ended: {2}. ΔE of Eq. (18) went from {3} to {4}.";
             return self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after]);
         }
         let text = "{0} of {1} rows. How it ended: {2}. ΔE of Eq. (18) went from {3} to {4} in {5} evaluations and {6} ms.";
-        self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after, evaluations, &format!("{elapsed_ms:.0}")])
+        self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after, &course.evaluations, &format!("{:.0}", course.elapsed_ms)])
     }
 
     fn figures(&self) -> Vec<Block> {

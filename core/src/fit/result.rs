@@ -96,7 +96,6 @@ pub struct Course {
 /// `result[parameter]` is the estimate of a parameter of the model. `Display` lists all estimates and what is undetermined;
 /// serialised, it has the keys of the JSON that the command line prints.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct FitResult {
     /// Which terms there are.
     pub model: Model,

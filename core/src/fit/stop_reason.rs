@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 /// Why a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[non_exhaustive]
 pub enum StopReason {
     /// Objective, parameters or gradient change by no more than rounding.
     Converged,

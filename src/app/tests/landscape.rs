@@ -131,7 +131,7 @@ fn ways_minima_and_metals_lie_on_it() {
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
-    let (steps, minima) = (report.path.len(), report.minima.len());
+    let (steps, minima) = (report.course.path.len(), report.course.minima.len());
     let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
     assert_eq!((marks.ways.len(), marks.ways[0].len(), marks.minima.len()), (1, steps + 1, minima.min(24)));
     assert!(marks.text("way of the last fit", 0).expect("a text").contains("evaluation 1"));

@@ -620,7 +620,8 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
 /// The fit that is shown without an account of how it came about.
 fn without_account(explorer: &mut App) {
     let fit = explorer.work.shown_fit.as_ref().expect("a fit");
-    let report = FitResult { minima: Vec::new(), ..fit.report.clone() };
+    let mut report = fit.report.clone();
+    report.course.minima.clear();
     let FitEntry { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
     explorer.work.shown_fit = Some(Arc::new(FitEntry { id, report, problem, before, document, number, generation, mask }));

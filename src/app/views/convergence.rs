@@ -43,7 +43,7 @@ impl PartialEq for Key {
 /// ΔE against evaluations or milliseconds: it stays as it is until the next improvement, in steps.
 #[expect(clippy::cast_precision_loss, reason = "a number of evaluations")]
 fn describe(fit: &FitEntry, by_time: bool, title: String) -> Figure {
-    let trace = &fit.report.trace;
+    let trace = &fit.report.course.trace;
     let points: Vec<[f64; 2]> =
         trace.iter().map(|point| [if by_time { point.elapsed_ms } else { point.evaluations as f64 }, point.objective]).collect();
     let series = vec![Series::steps("ΔE", points.clone()).colored(SERIES[0]), Series::points("ΔE", points).colored(SERIES[0])];
@@ -64,15 +64,15 @@ impl View for ConvergenceView {
             return;
         };
         let report = &fit.report;
-        if report.minima.is_empty() {
+        if report.course.minima.is_empty() {
             ui.label(tr!("How this fit came about is not known: its session was saved by an older version."));
             return;
         }
-        if report.trace.is_empty() {
+        if report.course.trace.is_empty() {
             ui.label(tr!("The fit made no step: ΔE of its start was the best."));
             return;
         }
-        let starts = report.minima.iter().map(|minimum| minimum.reached).sum::<usize>();
+        let starts = report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>();
         ui.weak(tr!("Winning start of {0}; {1}", starts, report.stop_reason.localized()));
         let title = if cx.settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
         let hover = |_: &str, x: f64, y: f64| format!("{title}: {}\nΔE = {y:.6e}", decimal(x, 0.1));

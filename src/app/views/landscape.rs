@@ -100,7 +100,7 @@ impl View for LandscapeView {
             return;
         }
         let Settings { model, choices, .. } = *settings;
-        let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.choices() == choices);
+        let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.options() == choices);
         let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
         let scale_at = is_scaled.then(|| fitted.map_or(settings.parameters, |fit| fit.report.parameters));
         let rows = document.measurement.rows.len() - document.mask().len();

@@ -87,7 +87,7 @@ fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
 }
 
 fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
-    let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.aicc).fold(f64::INFINITY, f64::min);
+    let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.statistics.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(tr!("model"));
