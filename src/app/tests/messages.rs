@@ -17,8 +17,7 @@ use crate::figure::PngError;
 use crate::files::export::{expect_ending, picture_kind, report_kind};
 use crate::files::open_file::{OpenError, open_file};
 use pbrdf::fit::{
-    BoundsError, DesignError, DistributionComparison, FitResult, ProblemError, StopReason, Undetermined, UndeterminedDirection,
-    UndeterminedReason,
+    BoundsError, DesignError, DistributionComparison, ProblemError, StopReason, Undetermined, UndeterminedDirection, UndeterminedReason,
 };
 use pbrdf::measurement::{
     ColumnChoice, ColumnPlace, Ellipsometry, Expected, Field, MappedColumn, Mapping, MappingError, Measurement, ReadError, ReadErrorKind,
