@@ -1,15 +1,11 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
-use crate::app::panels::beside::Beside as _;
 use crate::app::panels::stepping::{Step, step_with_arrows};
+use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
-use crate::app::shell::app::App;
-use crate::app::shell::lessons::Lessons;
-use crate::app::shell::toasts::Notices;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
 use pbrdf::optics::SlopeDistribution;
@@ -17,19 +13,22 @@ use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
 
-pub fn parameters_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { work: Workspace { settings, .. }, notices, lessons, .. } = explorer;
+/// What sliders reach.
+pub type SliderRange<'a> = dyn Fn(Parameter) -> RangeInclusive<f64> + 'a;
+
+/// The panel; what is refused, and why, is added to `refusals`.
+pub fn parameters_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(settings, ui);
         bounds_switch_ui(settings, ui);
         ui.separator();
-        specular_ui(settings, notices, lessons, ui);
-        diffuse_ui(settings, notices, lessons, ui);
-        volume_ui(settings, notices, lessons, ui);
+        specular_ui(settings, refusals, range, ui);
+        diffuse_ui(settings, refusals, range, ui);
+        volume_ui(settings, refusals, range, ui);
         geometry_ui(settings, ui);
         ui.add_space(4.0);
-        if ui.button(tr!("Reset all parameters")).on_hover_beside(ui, tr!("All nine parameters to their defaults")).clicked() {
+        if ui.button(tr!("Reset all parameters")).on_hover_right(ui, tr!("All nine parameters to their defaults")).clicked() {
             settings.parameters = Parameters::default();
         }
     });
@@ -54,33 +53,33 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
         response
             .response
             .labelled_by(label.id)
-            .on_hover_beside(ui, current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
+            .on_hover_right(ui, current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
     });
 }
 
 fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_beside(
+        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_right(
             ui,
             tr!("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"),
         );
         if !settings.bounds.is_empty()
-            && ui.button(tr!("Reset bounds")).on_hover_beside(ui, tr!("All bounds back to the sliders' ranges")).clicked()
+            && ui.button(tr!("Reset bounds")).on_hover_right(ui, tr!("All bounds back to the sliders' ranges")).clicked()
         {
             settings.bounds.clear();
         }
     });
 }
 
-fn specular_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
+fn specular_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
-            .on_hover_beside(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
+            .on_hover_right(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
     });
     if settings.model.specular {
         ui.horizontal(|ui| {
             for (distribution, name) in [(SlopeDistribution::Gauss, tr!("Gauss")), (SlopeDistribution::Cauchy, tr!("Cauchy"))] {
-                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_beside(
+                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_right(
                     ui,
                     match distribution {
                         SlopeDistribution::Gauss => tr!("Gaussian facet slopes, Eq. (5): Beckmann"),
@@ -88,46 +87,46 @@ fn specular_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons
                     },
                 );
             }
-            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_beside(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
+            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_right(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
         });
         let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
         if settings.model.distribution == SlopeDistribution::Cauchy {
             shown.push(Parameter::Q);
         }
-        sliders_ui(settings, notices, lessons, ui, "specular", &shown);
+        sliders_ui(settings, refusals, range, ui, "specular", &shown);
     }
     ui.separator();
 }
 
-fn diffuse_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
+fn diffuse_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
     let mut present = settings.model.diffuse != Diffuse::Absent;
     let switch =
-        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_beside(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
+        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_right(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
     if switch.changed() {
         settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
     }
     if present {
         ui.horizontal(|ui| {
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_beside(ui, "(cos θi cos θr)^c / π");
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_beside(ui, tr!("1/π in all directions: c = 0"));
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_right(ui, "(cos θi cos θr)^c / π");
+            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_right(ui, tr!("1/π in all directions: c = 0"));
             ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
-                .on_hover_beside(ui, tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
+                .on_hover_right(ui, tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
         });
         let shown: &[Parameter] = match settings.model.diffuse {
             Diffuse::Absent | Diffuse::Hyde => &[],
             Diffuse::Lambert => &[Parameter::Kd],
             Diffuse::Minnaert => &[Parameter::Kd, Parameter::C],
         };
-        sliders_ui(settings, notices, lessons, ui, "diffuse", shown);
+        sliders_ui(settings, refusals, range, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
-fn volume_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui) {
+fn volume_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
     ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
-        .on_hover_beside(ui, tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
+        .on_hover_right(ui, tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
     if settings.model.volume {
-        sliders_ui(settings, notices, lessons, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+        sliders_ui(settings, refusals, range, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
     ui.separator();
 }
@@ -150,7 +149,7 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
             let label = name_ui(ui, name, &help);
             let before = *angle;
             let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
-            let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help);
+            let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help);
             step_with_arrows(ui, &slider, before, angle, &range, Step::Fixed(0.5));
             if is_double_clicked(ui, &[&label, &slider]) {
                 *angle = default;
@@ -165,7 +164,7 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
 /// The name of a slider; a double click on it resets what it names.
 fn name_ui(ui: &mut Ui, name: &str, help: &str) -> egui::Response {
     // Clicks alone: a stop on the way of the Tab key would be one too many.
-    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_beside(ui, help)
+    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_right(ui, help)
 }
 
 /// Whether any of them was clicked twice; a slider senses drags alone.
@@ -174,13 +173,20 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
     twice && responses.iter().any(|response| response.contains_pointer())
 }
 
-fn sliders_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+fn sliders_ui(
+    settings: &mut Settings,
+    refusals: &mut Vec<String>,
+    range: &SliderRange<'_>,
+    ui: &mut Ui,
+    id: &str,
+    parameters: &[Parameter],
+) {
     Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(settings, notices, lessons.range(parameter), ui, parameter);
+            slider_ui(settings, refusals, range(parameter), ui, parameter);
             ui.end_row();
             if settings.show_bounds {
-                bounds_ui(settings, notices, ui, parameter);
+                bounds_ui(settings, refusals, ui, parameter);
                 ui.end_row();
             }
         }
@@ -188,7 +194,7 @@ fn sliders_ui(settings: &mut Settings, notices: &mut Notices, lessons: &Lessons,
 }
 
 /// Name, slider, typed value with unit; lock and reset.
-fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
+fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&settings.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it, with Shift by a tenth.",
@@ -206,7 +212,7 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
     if parameter.is_logarithmic() {
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
-    let slider = ui.add(slider).labelled_by(label.id).on_hover_beside(ui, help.as_str());
+    let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help.as_str());
     let step = if parameter.is_logarithmic() { Step::OfSize } else { Step::over(&range) };
     step_with_arrows(ui, &slider, before, value, &range, step);
     if is_double_clicked(ui, &[&label, &slider]) {
@@ -244,7 +250,7 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
         typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false).suffix(suffix),
     )
     .labelled_by(label.id)
-    .on_hover_beside(
+    .on_hover_right(
         ui,
         if outside {
             tr!("outside the slider's range {0} to {1}", range.start(), range.end())
@@ -254,7 +260,7 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
     );
 
     if let Some(sentence) = refused.into_inner() {
-        notices.say(sentence);
+        refusals.push(sentence);
     }
     lock_and_reset_ui(settings, outside, ui, parameter);
 }
@@ -262,7 +268,7 @@ fn slider_ui(settings: &mut Settings, notices: &mut Notices, range: RangeInclusi
 /// Whether a fit leaves the parameter alone, and the way back to its default.
 fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parameter: Parameter) {
     let mut locked = settings.locked.contains(parameter);
-    let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_beside(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
+    let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_right(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
     if lock.changed() {
         settings.locked = if locked { settings.locked.with(parameter) } else { settings.locked.without(parameter) };
@@ -271,7 +277,7 @@ fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parame
     let is_default = settings.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
     let text = egui::RichText::new(if outside { tr!("outside") } else { tr!("reset") }).color(color);
-    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_beside(
+    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_right(
         ui,
         if outside {
             tr!("back to {}: the value is outside the slider's range", parameter.default_value())
@@ -286,7 +292,7 @@ fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parame
 }
 
 /// The lower bound under the slider, the upper one under the value.
-fn bounds_ui(settings: &mut Settings, notices: &mut Notices, ui: &mut Ui, parameter: Parameter) {
+fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, parameter: Parameter) {
     let (low, high) = settings.bounds_of(parameter);
     let own = settings.has_own_bounds(parameter);
     let color = if own { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
@@ -319,18 +325,18 @@ fn bounds_ui(settings: &mut Settings, notices: &mut Notices, ui: &mut Ui, parame
             })
             .inner;
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("{0} of {1}", name, parameter.key())));
-        response.on_hover_beside(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
+        response.on_hover_right(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
     }
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
     {
-        notices.say(tr!("The bounds stay as they are: {}.", error.localized()));
+        refusals.push(tr!("The bounds stay as they are: {}.", error.localized()));
     }
     if let Some(sentence) = refused.into_inner() {
-        notices.say(sentence);
+        refusals.push(sentence);
     }
     ui.label("");
-    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_beside(ui, tr!("back to the slider's range"));
+    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_right(ui, tr!("back to the slider's range"));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         settings.reset_bounds(parameter);

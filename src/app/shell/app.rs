@@ -11,12 +11,18 @@ use crate::app::shell::docking::{Dock, panes_ui};
 use crate::app::shell::file_dialogs::request_for;
 use crate::app::shell::frame_times::FrameTimes;
 use crate::app::shell::help::Help;
+use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::import_ui::import_ui;
 use crate::app::shell::job_results::poll_jobs;
 use crate::app::shell::lesson_session::LessonSession;
+use crate::app::shell::lesson_ui::lesson_panel;
 use crate::app::shell::lessons;
 use crate::app::shell::lessons::Lessons;
+use crate::app::shell::menu_bar::menu_ui;
+use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::path_entry::{OverwritePrompt, PathEntry};
+use crate::app::shell::status_bar::{notices_ui, status_ui};
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Notices;
 use crate::app::storage::autosave::AutosaveKey;
@@ -219,13 +225,14 @@ impl App {
 
     /// What panes get to see, the panes, and where they lie.
     fn split(&mut self) -> (Cx<'_>, &mut Views, &mut Dock) {
-        let Workspace { settings, document, shown_fit, fit_history, model_comparison, .. } = &mut self.work;
+        let Workspace { settings, document, shown_fit, fit_history, model_comparison, diagnostics, .. } = &mut self.work;
         let cx = Cx {
             settings,
             document,
             fit: shown_fit.as_ref(),
             fits: fit_history,
             comparison: model_comparison,
+            diagnostics,
             derived: &mut self.derived,
             jobs: &self.jobs,
             benchmarks: &mut self.reports,
@@ -554,28 +561,42 @@ impl App {
         }
     }
 
+    fn parameters_ui(&mut self, ui: &mut egui::Ui) {
+        let Self { work, lessons, .. } = self;
+        let mut refusals = Vec::new();
+        panels::parameters_ui(&mut work.settings, &mut refusals, &|parameter| lessons.range(parameter), ui);
+        refusals.into_iter().for_each(|sentence| self.say(sentence));
+    }
+
+    fn fit_ui(&mut self, ui: &mut egui::Ui) {
+        let mut shown = self.show_predicted_errors;
+        let (mut cx, ..) = self.split();
+        panels::fit_ui(&mut cx, &mut shown, ui);
+        self.show_predicted_errors = shown;
+    }
+
     /// One frame.
     pub fn ui(&mut self, ui: &mut egui::Ui) {
-        egui::Panel::top("menu").show(ui, |ui| panels::menu_ui(self, ui));
-        egui::Panel::bottom("status").show(ui, |ui| panels::status_ui(self, ui));
-        egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| panels::parameters_ui(self, ui));
+        egui::Panel::top("menu").show(ui, |ui| menu_ui(self, ui));
+        egui::Panel::bottom("status").show(ui, |ui| status_ui(self, ui));
+        egui::Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| self.parameters_ui(ui));
         egui::Panel::right("fit")
             .default_size(if ui.ctx().content_rect().width() < 1200.0 { 270.0 } else { 320.0 })
             .min_size(250.0)
-            .show(ui, |ui| panels::fit_ui(self, ui));
+            .show(ui, |ui| self.fit_ui(ui));
         egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
-            panels::lesson_panel(self, ui);
+            lesson_panel(self, ui);
             let room = ui.available_rect_before_wrap();
             {
                 let (mut cx, views, dock) = self.split();
                 panes_ui(dock, views, &mut cx, ui);
             }
-            panels::notices_ui(self, ui, room);
+            notices_ui(self, ui, room);
         });
         palette_ui(self, ui);
-        panels::import_ui(self, ui);
-        panels::replace_ui(self, ui);
-        panels::help_ui(self, ui);
+        import_ui(self, ui);
+        overwrite_ui(self, ui);
+        help_ui(self, ui);
     }
 }
 

@@ -4,6 +4,7 @@ use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::commands::Command;
 use crate::app::tasks::jobs::Jobs;
 use crate::app::views::derived::Derived;
+use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::model_fit::ModelFit;
@@ -21,6 +22,8 @@ pub struct Cx<'a> {
     pub fit: Option<&'a Arc<FitEntry>>,
     pub fits: &'a FitHistory,
     pub comparison: &'a [ModelFit],
+    /// Profile and bootstrap of that fit.
+    pub diagnostics: &'a mut Diagnostics,
     pub derived: &'a mut Derived,
     /// The progress of jobs; commands start and cancel them.
     pub jobs: &'a Jobs,

@@ -8,23 +8,23 @@ mod result;
 mod scans;
 
 use crate::app::jobs::job::Job;
-use crate::app::panels::status::delta_e_text;
 use crate::app::plots::theme;
-use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
+use crate::app::views::Cx;
 use crate::app::views::derived::Derived;
+use crate::app::work::fit_setup::free;
 use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use egui::{Label, RichText, Ui};
 use pbrdf::fit::Weights;
 use pbrdf::model::{Parameter, ParameterSet};
 use tr::tr;
 
-pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
-    let free = explorer.free();
-    let App { work, jobs, commands, derived, show_predicted_errors, .. } = explorer;
-    let Workspace { shown_fit: last_fit, fit_history, document, settings, model_comparison: comparison, diagnostics: scans, .. } = work;
+/// The panel; `show_predicted_errors` tells whether what the data would determine is unfolded.
+pub fn fit_ui(cx: &mut Cx<'_>, show_predicted_errors: &mut bool, ui: &mut Ui) {
+    let free = free(cx.settings, cx.document.measurement.has_brdf());
+    let last_fit = cx.fit;
+    let Cx { jobs, actions: commands, derived, fits: fit_history, document, settings, comparison, diagnostics: scans, .. } = cx;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -65,7 +65,7 @@ pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
             ui.ctx().request_repaint();
         }
         ui.separator();
-        match last_fit.as_ref().filter(|fit| fit.number == document.number) {
+        match last_fit.filter(|fit| fit.number == document.number) {
             Some(fit) => {
                 if fit.report.model != settings.model {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("This fit is of another model than the sliders show."));
@@ -81,10 +81,15 @@ pub fn fit_ui(explorer: &mut App, ui: &mut Ui) {
                 ui.label(tr!("Move the sliders until the curves are near the points, then press Fit."));
             }
         }
-        past::past_fits_ui(fit_history, last_fit.as_ref(), document.number, commands, ui);
+        past::past_fits_ui(fit_history, last_fit, document.number, commands, ui);
         ui.separator();
         comparison::comparison_ui(comparison, jobs.fits.compare.job().map(Job::progress), commands, ui);
     });
+}
+
+/// ΔE as a label.
+pub fn delta_e_text(delta_e: Option<f64>) -> String {
+    delta_e.map_or_else(|| tr!("ΔE not defined"), |value| format!("ΔE = {value:.4e}"))
 }
 
 /// Offers stated standard deviations as weights, where they are there.

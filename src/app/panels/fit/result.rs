@@ -1,7 +1,7 @@
 //! What a fit came to: values, standard errors, minima, correlations, and what stays open.
 
+use crate::app::panels::delta_e_text;
 use crate::app::panels::parameters::significant;
-use crate::app::panels::status::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary;

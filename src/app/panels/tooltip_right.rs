@@ -17,13 +17,13 @@ fn was_dragged(response: &Response) -> bool {
 }
 
 /// A control of a panel on the left.
-pub trait Beside {
+pub trait TooltipRight {
     /// Shows this text right of the panel while the pointer is on the control.
-    fn on_hover_beside(self, ui: &Ui, text: impl Into<String>) -> Self;
+    fn on_hover_right(self, ui: &Ui, text: impl Into<String>) -> Self;
 }
 
-impl Beside for Response {
-    fn on_hover_beside(self, ui: &Ui, text: impl Into<String>) -> Self {
+impl TooltipRight for Response {
+    fn on_hover_right(self, ui: &Ui, text: impl Into<String>) -> Self {
         let text = text.into();
         if self.ctx.has_accesskit_node(self.id) {
             self.ctx.accesskit_node_builder(self.id, |node| node.set_description(text.as_str()));

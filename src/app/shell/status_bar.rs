@@ -1,5 +1,6 @@
 //! The line under the plots, and sentences over them.
 
+use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
@@ -47,11 +48,6 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
             ui.label(left_out.text());
         }
     });
-}
-
-/// ΔE as a label.
-pub fn delta_e_text(delta_e: Option<f64>) -> String {
-    delta_e.map_or_else(|| tr!("ΔE not defined"), |value| format!("ΔE = {value:.4e}"))
 }
 
 /// What there is to say, over the foot of the plots: they stay where they are.

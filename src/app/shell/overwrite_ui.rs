@@ -8,7 +8,7 @@ use tr::tr;
 /// Width of the dialog.
 const WIDTH: f32 = 420.0;
 
-pub fn replace_ui(explorer: &mut App, ui: &mut Ui) {
+pub fn overwrite_ui(explorer: &mut App, ui: &mut Ui) {
     let App { replacing: Some(replacing), commands, .. } = explorer else { return };
     let name = replacing.path.file_name().unwrap_or_default().to_string_lossy();
     let response = egui::Modal::new(egui::Id::unique("replace")).show(ui.ctx(), |ui| {
