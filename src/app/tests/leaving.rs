@@ -55,7 +55,7 @@ fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
 }
 
 /// Dock and a title of an axis or a colour bar in their figures; of the reports those in the tests of the core.
-const TITLES: [(PaneId, &[&str]); 13] = [
+const TITLES: [(PaneId, &[&str]); 14] = [
     (PaneId::Dolp, &["θr / °", "DoLP"]),
     (PaneId::Lobes, &["θr / °", "BRDF / sr⁻¹"]),
     (PaneId::PolarLobes, &["BRDF / sr⁻¹"]),
@@ -69,6 +69,7 @@ const TITLES: [(PaneId, &[&str]); 13] = [
     (PaneId::ErrorVsTime, &[]),
     (PaneId::Stability, &[]),
     (PaneId::Cost, &[]),
+    (PaneId::ResidualsAgainstAngle, &["θr / °", "DoLP: model − measurement / σ"]),
 ];
 
 #[test]

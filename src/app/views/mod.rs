@@ -24,6 +24,7 @@ mod planner;
 mod polar_lobes;
 mod report;
 mod residuals;
+mod residuals_against_angle;
 mod stability;
 
 pub use context::{Cx, PaneSpec, View};

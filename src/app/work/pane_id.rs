@@ -23,6 +23,7 @@ macro_rules! with_panes {
             ErrorVsTime error_vs_time Upper,
             Stability stability Upper,
             Cost cost Upper,
+            ResidualsAgainstAngle residuals_against_angle Lower,
         }
     };
 }

@@ -1,0 +1,193 @@
+//! Residuals against the angle of view: of the sliders or of the shown fit, over the stated standard deviations where all are stated.
+
+use crate::app::jobs::memo::Memo;
+use crate::app::plots::theme::MUTED;
+use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range, nice_ceiling};
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
+use crate::app::views::context::{Cx, PaneSpec, View};
+use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
+use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
+use crate::figure::{Axis, Figure, Panel, SERIES, Series};
+use egui::Ui;
+use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::optics::Facet;
+use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Residuals against angle",
+    tooltip: "Model less measurement against the angle of view, in units of the stated standard deviations where all are stated; one colour for each angle of incidence",
+    shortcut: None,
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(ResidualsAgainstAngleView::default()),
+};
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct ResidualsAgainstAngleView {
+    /// Whether the residuals are those of the shown fit rather than of the sliders.
+    of_fit: bool,
+    residuals: Memo<(Parameters, Model, u64), Vec<QuantityResiduals>>,
+    ranges: [AutoRange; 2],
+    /// Of the residuals by their stamp; whether the backscatter side is drawn; the axes; the language.
+    plot: FigurePlot<(u64, bool, [Option<Range>; 2], Language)>,
+}
+
+/// Residuals of one measured quantity.
+struct QuantityResiduals {
+    quantity: Quantity,
+    /// Whether they are over their standard deviations.
+    in_sigma: bool,
+    /// θr in degrees and residual of each series, without masked points.
+    of_series: Vec<Vec<[f64; 2]>>,
+}
+
+/// What was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Quantity {
+    Dolp,
+    Brdf,
+}
+
+impl Quantity {
+    fn points(self, series: &IncidenceSeries) -> &[DataPoint] {
+        match self {
+            Self::Dolp => &series.dolp,
+            Self::Brdf => &series.brdf,
+        }
+    }
+
+    fn of_model(self, surface: &Pbrdf, facet: &Facet) -> f64 {
+        match self {
+            Self::Dolp => surface.dolp(facet),
+            Self::Brdf => surface.reflection(facet).brdf,
+        }
+    }
+
+    /// The axis of its residuals.
+    fn axis(self, in_sigma: bool) -> Axis {
+        match self {
+            Self::Dolp if in_sigma => Axis::linear(tr!("DoLP: model − measurement"), "σ"),
+            Self::Dolp => Axis::linear(tr!("DoLP: model − measurement"), ""),
+            Self::Brdf if in_sigma => Axis::linear(tr!("BRDF: model − measurement"), "σ"),
+            Self::Brdf => Axis::linear(tr!("BRDF: model − measurement"), "sr⁻¹"),
+        }
+    }
+}
+
+impl QuantityResiduals {
+    /// None where the quantity was not measured.
+    fn new(quantity: Quantity, surface: &Pbrdf, document: &Document) -> Option<Self> {
+        let used = || drawn(document).flat_map(|series| quantity.points(series)).filter(|mark| !mark.masked);
+        used().next()?;
+        let in_sigma = used().all(|mark| mark.quantity.sigma.is_some_and(|sigma| sigma > 0.0));
+        let of_series = drawn(document).map(|series| {
+            let points = quantity.points(series);
+            let step = points.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
+            let residual = |mark: &DataPoint| {
+                let facet = Facet::new(series.geometry(mark.theta_r)?);
+                let unit = mark.quantity.sigma.filter(|_| in_sigma).unwrap_or(1.0);
+                Some([mark.theta_r, (quantity.of_model(surface, &facet) - mark.quantity.value) / unit])
+            };
+            points.iter().step_by(step).filter(|mark| !mark.masked).filter_map(residual).collect()
+        });
+        Some(Self { quantity, in_sigma, of_series: of_series.collect() })
+    }
+
+    fn panel(&self, names: &[String], x: &Axis, range: &AutoRange, legend: bool) -> Panel {
+        let mut series = vec![Series::level("", 0.0).colored(MUTED)];
+        if self.in_sigma {
+            series.extend([-1.0, 1.0].map(|sigma| Series::level("", sigma).colored(MUTED).faded(0.5)));
+        }
+        let all = self.of_series.iter().zip(names).zip(SERIES).filter(|((residuals, _), _)| !residuals.is_empty());
+        series.extend(all.map(|((residuals, name), color)| Series::points(name, residuals.iter().copied()).colored(color)));
+        Panel { x: x.clone(), y: range.on(self.quantity.axis(self.in_sigma)), series, legend, ..Panel::default() }
+    }
+}
+
+impl View for ResidualsAgainstAngleView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let (settings, document) = (&*cx.settings, cx.document);
+        let fit = cx.fit.filter(|fit| self.of_fit && fit.number == document.number);
+        let (parameters, model) = fit.map_or((settings.parameters, settings.model), |fit| (fit.report.parameters, fit.report.model));
+        self.residuals.refresh((parameters, model, document.generation), |_| match Pbrdf::new(model, parameters) {
+            Ok(surface) => [Quantity::Dolp, Quantity::Brdf]
+                .into_iter()
+                .filter_map(|quantity| QuantityResiduals::new(quantity, &surface, document))
+                .collect(),
+            Err(_) => Vec::new(),
+        });
+        let residuals = self.residuals.get().map_or(&[][..], Vec::as_slice);
+        for (residuals, range) in residuals.iter().zip(&mut self.ranges) {
+            let largest = residuals.of_series.iter().flatten().map(|[_, y]| y.abs()).filter(|y| y.is_finite()).fold(0.0, f64::max);
+            let end = nice_ceiling(largest);
+            range.follow(Range { low: -end, high: end }, cx.interacting);
+        }
+        let backscatter = settings.show_backscatter || document.has_backscatter();
+        let ranges = &self.ranges;
+        let key = (self.residuals.stamp(), backscatter, [ranges[0].get(), ranges[1].get()], i18n::current());
+        self.plot.refresh(key, |_| {
+            let names: Vec<String> = drawn(document).map(IncidenceSeries::name).collect();
+            let x = Axis::linear("θr", "°").between(if backscatter { -90.0 } else { 0.0 }, 90.0);
+            let panels = residuals.iter().zip(ranges).enumerate();
+            let panels: Vec<Panel> = panels.map(|(i, (residuals, range))| residuals.panel(&names, &x, range, i == 0)).collect();
+            (!panels.is_empty()).then(|| Figure { title: document.title(), panels, ..Figure::default() })
+        });
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut self.of_fit, false, tr!("of the sliders"));
+            let has_fit = cx.fit.is_some_and(|fit| fit.number == cx.document.number);
+            ui.add_enabled_ui(has_fit, |ui| ui.selectable_value(&mut self.of_fit, true, tr!("of the shown fit")));
+        });
+        let count = self.plot.panels().len();
+        if count == 0 {
+            ui.label(tr!("Nothing was measured, or there is no surface: there are no residuals."));
+            return;
+        }
+        if let Some(panel) = self.plot.panel(0) {
+            panel.key_line_ui(ui);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "one or two panels")]
+        let height = ui.available_height() / count as f32 - ui.spacing().item_spacing.y;
+        for (i, panel) in self.plot.panels().iter_mut().enumerate() {
+            let hover = |name: &str, x: f64, y: f64| tr!("{0}\nθr = {1}°\nresidual = {2}", name, format!("{x:.2}"), format!("{y:.3e}"));
+            panel.ui(&PanelStyle::new(&format!("residuals against angle {i}"), height.max(60.0), &hover), ui);
+        }
+    }
+
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Document, Pbrdf, Quantity, QuantityResiduals};
+    use pbrdf::measurement::Measurement;
+    use pbrdf::model::{Model, Parameters};
+    use pbrdf::optics::SlopeDistribution;
+
+    fn document(text: &str) -> Document {
+        Document::new("a".to_owned(), Measurement::read(text.as_bytes()).expect("a table"), 1)
+    }
+
+    #[test]
+    fn residuals_are_over_sigma_where_every_value_states_one() {
+        let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("a surface");
+        let residuals = |text: &str, quantity| QuantityResiduals::new(quantity, &surface, &document(text));
+        let stated = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,0.02\n";
+        let bare = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,\n";
+        let (stated_dolp, bare_dolp) = (residuals(stated, Quantity::Dolp).expect("DoLP"), residuals(bare, Quantity::Dolp).expect("DoLP"));
+        assert!(stated_dolp.in_sigma && !bare_dolp.in_sigma);
+        let (over_sigma, plain) = (&stated_dolp.of_series[0], &bare_dolp.of_series[0]);
+        assert_eq!(over_sigma.iter().map(|[x, _]| *x).collect::<Vec<_>>(), [20.0, 40.0]);
+        for ((over, plain), sigma) in over_sigma.iter().zip(plain).zip([0.01, 0.02]) {
+            // A quotient.
+            assert!((over[1] * sigma / plain[1] - 1.0).abs() < 4.0 * f64::EPSILON, "{over:?} {plain:?}");
+        }
+        assert!(residuals(stated, Quantity::Brdf).is_none(), "not measured");
+    }
+}
