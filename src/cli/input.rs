@@ -52,7 +52,8 @@ pub fn notice_ignored_columns(path: &Path, measurement: &Measurement) {
     }
 }
 
-/// The failure of a command whose input is no measurement; for a foreign file with the command that imports it.
+/// The failure of a command whose input is no measurement; for a foreign file with the command that
+/// imports it.
 fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
     let is_cancelled = matches!(error.kind, ReadErrorKind::Cancelled);
     if !is_cancelled && recognise(bytes).is_some() {

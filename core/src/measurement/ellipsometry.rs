@@ -1,9 +1,9 @@
 //! Ellipsometry, ψ and Δ at several angles and wavelengths, and the specular DoLP that it gives.
 //!
-//! A smooth surface under unpolarised light has `DoLP = |Rs − Rp|/(Rs + Rp) = |cos 2ψ|` at θr = θi, with
-//! `tan ψ = |rp/rs|`; its standard deviation is `2 |sin 2ψ| σ_ψ`. ψ is that of the polarised part: a
-//! depolarisation d (in percent, `100 (1 − P²)`) lowers the DoLP of the light that leaves the sample to
-//! `√(1 − d/100) |cos 2ψ|`, which is not applied.
+//! A smooth surface under unpolarised light has `DoLP = |Rs − Rp|/(Rs + Rp) = |cos 2ψ|` at θr = θi,
+//! with `tan ψ = |rp/rs|`; its standard deviation is `2 |sin 2ψ| σ_ψ`. ψ is that of the polarised
+//! part: a depolarisation d (in percent, `100 (1 − P²)`) lowers the DoLP of the light that leaves
+//! the sample to `√(1 − d/100) |cos 2ψ|`, which is not applied.
 
 use crate::measurement::{Measurement, Quantity, Row, WavelengthError, choose_wavelength};
 use crate::optics::{Degrees, Geometry};
@@ -71,8 +71,8 @@ impl Ellipsometry {
         wavelengths
     }
 
-    /// The specular DoLP at every angle of incidence, at the wavelength nearest to the one asked for.
-    /// Without a wavelength there has to be one only.
+    /// The specular DoLP at every angle of incidence, at the wavelength nearest to the one asked
+    /// for. Without a wavelength there has to be one only.
     ///
     /// # Errors
     /// No angle has a wavelength near the one asked for, or there are several and none was chosen.

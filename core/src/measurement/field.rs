@@ -68,8 +68,8 @@ impl Field {
         KEYS.iter().find(|(name, _)| *name == key).map(|(_, field)| *field)
     }
 
-    /// The names of the units that a column of this field can have, its native unit first; none where
-    /// there is nothing to choose.
+    /// The names of the units that a column of this field can have, its native unit first; none
+    /// where there is nothing to choose.
     #[must_use]
     pub fn unit_names(self) -> &'static [(&'static str, Unit)] {
         match self {
@@ -105,7 +105,8 @@ impl Field {
         }
     }
 
-    /// The rank of a name among the names of the field, 0 for the most specific; `None` for other names.
+    /// The rank of a name among the names of the field, 0 for the most specific; `None` for other
+    /// names.
     pub(crate) fn rank(self, name: &str) -> Option<usize> {
         let name = stem(name);
         let place = |name: &str| self.aliases().iter().position(|alias| *alias == name);

@@ -1,7 +1,7 @@
 //! Which column of a foreign table holds what, and in which unit.
 //!
-//! As text, `theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent`: a [`Field`], the name of the column in the
-//! header or its number from 1, and the unit where it is not the native one.
+//! As text, `theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent`: a [`Field`], the name of the column
+//! in the header or its number from 1, and the unit where it is not the native one.
 
 use crate::measurement::field::{RELATIVE_NAMES, sigma_rank};
 use crate::measurement::{Field, Unit};
@@ -111,8 +111,8 @@ impl Mapping {
         Ok(mapping)
     }
 
-    /// What the names of a header suggest, by number of the column, and what metadata state where there is
-    /// no column. A guess: to be offered, not applied unasked.
+    /// What the names of a header suggest, by number of the column, and what metadata state where
+    /// there is no column. A guess: to be offered, not applied unasked.
     #[must_use]
     pub fn guess(header: &[String], metadata: &[(String, String)]) -> Self {
         let mut mapping = Self::default();

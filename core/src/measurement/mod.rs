@@ -1,8 +1,8 @@
 //! Floor 3: measurements, read, written, simulated and imported.
 //!
-//! The table of this project is documented at [`Measurement::read`]. Readers take any `impl Read`: opening
-//! files, and naming them in messages, is left to the caller. A foreign file becomes a measurement by
-//! its form in [`formats`].
+//! The table of this project is documented at [`Measurement::read`]. Readers take any `impl Read`:
+//! opening files, and naming them in messages, is left to the caller. A foreign file becomes a
+//! measurement by its form in [`formats`].
 
 mod ellipsometry;
 mod error;

@@ -1,9 +1,9 @@
 //! Rusinkiewicz's half and difference angles of two rays (Rusinkiewicz, Eurographics Workshop on
 //! Rendering, 11 (1998)), in the conventions of Mitsuba 3's plugin `measured_polarized`.
 //!
-//! For the rays i towards the light and r towards the eye, h ∝ i + r is the half vector and `θ_h` its
-//! zenith angle, `θ_d` is the angle between h and i, and `φ_d` the azimuth of i about h from t = b × h,
-//! b ∝ n × h: `i = h cos θ_d + (t cos φ_d + b sin φ_d) sin θ_d`.
+//! For the rays i towards the light and r towards the eye, h ∝ i + r is the half vector and `θ_h`
+//! its zenith angle, `θ_d` is the angle between h and i, and `φ_d` the azimuth of i about h from t
+//! = b × h, b ∝ n × h: `i = h cos θ_d + (t cos φ_d + b sin φ_d) sin θ_d`.
 
 use crate::optics::{Degrees, Geometry};
 
@@ -32,8 +32,9 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / length)
 }
 
-/// Directions of light and eye from φ_d, θ_d, θ_h in radians. A ray below the horizon is lifted to the
-/// zenith angle `highest` in degrees, so that values beyond the horizon continue those of the rim.
+/// Directions of light and eye from φ_d, θ_d, θ_h in radians. A ray below the horizon is lifted to
+/// the zenith angle `highest` in degrees, so that values beyond the horizon continue those of the
+/// rim.
 pub(crate) fn geometry_of([phi_d, theta_d, theta_h]: [f64; 3], highest: f64) -> Option<Geometry> {
     let degrees = |radians: f64| Degrees(radians.to_degrees());
     let ((sin_p, cos_p), (sin_d, cos_d), (sin_h, cos_h)) =

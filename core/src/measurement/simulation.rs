@@ -1,7 +1,7 @@
 //! Simulated measurements: the model's values with seeded Gaussian noise.
 //!
-//! The same seed gives the same numbers on every platform: the generator (PCG XSL RR 128/64) is specified to the bit, and
-//! deviates and model use the elementary functions of `libm`.
+//! The same seed gives the same numbers on every platform: the generator (PCG XSL RR 128/64) is
+//! specified to the bit, and deviates and model use the elementary functions of `libm`.
 
 use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{GeometrySet, Parameters, Pbrdf};
@@ -40,13 +40,15 @@ pub struct Simulation {
     pub columns: Columns,
     /// Standard deviation of the noise in DoLP, absolute; the result is clipped to 0…1.
     pub noise: f64,
-    /// Standard deviation of the noise in BRDF, relative to its value; the result is clipped to ≥ 0.
+    /// Standard deviation of the noise in BRDF, relative to its value; the result is clipped to ≥
+    /// 0.
     pub brdf_noise: f64,
     /// Seed of the noise.
     pub seed: u64,
 }
 
-/// Every θr for every θi, in degrees. A negative θr is the backscatter side, allowed only with Δφ = 180.
+/// Every θr for every θi, in degrees. A negative θr is the backscatter side, allowed only with Δφ =
+/// 180.
 ///
 /// # Errors
 /// An angle is outside its range.

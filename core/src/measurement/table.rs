@@ -40,8 +40,8 @@ impl Table {
         Self::scanned(source, false)?.with_header()
     }
 
-    /// Reads a table of another laboratory: where the first row is mostly numbers, all rows are data and
-    /// no column has a name; comments are metadata under the key `comment`.
+    /// Reads a table of another laboratory: where the first row is mostly numbers, all rows are
+    /// data and no column has a name; comments are metadata under the key `comment`.
     ///
     /// # Errors
     /// The source fails, is empty or no text.
@@ -68,7 +68,8 @@ impl Table {
         Ok(table)
     }
 
-    /// Walks the lines once for metadata and the delimiter, and for faults that would mislead a CSV parser.
+    /// Walks the lines once for metadata and the delimiter, and for faults that would mislead a CSV
+    /// parser.
     fn scan(&mut self) -> Result<(), ReadError> {
         let Self { bytes, delimiter, metadata, is_foreign, .. } = self;
         let mut header_seen = false;
@@ -189,8 +190,8 @@ impl Table {
         ColumnPlace { number: index + 1, name: self.header[index].clone() }
     }
 
-    /// Line of a record from 1. The position of the CSV reader is where it began to look: before comments
-    /// and empty lines, or at the line feed that ends the line before.
+    /// Line of a record from 1. The position of the CSV reader is where it began to look: before
+    /// comments and empty lines, or at the line feed that ends the line before.
     fn line_of(&self, record: &csv::ByteRecord) -> u64 {
         let Some(position) = record.position() else { return 1 };
         let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
@@ -202,7 +203,8 @@ impl Table {
     /// Hands every row to `visit` and reports to `progress`.
     ///
     /// # Errors
-    /// A row of another length than the header, no row at all, an error of `visit`, or a stop by `progress`.
+    /// A row of another length than the header, no row at all, an error of `visit`, or a stop by
+    /// `progress`.
     pub fn for_each(&self, progress: Progress<'_>, mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>) -> Result<(), ReadError> {
         let mut reader = self.csv_reader();
         let mut cells = csv::ByteRecord::new();
@@ -248,8 +250,8 @@ fn metadata_of(line: &[u8]) -> Option<(String, String)> {
     (!key.is_empty()).then(|| (key.to_owned(), value.trim().to_owned()))
 }
 
-/// Key and value of a comment line of another laboratory: a line without a key, or whose colon belongs
-/// to a time of day, is a `comment`.
+/// Key and value of a comment line of another laboratory: a line without a key, or whose colon
+/// belongs to a time of day, is a `comment`.
 fn remark_of(line: &[u8]) -> Option<(String, String)> {
     let text = String::from_utf8_lossy(line);
     let text = text.trim_start_matches('#').trim();

@@ -1,8 +1,8 @@
 //! Mueller matrices over half and difference angles, and slices through them.
 //!
-//! M is a BRDF in sr⁻¹; its Stokes bases lie perpendicular and parallel to the plane of incidence of the
-//! facet whose normal is the half vector. There M is the Fresnel matrix of the facet plus the
-//! depolariser, without any rotation.
+//! M is a BRDF in sr⁻¹; its Stokes bases lie perpendicular and parallel to the plane of incidence
+//! of the facet whose normal is the half vector. There M is the Fresnel matrix of the facet plus
+//! the depolariser, without any rotation.
 
 use crate::measurement::{Measurement, Quantity, Row, WavelengthError, choose_wavelength, rusinkiewicz};
 use crate::optics::Geometry;
@@ -49,8 +49,8 @@ pub(crate) fn f32_of(chunk: &[u8]) -> f32 {
     chunk.first_chunk().map_or(f32::NAN, |bytes| f32::from_le_bytes(*bytes))
 }
 
-/// Where a value lies on a grid: the index below it and the weight of the index above it. Beyond an end
-/// of the grid, that end.
+/// Where a value lies on a grid: the index below it and the weight of the index above it. Beyond an
+/// end of the grid, that end.
 fn place(grid: &[f64], value: f64) -> (usize, f64) {
     let above = grid.partition_point(|&node| node <= value);
     if above == 0 {
@@ -74,8 +74,8 @@ impl Tensor {
         &self.axes.wavelengths_nm
     }
 
-    /// Names of the grids whose number of angles the file gives, but no angles. They are taken to be even,
-    /// φ_d from −180° to 180°, the others from 0° to 90°.
+    /// Names of the grids whose number of angles the file gives, but no angles. They are taken to
+    /// be even, φ_d from −180° to 180°, the others from 0° to 90°.
     #[must_use]
     pub fn assumed_grids(&self) -> &[&'static str] {
         &self.axes.assumed_grids
@@ -96,7 +96,8 @@ impl Tensor {
         self.bytes.get(start..start + 4).map_or(f64::NAN, |chunk| f64::from(f32_of(chunk)))
     }
 
-    /// The first column of M in a band, linear in all three angles; NaN where a neighbour has no value.
+    /// The first column of M in a band, linear in all three angles; NaN where a neighbour has no
+    /// value.
     ///
     /// Nodes with a ray below the horizon have M00 = NaN, or 0 in some files.
     #[must_use]
@@ -123,8 +124,8 @@ impl Tensor {
         sums
     }
 
-    /// BRDF and DoLP for unpolarised light at those geometries, in the band nearest to the wavelength asked
-    /// for. Without a wavelength there has to be one band only.
+    /// BRDF and DoLP for unpolarised light at those geometries, in the band nearest to the
+    /// wavelength asked for. Without a wavelength there has to be one band only.
     ///
     /// # Errors
     /// No band is near the wavelength, or there are several and none was chosen.

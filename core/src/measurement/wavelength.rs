@@ -1,4 +1,5 @@
-//! Choice of a wavelength of a file that has several: the nearest to the one asked for, never a guess.
+//! Choice of a wavelength of a file that has several: the nearest to the one asked for, never a
+//! guess.
 
 /// Why no wavelength can be chosen.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -37,8 +38,8 @@ impl std::fmt::Display for Offer<'_> {
 /// How far from the only wavelength of a file the one asked for may be, in nm.
 const REACH_OF_ONE: f64 = 1.0;
 
-/// The wavelength nearest to the one asked for, which may lie beyond the ends by half a step at most.
-/// Without one asked for, the only wavelength there is.
+/// The wavelength nearest to the one asked for, which may lie beyond the ends by half a step at
+/// most. Without one asked for, the only wavelength there is.
 ///
 /// `available` in nm, in any order, repetitions allowed.
 ///

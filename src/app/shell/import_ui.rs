@@ -13,8 +13,8 @@ use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample
 use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
 use tr::tr;
 
-/// Width of the dialog, and heights of its scroll areas: place and size of the dialog don't depend on the
-/// options.
+/// Width of the dialog, and heights of its scroll areas: place and size of the dialog don't depend
+/// on the options.
 const WIDTH: f32 = 640.0;
 const COLUMNS_HEIGHT: f32 = 220.0;
 const ANSWER_HEIGHT: f32 = 176.0;
@@ -110,7 +110,8 @@ fn slices_ui(Slices { theta_i, theta_r }: &mut Slices, options: &mut ImportOptio
         }
         ui.end_row();
         span_ui(theta_i, "θi", 0.0, ui);
-        // A negative angle of view is the backscatter side of the plane of incidence; the field holds to its range.
+        // A negative angle of view is the backscatter side of the plane of incidence; the field
+        // holds to its range.
         let least = if *dphi == 180.0 { -89.9 } else { 0.0 };
         span_ui(theta_r, "θr", least, ui);
         let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));

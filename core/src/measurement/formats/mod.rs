@@ -1,7 +1,8 @@
 //! The forms of files that become measurements, one file a form.
 //!
-//! A new form is one file with a [`Format`] and one line in [`FORMATS`]. What a form has to be told is a
-//! [`Question`], what it has to say an [`ImportNote`]; the command line and the window know these alone.
+//! A new form is one file with a [`Format`] and one line in [`FORMATS`]. What a form has to be told
+//! is a [`Question`], what it has to say an [`ImportNote`]; the command line and the window know
+//! these alone.
 
 mod error;
 mod format;

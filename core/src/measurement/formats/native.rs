@@ -19,14 +19,16 @@ use std::io::{self, Read, Write};
 /// Names of the columns.
 const COLUMNS: [&str; 9] = ["theta_i", "theta_r", "dphi", "dolp", "dolp_percent", "dolp_sigma", "brdf", "brdf_sigma", "masked"];
 
-/// Name, whether any row has it, whether any row has its standard deviation, and where it stands in a row.
+/// Name, whether any row has it, whether any row has its standard deviation, and where it stands in
+/// a row.
 type Block = (&'static str, bool, bool, fn(&Row) -> Option<Quantity>);
 
 impl Measurement {
     /// Reads a measurement in this project's own form.
     ///
-    /// `theta_i`, `theta_r` and at least one of `dolp`, `dolp_percent` and `brdf` are needed; `dphi`,
-    /// `dolp_sigma`, `brdf_sigma` and `masked` may be there. Angles are degrees, BRDF is sr⁻¹.
+    /// `theta_i`, `theta_r` and at least one of `dolp`, `dolp_percent` and `brdf` are needed;
+    /// `dphi`, `dolp_sigma`, `brdf_sigma` and `masked` may be there. Angles are degrees, BRDF is
+    /// sr⁻¹.
     ///
     /// ```
     /// use pbrdf::measurement::Measurement;
@@ -109,8 +111,8 @@ pub fn exact(number: f64) -> String {
     format!("{:.16e}", number + 0.0)
 }
 
-/// Copies a table that [`Measurement::read`] accepts, with further cells at the end of its header and of
-/// each row.
+/// Copies a table that [`Measurement::read`] accepts, with further cells at the end of its header
+/// and of each row.
 ///
 /// `cells` has as many rows as the table. The bytes of the table stay, comments included.
 ///

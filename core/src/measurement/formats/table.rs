@@ -23,8 +23,8 @@ impl ForeignTable {
     /// A table that is none of this project's own for that reason.
     ///
     /// # Errors
-    /// The reason itself, where the table has no two columns of numbers, or has this project's own names
-    /// alone and no quantity among them; or the beginning cannot be read.
+    /// The reason itself, where the table has no two columns of numbers, or has this project's own
+    /// names alone and no quantity among them; or the beginning cannot be read.
     pub(crate) fn new(bytes: Vec<u8>, reason: ReadError) -> Result<Self, ReadError> {
         let table = Table::foreign(head(&bytes))?;
         let header = table.header().to_vec();
@@ -84,11 +84,12 @@ fn head(bytes: &[u8]) -> &[u8] {
 }
 
 impl Mapping {
-    /// Reads a table whose columns the mapping names. The other columns are ignored and named. The table
-    /// may be without a header.
+    /// Reads a table whose columns the mapping names. The other columns are ignored and named. The
+    /// table may be without a header.
     ///
     /// # Errors
-    /// The mapping does not fit the header; else the first fault of the file, or a stop by `progress`.
+    /// The mapping does not fit the header; else the first fault of the file, or a stop by
+    /// `progress`.
     pub fn read_table(&self, source: impl Read, progress: Progress<'_>) -> Result<Measurement, ReadError> {
         let table = Table::foreign(source)?;
         let rows = RowReader::mapped(&table, self)?;

@@ -18,8 +18,8 @@ pub(super) struct TextLine<'a> {
     pub(super) text: &'a str,
 }
 
-/// Hands every line that is not empty to `visit` and reports to `progress`. Bytes that are no UTF-8 become
-/// U+FFFD: names of samples may have any encoding.
+/// Hands every line that is not empty to `visit` and reports to `progress`. Bytes that are no UTF-8
+/// become U+FFFD: names of samples may have any encoding.
 ///
 /// # Errors
 /// The text is UTF-16 or has a NUL byte, an error of `visit`, or a stop by `progress`.

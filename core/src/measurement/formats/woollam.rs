@@ -1,7 +1,8 @@
 //! Woollam's ellipsometry text (WVASE, its short form, CompleteEASE).
 //!
-//! Head: sample, `VASEmethod[…]`, `Original[…]`, then the unit of the wavelength on a line of its own; or,
-//! in the short form, the line `nm aoi Psi Delta` alone. Rows, split by tabs or blanks, angles in degrees:
+//! Head: sample, `VASEmethod[…]`, `Original[…]`, then the unit of the wavelength on a line of its
+//! own; or, in the short form, the line `nm aoi Psi Delta` alone. Rows, split by tabs or blanks,
+//! angles in degrees:
 //!
 //! - `wavelength aoi psi delta [sigma_psi sigma_delta]`, in CompleteEASE with `E` before them
 //! - `dpolE wavelength aoi percent [sigma]`: depolarisation, kept but not applied

@@ -89,8 +89,8 @@ impl TensorField {
         if self.kind == expected.code() { Ok(()) } else { Err(self.error(TensorErrorKind::Type { found: self.kind, expected })) }
     }
 
-    /// Where the data of the field lie, by numbers of that many bytes. Lengths and offset are checked
-    /// against the file.
+    /// Where the data of the field lie, by numbers of that many bytes. Lengths and offset are
+    /// checked against the file.
     fn range(&self, size: u64, all: &[u8]) -> Result<std::ops::Range<usize>, TensorError> {
         let length = self.shape.iter().try_fold(size, |product, &length| product.checked_mul(length)).unwrap_or(u64::MAX);
         let found = (all.len() as u64).saturating_sub(self.offset);
@@ -164,7 +164,8 @@ fn grid_of(
         return Err(field.shape_error(TensorShape::Angles));
     };
     if rows == 0 {
-        // No angles stand behind the number: the file has to be long enough for an M of that length.
+        // No angles stand behind the number: the file has to be long enough for an M of that
+        // length.
         let most = all.len() as u64 / 64;
         if count > most {
             return Err(field.error(TensorErrorKind::TooMany { what: TensorCount::Angles, found: count, most }));

@@ -1,10 +1,10 @@
 //! Writes a surface as a tensor file that Mitsuba 3 renders.
 //!
-//! φ_d spans all of −180° to 180°, since the volume lobe depends on θr alone and so distinguishes light
-//! and eye. θ_h is dense around 0, where the specular lobe is: the plugin takes nodes at any distance.
-//! Nodes with a ray below the horizon continue the values of the rim; the data base has NaN there, which
-//! would darken every cell that the horizon cuts. One band: the plugin takes it for every wavelength. In
-//! the plugin S3 has the opposite sign.
+//! φ_d spans all of −180° to 180°, since the volume lobe depends on θr alone and so distinguishes
+//! light and eye. θ_h is dense around 0, where the specular lobe is: the plugin takes nodes at any
+//! distance. Nodes with a ray below the horizon continue the values of the rim; the data base has
+//! NaN there, which would darken every cell that the horizon cuts. One band: the plugin takes it
+//! for every wavelength. In the plugin S3 has the opposite sign.
 
 use super::error::TensorType;
 use super::read::MAGIC;
@@ -75,8 +75,8 @@ fn stretched(share: f64, stretch: f64) -> f64 {
     if stretch > 0.0 { libm::sinh(stretch * share) / libm::sinh(stretch) } else { share }
 }
 
-/// The κ that makes the first step that wide, in radians; 0 where even steps are narrower. At most 20, so
-/// that all nodes differ in f32.
+/// The κ that makes the first step that wide, in radians; 0 where even steps are narrower. At most
+/// 20, so that all nodes differ in f32.
 fn stretch_for(first: f64, count: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "grids have few angles")]
     let share = 1.0 / (count.max(2) - 1) as f64;
@@ -136,7 +136,8 @@ fn matrix(surface: &Pbrdf, angles: [f64; 3]) -> Mueller {
     }
 }
 
-/// An element as the format holds it: limited to the range of f32; row and column 3 (S3) change sign.
+/// An element as the format holds it: limited to the range of f32; row and column 3 (S3) change
+/// sign.
 fn f32_of(value: f64, element: usize) -> f32 {
     let flips = (element / 4 == 3) != (element % 4 == 3);
     let largest = f64::from(f32::MAX);
