@@ -8,6 +8,8 @@ use pbrdf::optics::SlopeDistribution;
 
 const WOOLLAM: &str =
     "sample\nVASEmethod[x]\nnm\n600\t55\t43\t150\n640\t55\t43\t150\n640\t65\t42\t140\nuR\t640\t55\t1\t1\ndpolE\t640\t55\t1.5\n";
+/// Made from known values: θi = 40°, 21 angles of view on either side.
+const PGII: &[u8] = include_bytes!("data/formats/pgii.txt");
 const TABLE: &str = "AOI,View (rad),DoLP %\n30,0.3,12.5\n40,-0.2,1\n";
 
 fn tensor() -> Vec<u8> {
@@ -23,6 +25,7 @@ fn a_form_is_recognised_by_its_content_alone() {
     for (bytes, name) in [
         (WOOLLAM.as_bytes().to_vec(), Some("Woollam ellipsometry text")),
         (tensor(), Some("a tensor file (.pbsdf)")),
+        (PGII.to_vec(), Some("pab pgII text")),
         (TABLE.as_bytes().to_vec(), None),
         (b"theta_i,theta_r,dolp\n30,20,0.1\n".to_vec(), None),
         (Vec::new(), None),
@@ -66,6 +69,19 @@ fn a_file_asks_its_questions_and_the_offered_answers_import_it() {
     let imported = file.import(&options, &mut unwatched).expect("the guess fits");
     assert_eq!(imported, file.preview(&options).expect("the guess fits"));
     assert_eq!((imported.measurement.rows.len(), file.preview_is_whole()), (2, true));
+}
+
+#[test]
+fn a_scan_of_a_gonio_photometer_becomes_brdf_on_both_sides() {
+    let Opened::Foreign(file) = open(PGII.to_vec(), &mut unwatched).expect("a good file") else { panic!("a foreign file") };
+    let measurement = file.import(&ImportOptions::default(), &mut unwatched).expect("it asks nothing").measurement;
+    assert_eq!((measurement.rows.len(), measurement.incidence_angles()), (42, vec![40.0]));
+    assert_eq!((measurement.metadata("wavelength_nm"), measurement.has_dolp()), (Some("650"), false));
+    let brdf = |theta_r: f64| {
+        let row = measurement.rows.iter().find(|row| row.geometry.signed_theta_r().0 == theta_r).expect("the angle is there");
+        row.brdf.expect("a BRDF").value
+    };
+    assert_eq!((brdf(80.0), brdf(-80.0)), (0.6929483, 0.09232988));
 }
 
 #[test]

@@ -14,6 +14,7 @@
 mod damage;
 
 use damage::{fuzz, texts};
+use pbrdf::measurement::formats::{ImportOptions, Opened, open};
 use pbrdf::measurement::{
     Ellipsometry, Mapping, Measurement, Table, Tensor, TensorGrid, TensorResolution, grid_geometries, is_woollam, unwatched, write_tensor,
 };
@@ -95,6 +96,24 @@ fn tensors() {
             if !slice.measurement.rows.is_empty() {
                 assert_reads_back(&slice.measurement);
             }
+        }
+        true
+    });
+}
+
+/// Files whose form is told by their content.
+#[test]
+fn opened_files() {
+    let samples = [
+        "nm\taoi\tPsi\tDelta\n400\t65\t27.8\t109.7\n410\t65\t27.9\t109.5\n",
+        "AOI,View,DoLP %\n30,20,12.5\n40,-20,1\n",
+        "#sample \"C\"\n#wavelength 650 nm\n#incident_angle 40 180\n#format: theta phi DSF\n20.00\t0.00\t2.9e-01\n20 180 nan\n120 0 1\n",
+        "#intheta 150\n#inphi 0\n#theta phi BRDF\n160 0 1\n170 90 -1\n",
+    ];
+    fuzz("opened", &texts(&samples), |bytes| {
+        let Ok(Opened::Foreign(file)) = open(bytes.to_vec(), &mut unwatched) else { return false };
+        if let Ok(imported) = file.import(&ImportOptions::offered(&file.questions()), &mut unwatched) {
+            assert_reads_back(&imported.measurement);
         }
         true
     });

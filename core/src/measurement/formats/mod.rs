@@ -9,6 +9,7 @@ mod format;
 mod native;
 mod note;
 mod pbsdf;
+mod pgii;
 mod question;
 mod recognition;
 mod table;

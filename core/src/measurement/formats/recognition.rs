@@ -3,12 +3,13 @@
 use super::error::ImportError;
 use super::format::{ForeignFile, Format};
 use super::pbsdf::Pbsdf;
+use super::pgii::PabPgii;
 use super::table::ForeignTable;
 use super::woollam::Woollam;
 use crate::measurement::{Measurement, Progress};
 
 /// The forms that are recognised by content, in the order in which they are tried.
-pub static FORMATS: &[&dyn Format] = &[&Woollam, &Pbsdf];
+pub static FORMATS: &[&dyn Format] = &[&Woollam, &Pbsdf, &PabPgii];
 
 /// Usual endings of the names of files of this project and of tables.
 const TABLE_EXTENSIONS: [&str; 3] = ["csv", "tsv", "txt"];
