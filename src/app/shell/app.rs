@@ -299,7 +299,7 @@ impl App {
     pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
         match command {
             Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
-                request_for(self, &command).map_or(Ok(()), |request| self.jobs.files.ask(request))?;
+                request_for(&self.work.document, &command).map_or(Ok(()), |request| self.jobs.files.ask(request))?;
             }
             Command::OpenMeasurement(path) if export::ExportKind::Session.check(&path).is_ok() => {
                 self.jobs.files.open_session(path)?;

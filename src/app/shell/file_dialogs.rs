@@ -1,19 +1,19 @@
 //! File dialogs: what a command asks for, and what follows from the answer.
 
-use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::file_request::FileRequest;
+use crate::app::work::document::Document;
 use std::path::PathBuf;
 use tr::tr;
 
 /// What a command asks the user for.
-pub fn request_for(app: &App, command: &Command) -> Option<FileRequest> {
+pub fn request_for(document: &Document, command: &Command) -> Option<FileRequest> {
     match command {
         Command::ChooseMeasurement => Some(FileRequest::Open),
         Command::ChooseSession => Some(FileRequest::OpenSession),
-        Command::ChooseSave => Some(FileRequest::Save(app.work.document.file_name())),
-        Command::ChooseExport(kind) => Some(FileRequest::Export(*kind, kind.file_name(app))),
+        Command::ChooseSave => Some(FileRequest::Save(document.file_name())),
+        Command::ChooseExport(kind) => Some(FileRequest::Export(*kind, kind.file_name(document))),
         _ => None,
     }
 }

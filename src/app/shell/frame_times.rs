@@ -1,9 +1,9 @@
-//! How long frames take, eframe's `cpu_usage` (drawing and logic, without the swap of buffers), and how far the maps on screen are behind
-//! the sliders, over the last five seconds.
+//! Frame times, as eframe's `cpu_usage` measures them (logic and drawing without the swap of buffers), and how many frames the maps on
+//! screen are behind the sliders, over the last five seconds.
 //!
-//! The status line tells them, and the program on its way out, where *Frame times* is on in the *View* menu. To measure the window
-//! rather than a software rasteriser, whose share `cpu_usage` includes: start it under Xvfb with Mesa's `GALLIUM_NOOP=1`, which draws
-//! nothing, hold a slider down, move it for more than five seconds (`xdotool mousemove`), and leave with Ctrl+Q.
+//! With *View › Frame times* the status line shows them, and the program prints them when it ends. Mesa's `GALLIUM_NOOP=1` under Xvfb
+//! leaves out the share of a software rasteriser: hold a slider, move it for more than five seconds (`xdotool mousemove`), leave with
+//! Ctrl+Q.
 
 use crate::app::platform::Instant;
 use std::collections::VecDeque;
@@ -21,14 +21,14 @@ struct Frame {
     at: Instant,
     /// Seconds.
     cpu_usage: f32,
-    /// How many frames ago the sliders stood where the oldest map on screen was made.
+    /// Age of the oldest map on screen, in frames.
     frames_behind: u64,
 }
 
 const WINDOW: Duration = Duration::from_secs(5);
 
 impl FrameTimes {
-    /// Takes down one frame, in seconds.
+    /// Adds a frame; `cpu_usage` in seconds.
     pub fn push(&mut self, cpu_usage: f32, frames_behind: u64) {
         self.frames.push_back(Frame { at: Instant::now(), cpu_usage, frames_behind });
         while self.frames.front().is_some_and(|frame| frame.at.elapsed() > WINDOW) {
@@ -36,7 +36,7 @@ impl FrameTimes {
         }
     }
 
-    /// Median, 99th percentile and number; and how far behind maps were.
+    /// Median and 99th percentile of the times, their number, and the delay of maps.
     pub fn text(&self) -> String {
         let mut times: Vec<f32> = self.frames.iter().map(|frame| 1e3 * frame.cpu_usage).collect();
         times.sort_by(f32::total_cmp);

@@ -60,8 +60,8 @@ impl ExportKind {
     }
 
     /// A name to begin with.
-    pub fn file_name(self, explorer: &App) -> String {
-        let name = explorer.work.document.file_name();
+    pub fn file_name(self, document: &Document) -> String {
+        let name = document.file_name();
         let stem = name.trim_end_matches(".csv");
         let what = match self {
             Self::Plot(pane) => format!("-{}", pane.key()),
