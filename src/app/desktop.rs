@@ -2,13 +2,12 @@
 
 use crate::app::platform;
 use crate::app::shell::app::App;
+use crate::app::shell::help::TITLE;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;
-
-const TITLE: &str = "pBRDF explorer";
 
 /// Opens the window with a measurement in it and returns when the user closes it.
 ///

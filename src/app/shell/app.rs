@@ -24,7 +24,7 @@ use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::path_entry::{OverwritePrompt, PathEntry};
 use crate::app::shell::status_bar::{notices_ui, status_ui};
 use crate::app::shell::theme;
-use crate::app::shell::toasts::Notices;
+use crate::app::shell::toasts::Toasts;
 use crate::app::storage::autosave::AutosaveKey;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::{export, settings_file};
@@ -67,7 +67,7 @@ pub struct App {
     pub reports: Benchmarks,
     /// Whether the panel shows what the data would determine.
     pub show_predicted_errors: bool,
-    pub notices: Notices,
+    pub notices: Toasts,
     pub views: Views,
     pub panes: Dock,
     pub palette: Palette,
@@ -122,7 +122,7 @@ impl App {
             jobs: Jobs::new(spawner),
             reports: Benchmarks::default(),
             show_predicted_errors: false,
-            notices: Notices::default(),
+            notices: Toasts::default(),
             views: Views::default(),
             palette: Palette::default(),
             help: None,
@@ -164,7 +164,7 @@ impl App {
 
     /// Shows a sentence over the plots until it is dismissed.
     pub fn say(&mut self, sentence: String) {
-        self.notices.say(sentence);
+        self.notices.error(sentence);
     }
 
     /// Puts a measurement in the place of the one that is open.

@@ -60,6 +60,9 @@ pub const WORDS: [(&str, &str); 13] = [
     ("landscape", "ΔE, or whatever else is minimised, over two parameters: a fit looks for its lowest place."),
 ];
 
+/// Name of the program in the title of its window.
+pub const TITLE: &str = "pBRDF explorer";
+
 /// The paper of the model, and where it is found.
 pub const PAPER: &str = "F. Wang et al., Polarization bidirectional reflection distribution function of metal surfaces based on diffuse reflection optimization, Acta Optica Sinica 41(11), 1129002 (2021)";
 pub const DOI: &str = "10.3788/AOS202141.1129002";

@@ -1,9 +1,8 @@
 //! The pages of help, each in a dialog.
 
-use crate::app::TITLE;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::help::{DOI, FIRST_STEPS, Help, PAPER, WORDS};
+use crate::app::shell::help::{DOI, FIRST_STEPS, Help, PAPER, TITLE, WORDS};
 use crate::app::text::i18n::translated;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 use std::path::Path;

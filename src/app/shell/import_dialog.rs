@@ -82,7 +82,7 @@ impl App {
     /// Replaces the open measurement by one that was read.
     pub(crate) fn loaded(&mut self, origin: Origin, imported: Imported) {
         let Origin { name, path, sha256 } = origin;
-        self.notices.reading_succeeded();
+        self.notices.dismiss_load_errors();
         // A file is the user's own work, and takes the place of what was set aside.
         if path.is_some() && self.lessons.open.is_some() {
             self.close_lesson();

@@ -4,7 +4,7 @@ use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::toasts::Notices;
+use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
 use crate::app::text::messages::Localized as _;
 use crate::app::work::workspace::Workspace;
@@ -54,7 +54,7 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
 pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
     let App { notices, commands, derived, .. } = explorer;
     let now = ui.input(|input| input.time);
-    if let Some(seconds) = notices.rest(now) {
+    if let Some(seconds) = notices.expire(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
     }
     let fault = derived.fault().map(|fault| tr!("There is no curve: {}.", fault.localized()));
@@ -87,7 +87,7 @@ pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
 }
 
 /// The sentences, and the button that sends them away.
-fn sentences_ui(notices: &Notices, commands: &mut Vec<Command>, ui: &mut egui::Ui) {
+fn sentences_ui(notices: &Toasts, commands: &mut Vec<Command>, ui: &mut egui::Ui) {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
         if ui.button(tr!("Dismiss")).on_hover_text(tr!("Also with Escape")).clicked() {
             commands.push(Command::DismissNotices);

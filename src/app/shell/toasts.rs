@@ -1,60 +1,60 @@
-//! Sentences to the user: one about a success goes by itself, one about a file that cannot be read goes when another one is, every other
-//! one stays until it is dismissed.
+//! Sentences to the user. A success disappears by itself, an error about a file when another file opens, any other error when the user
+//! dismisses it.
 
 use egui::Color32;
 
-/// What the window has to say at the moment, the oldest first.
+/// The sentences on screen, the oldest first.
 #[derive(Debug, Default)]
-pub struct Notices {
-    all: Vec<Notice>,
+pub struct Toasts {
+    all: Vec<Toast>,
 }
 
 /// A sentence.
 #[derive(Debug)]
-pub struct Notice {
+pub struct Toast {
     pub text: String,
-    /// Whether it goes by itself.
+    /// Whether it disappears by itself.
     pub transient: bool,
-    /// Whether it tells why a file cannot be read.
-    is_of_reading: bool,
-    /// When it goes, in seconds of the window's clock; not known before it was shown.
-    until: Option<f64>,
+    /// Whether it says why a file cannot be read.
+    is_load_error: bool,
+    /// When it disappears, in seconds of egui's clock; `None` before the first frame that shows it.
+    expires_at: Option<f64>,
 }
 
-/// How long a brief sentence stays, in seconds.
-const BRIEF: f64 = 6.0;
-/// More than these nobody reads: the oldest go.
-const MOST: usize = 12;
+/// Seconds for which a transient sentence stays.
+const TRANSIENT_SECONDS: f64 = 6.0;
+/// Sentences on screen at most; the oldest make room.
+const CAPACITY: usize = 12;
 
-impl Notices {
-    /// A sentence that stays until it is dismissed.
-    pub fn say(&mut self, text: String) {
-        self.push(Notice { text, transient: false, is_of_reading: false, until: None });
+impl Toasts {
+    /// Shows a sentence until the user dismisses it.
+    pub fn error(&mut self, text: String) {
+        self.push(Toast { text, transient: false, is_load_error: false, expires_at: None });
     }
 
-    /// Why a file cannot be read: stays until another one is, or until it is dismissed.
+    /// Shows why a file cannot be read, until another file opens or the user dismisses it.
     pub fn load_error(&mut self, text: String) {
-        self.push(Notice { text, transient: false, is_of_reading: true, until: None });
+        self.push(Toast { text, transient: false, is_load_error: true, expires_at: None });
     }
 
-    /// A file was read: what was said of those before is past.
-    pub fn reading_succeeded(&mut self) {
-        self.all.retain(|notice| !notice.is_of_reading);
+    /// Dismisses what is said about files before, since a file has opened.
+    pub fn dismiss_load_errors(&mut self) {
+        self.all.retain(|toast| !toast.is_load_error);
     }
 
-    /// A sentence that goes by itself.
+    /// Shows a sentence that disappears by itself.
     pub fn info(&mut self, text: String) {
-        self.push(Notice { text, transient: true, is_of_reading: false, until: None });
+        self.push(Toast { text, transient: true, is_load_error: false, expires_at: None });
     }
 
-    fn push(&mut self, notice: Notice) {
-        self.all.retain(|other| other.text != notice.text);
-        self.all.push(notice);
-        let surplus = self.all.len().saturating_sub(MOST);
+    fn push(&mut self, toast: Toast) {
+        self.all.retain(|other| other.text != toast.text);
+        self.all.push(toast);
+        let surplus = self.all.len().saturating_sub(CAPACITY);
         self.all.drain(..surplus);
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Notice> {
+    pub fn iter(&self) -> impl Iterator<Item = &Toast> {
         self.all.iter()
     }
 
@@ -66,23 +66,23 @@ impl Notices {
         self.all.clear();
     }
 
-    /// Lets go what was shown long enough; how many seconds the next one stays, if one goes by itself.
-    pub fn rest(&mut self, now: f64) -> Option<f64> {
-        for notice in self.all.iter_mut().filter(|notice| notice.transient) {
-            notice.until.get_or_insert(now + BRIEF);
+    /// Removes expired sentences at that time; returns the seconds until the next one expires.
+    pub fn expire(&mut self, now: f64) -> Option<f64> {
+        for toast in self.all.iter_mut().filter(|toast| toast.transient) {
+            toast.expires_at.get_or_insert(now + TRANSIENT_SECONDS);
         }
-        self.all.retain(|notice| notice.until.is_none_or(|until| now < until));
-        self.all.iter().filter_map(|notice| notice.until).map(|until| until - now).reduce(f64::min)
+        self.all.retain(|toast| toast.expires_at.is_none_or(|expires_at| now < expires_at));
+        self.all.iter().filter_map(|toast| toast.expires_at).map(|expires_at| expires_at - now).reduce(f64::min)
     }
 
     /// All of them, line by line.
     #[cfg(test)]
     pub fn text(&self) -> Option<String> {
-        let lines: Vec<&str> = self.iter().map(|notice| notice.text.as_str()).collect();
+        let lines: Vec<&str> = self.iter().map(|toast| toast.text.as_str()).collect();
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// The same, and away with them.
+    /// The same; dismisses them all.
     #[cfg(test)]
     pub fn take(&mut self) -> Option<String> {
         let text = self.text();
@@ -91,7 +91,7 @@ impl Notices {
     }
 }
 
-impl Notice {
+impl Toast {
     pub fn color(&self, visuals: &egui::Visuals) -> Color32 {
         if self.transient { visuals.text_color() } else { crate::app::plots::theme::warning(visuals.dark_mode) }
     }

@@ -105,7 +105,7 @@ impl App {
         let is_working = self.working_file.as_deref() == Some(path);
         match result {
             Ok(opened) => {
-                self.notices.reading_succeeded();
+                self.notices.dismiss_load_errors();
                 self.typed.served(path);
                 let left_out: Vec<String> = opened.session.left_out.iter().map(phrase).collect();
                 self.show_session(*opened);
