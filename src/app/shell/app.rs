@@ -35,14 +35,14 @@ use crate::app::text::messages::Localized as _;
 use crate::app::views::derived::Derived;
 use crate::app::views::{Cx, Views};
 use crate::app::work::document::{Document, EXAMPLES};
+use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{free, problem, reason};
 use crate::app::work::layout::Layout;
-use crate::app::work::model_fit::ModelFit;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
-use crate::app::work::workspace::{Setup, Workspace};
+use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
 use pbrdf::fit::{FitOptions, FitResult, Problem};
 use pbrdf::measurement::Measurement;
@@ -92,7 +92,6 @@ pub struct App {
     pub(crate) unsaved_since: Option<Instant>,
     pub commands: Vec<Command>,
     pub frame_times: FrameTimes,
-    generation: u64,
     saved: SettingsFile,
     changed_at: Option<Instant>,
 }
@@ -137,7 +136,6 @@ impl App {
             unsaved_since: None,
             commands: Vec::new(),
             frame_times: FrameTimes::default(),
-            generation: 0,
             changed_at: None,
         }
     }
@@ -167,22 +165,20 @@ impl App {
         self.notices.error(sentence);
     }
 
-    /// Puts a measurement in the place of the one that is open.
+    /// Puts a measurement in the place of the active one.
     pub fn take(&mut self, name: String, measurement: Measurement) {
-        self.generation += 1;
+        self.open(Document::new(name, measurement));
+    }
+
+    /// Puts a measurement in the place of the active one.
+    pub(crate) fn open(&mut self, document: Document) {
         self.import = None;
-        if !measurement.ignored_columns.is_empty() {
-            let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
-            self.say(format!("{name}: {note}."));
+        if !document.measurement.ignored_columns.is_empty() {
+            let note = ImportNote::IgnoredColumns { names: document.measurement.ignored_columns.clone() };
+            self.say(format!("{}: {note}.", document.name));
         }
-        self.work.document = Document::new(name, measurement, self.generation);
-        self.work.settings.suit(&self.work.document);
-        self.work.shown_fit = None;
-        self.work.diagnostics.forget();
-        self.work.model_comparison.clear();
+        self.work.apply(Edit::Open(Box::new(document)));
         self.views = Views::default();
-        // What is set because of the new measurement is no step of its own.
-        self.work.undo.replace(self.work.setup());
         self.jobs.fits.abandon();
     }
 
@@ -203,7 +199,7 @@ impl App {
         self.dragging = ctx.input(|input| input.pointer.any_down());
         self.refit_if_moved();
         if !self.dragging && !self.jobs.fits.refit.is_running() {
-            self.work.undo.rest(self.work.setup());
+            self.work.record_step();
         }
         self.refresh();
         self.remember_window(ctx);
@@ -292,7 +288,7 @@ impl App {
             (preset, problem)
         });
         let problems = problems.collect();
-        self.work.model_comparison.clear();
+        self.work.apply(Edit::SetModelComparison(Vec::new()));
         self.jobs.fits.compare(problems, self.work.settings.starts, self.work.settings.seed)
     }
 
@@ -312,10 +308,7 @@ impl App {
             Command::CopyTable => self.copy_table(ctx),
             Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
             Command::SaveMeasurement(path) => self.jobs.files.save(path, self.work.document.measurement.clone())?,
-            Command::Mask { rows, masked } => {
-                self.work.document.set_masked(&rows, masked);
-                self.work.last_refit_at = None;
-            }
+            Command::Mask { rows, masked } => self.work.apply(Edit::Mask { rows, masked }),
             Command::OpenExample(index) => self.open_example(index)?,
             Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
             Command::CloseLesson => self.end_lesson()?,
@@ -325,31 +318,26 @@ impl App {
             Command::CancelLoading => self.jobs.files.cancel_load(),
             Command::StartFit => self.start_fit()?,
             Command::CancelFit => self.jobs.fits.fit.cancel(),
-            Command::UseFit => self.use_fit(),
-            Command::Back => {
-                self.work.settings.parameters = self.work.shown_fit.as_ref().map_or(self.work.settings.parameters, |fit| fit.before)
-            }
+            Command::UseFit => self.work.apply(Edit::UseFit),
+            Command::Back => self.work.apply(Edit::UseValuesBeforeFit),
             Command::DismissNotices => self.notices.clear(),
-            Command::Undo => {
-                let step = self.work.undo.undo();
-                self.go_to(step);
-            }
-            Command::Redo => {
-                let step = self.work.undo.redo();
-                self.go_to(step);
-            }
+            Command::Undo => self.work.apply(Edit::Undo),
+            Command::Redo => self.work.apply(Edit::Redo),
             Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.work.settings.parameters)),
             Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
-            Command::PasteParameters(text) => self.work.settings.parameters = parameter_text::read(&text, self.work.settings.parameters)?,
+            Command::PasteParameters(text) => {
+                let parameters = parameter_text::read(&text, self.work.settings.parameters)?;
+                self.work.apply(Edit::SetParameters(parameters));
+            }
             Command::SetParameters(values) => self.set_parameters(values),
             Command::UseFinish(index) => self.use_finish(index),
-            Command::ResetParameters => self.work.settings.parameters = Parameters::default(),
+            Command::ResetParameters => self.work.apply(Edit::SetParameters(Parameters::default())),
             Command::UseModel(key) => self.use_model(key),
             Command::ReturnTo(index) => self.return_to(index),
             Command::Profile(parameter) => self.start_profile(parameter)?,
             Command::Bootstrap => self.start_bootstrap()?,
             Command::CancelScan => self.jobs.fits.cancel_scan(),
-            Command::UseRung(index) => self.use_rung(index),
+            Command::UseRung(index) => self.work.apply(Edit::UseModelFit(index)),
             Command::CompareModels => {
                 self.panes.show(PaneId::Models);
                 self.compare_models()?;
@@ -393,26 +381,20 @@ impl App {
     }
 
     fn set_parameters(&mut self, values: Vec<(Parameter, f64)>) {
-        values.into_iter().for_each(|(parameter, value)| self.work.settings.parameters[parameter] = value);
+        values.into_iter().for_each(|(parameter, value)| self.work.apply(Edit::SetParameter(parameter, value)));
     }
 
     fn use_finish(&mut self, index: usize) {
-        let parameters = self.work.settings.parameters;
-        self.work.settings.parameters = FINISHES.get(index).map_or(parameters, |finish| finish.on(parameters));
-    }
-
-    /// The values of the last fit, and the model that they belong to.
-    fn use_fit(&mut self) {
-        if let Some(fit) = &self.work.shown_fit {
-            self.work.settings.parameters = fit.report.parameters;
-            self.work.settings.model = fit.report.model;
+        if let Some(finish) = FINISHES.get(index) {
+            self.work.apply(Edit::SetParameters(finish.on(self.work.settings.parameters)));
         }
     }
 
     fn use_model(&mut self, key: &str) {
-        let preset = PRESETS.iter().find(|preset| preset.key == key);
-        let current = self.work.settings.model;
-        self.work.settings.model = preset.map_or(current, |preset| preset.model.with_dolp_formula(current.dolp_formula));
+        if let Some(preset) = PRESETS.iter().find(|preset| preset.key == key) {
+            let formula = self.work.settings.model.dolp_formula;
+            self.work.apply(Edit::SetModel(preset.model.with_dolp_formula(formula)));
+        }
     }
 
     /// The table of the pane Data to the clipboard.
@@ -421,20 +403,8 @@ impl App {
         self.notices.info(tr!("{} rows are copied; paste them into a spreadsheet.", self.work.document.measurement.rows.len()));
     }
 
-    /// Everything the user sets as a step of undo has it.
-    fn go_to(&mut self, step: Option<Setup>) {
-        let Some(Setup { settings, mask, number }) = step else { return };
-        self.work.settings = settings;
-        self.work.last_refit_at = Some(self.work.settings.parameters);
-        // The rows of another measurement are other rows.
-        if number == self.work.document.number {
-            self.work.document.restore_mask(&mask);
-        }
-        self.work.undo.replace(self.work.setup());
-    }
-
     fn start_bootstrap(&mut self) -> Result<(), String> {
-        self.work.diagnostics.scatter = None;
+        self.work.apply(Edit::SetBootstrap(None));
         match self.shown_fit() {
             Some((problem, report)) => self.jobs.fits.bootstrap(problem, report, self.work.diagnostics.replicates, self.work.settings.seed),
             None => Ok(()),
@@ -442,7 +412,7 @@ impl App {
     }
 
     fn start_profile(&mut self, parameter: Parameter) -> Result<(), String> {
-        self.work.diagnostics.profile = None;
+        self.work.apply(Edit::SetProfile(None));
         match self.shown_fit() {
             Some((problem, report)) => self.jobs.fits.profile(problem, report, parameter),
             None => Ok(()),
@@ -456,28 +426,8 @@ impl App {
 
     /// Sliders, model and results as an earlier fit left them.
     fn return_to(&mut self, index: usize) {
-        if let Some(fit) = self.work.fit_history.get(index) {
-            self.work.settings.parameters = fit.report.parameters;
-            self.work.settings.model = fit.report.model;
-            self.work.last_refit_at = Some(fit.report.parameters);
-            self.show_fit(Some(fit).filter(|fit| fit.number == self.work.document.number));
-        }
-    }
-
-    /// Shows a fit; scans around another one end.
-    pub(crate) fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
-        self.work.shown_fit = fit;
-        self.work.diagnostics.forget();
+        self.work.apply(Edit::ReturnToFit(index));
         self.jobs.fits.abandon_scan();
-    }
-
-    /// Sliders and terms of a model that was compared.
-    fn use_rung(&mut self, index: usize) {
-        if let Some(ModelFit { result: Ok(report), .. }) = self.work.model_comparison.get(index) {
-            self.work.settings.parameters = report.parameters;
-            self.work.settings.model = report.model;
-            self.work.last_refit_at = Some(report.parameters);
-        }
     }
 
     /// Sliders, terms and angles of a case of the stability gallery; of a fit, its data as well.
@@ -486,20 +436,15 @@ impl App {
         let (case, setting) = (row.case.clone(), row.setting.clone());
         match setting {
             Setting::Evaluation { model, parameters, geometry } => {
-                self.work.settings.model = model;
-                self.work.settings.parameters = parameters;
-                self.work.settings.theta_i = geometry.theta_i().0;
-                self.work.settings.dphi = geometry.dphi().0;
+                self.work.apply(Edit::TakeValues { parameters, model });
+                self.work.apply(Edit::SetDirection { theta_i: geometry.theta_i().0, dphi: geometry.dphi().0 });
             }
             Setting::Fit { model, start, measurement } => {
-                self.work.settings.model = model;
-                self.work.settings.parameters = start;
                 self.take(case.to_string(), measurement);
+                self.work.apply(Edit::TakeValues { parameters: start, model });
                 self.work.session_file = None;
             }
         }
-        // The sliders are where the case wants them: nothing is fitted again from there.
-        self.work.last_refit_at = Some(self.work.settings.parameters);
     }
 
     /// The fit that is shown, with the problem that it solved.

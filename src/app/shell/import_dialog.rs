@@ -4,6 +4,7 @@ use crate::app::jobs::memo::Memo;
 use crate::app::shell::app::App;
 use crate::app::storage::import::{Origin, note_text, with_notes};
 use crate::app::work::design::Span;
+use crate::app::work::document::Document;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};
 use std::sync::Arc;
 use tr::tr;
@@ -96,8 +97,7 @@ impl App {
         if !about.is_empty() {
             self.say(format!("{name}: {about}"));
         }
-        self.take(name, imported.measurement);
-        self.work.document.sha256 = sha256;
+        self.open(Document { sha256, ..Document::new(name, imported.measurement) });
         self.work.session_file = None;
     }
 }

@@ -13,8 +13,9 @@ use crate::app::tasks::fits::{FinishedBootstrap, FinishedFit};
 use crate::app::tasks::jobs::Jobs;
 use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::document::Document;
+use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
-use pbrdf::fit::{FitResult, Profile};
+use pbrdf::fit::Profile;
 use std::path::PathBuf;
 use tr::tr;
 
@@ -44,8 +45,8 @@ pub(crate) fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.autosave, autosaved,
         || tr!("Saving the working state ended unexpectedly; it is saved again after the next change."));
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);
-    poll(app, |jobs| &mut jobs.fits.refit, refitted, fit_panicked);
-    poll(app, |jobs| &mut jobs.fits.compare, |app, fits| app.work.model_comparison = fits,
+    poll(app, |jobs| &mut jobs.fits.refit, |app, report| app.work.apply(Edit::Refit(report)), fit_panicked);
+    poll(app, |jobs| &mut jobs.fits.compare, |app, fits| app.work.apply(Edit::SetModelComparison(fits)),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.profile, profiled, || tr!("The profile ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.bootstrap, bootstrapped, || tr!("The bootstrap ended unexpectedly; nothing was lost."));
@@ -104,34 +105,21 @@ fn autosaved(app: &mut App, result: Result<(), String>) {
 }
 
 fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: FinishedFit) {
-    let before = app.work.settings.parameters;
-    app.work.settings.parameters = report.parameters;
-    app.work.last_refit_at = Some(report.parameters);
     let Document { name, number, .. } = &app.work.document;
-    let (document, number) = (name.clone(), *number);
+    let (document, number, before) = (name.clone(), *number, app.work.settings.parameters);
     // The history numbers its fits.
     let fit = FitEntry { id: 0, report: *report, problem, before, document, number, generation, mask };
-    let fit = app.work.fit_history.push(fit);
-    app.show_fit(Some(fit));
-}
-
-#[expect(clippy::boxed_local, reason = "the result of a slot")]
-fn refitted(app: &mut App, report: Box<FitResult>) {
-    // The sliders may have moved meanwhile: fixed parameters keep the values of the sliders, free ones take those of the fit.
-    for parameter in app.free() {
-        app.work.settings.parameters[parameter] = report.parameters[parameter];
-    }
-    if app.work.settings.parameters == report.parameters {
-        app.work.last_refit_at = Some(report.parameters);
-    }
+    app.work.apply(Edit::AddFit(Box::new(fit)));
+    app.jobs.fits.abandon_scan();
 }
 
 fn profiled(app: &mut App, profile: Profile) {
-    app.work.diagnostics.profile = app.work.shown_fit.as_ref().map(|fit| ProfileCurve::new(&profile, &fit.problem, &fit.report));
+    let curve = app.work.shown_fit.as_ref().map(|fit| ProfileCurve::new(&profile, &fit.problem, &fit.report));
+    app.work.apply(Edit::SetProfile(curve));
 }
 
 fn bootstrapped(app: &mut App, FinishedBootstrap { replicates, scatter }: FinishedBootstrap) {
-    app.work.diagnostics.scatter = Some(Bootstrap { replicates, scatter });
+    app.work.apply(Edit::SetBootstrap(Some(Bootstrap { replicates, scatter })));
 }
 
 fn poll_benchmarks(app: &mut App) {

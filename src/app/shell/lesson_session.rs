@@ -38,8 +38,7 @@ impl App {
             self.say(tr!("What was being fitted was stopped for the lesson."));
         }
         self.jobs.fits.abandon();
-        let setup = self.work.setup();
-        self.work.undo.rest(setup);
+        self.work.record_step();
         let copy = self.panes_at_its_beginning();
         let lesson = self.work.for_lesson();
         self.lesson_session = Some(Box::new(LessonSession {

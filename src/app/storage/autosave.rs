@@ -10,9 +10,12 @@ use crate::app::storage::session::RestoredFit;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::{phrase, translated};
 use crate::app::text::messages::Localized as _;
+use crate::app::views::Views;
+use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tr::tr;
@@ -141,24 +144,20 @@ impl App {
         self.lesson_session = None;
         let OpenedSession { session, fits } = opened;
         let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
-        self.take(session.name, measurement);
-        self.work.document.sha256 = session.sha256;
-        self.work.settings = session.settings;
+        let document = Document { sha256: session.sha256, ..Document::new(session.name, measurement) };
+        let Document { number, generation, .. } = document;
+        let fits = fits.into_iter().enumerate().rev().map(|(index, RestoredFit { report, problem, before, mask })| {
+            // No generation of this document, where the mask was another one.
+            let generation = if mask == *document.mask() { generation } else { 0 };
+            let fit = FitEntry { id: 0, report, problem, before, document: document.name.clone(), number, generation, mask };
+            (fit, session.shown == Some(index))
+        });
+        let fits: Vec<(FitEntry, bool)> = fits.collect();
+        self.work = Workspace::restored(session.settings, document, fits);
+        self.import = None;
+        self.views = Views::default();
+        self.jobs.fits.abandon();
         self.window.layout = session.layout;
         self.panes = Dock::new(&self.window.layout);
-        self.work.last_refit_at = Some(self.work.settings.parameters);
-        let shown = session.shown;
-        for (index, RestoredFit { report, problem, before, mask }) in fits.into_iter().enumerate().rev() {
-            let (document, number) = (self.work.document.name.clone(), self.work.document.number);
-            // None of this document, where the mask was another one.
-            let generation = if mask == *self.work.document.mask() { self.work.document.generation } else { 0 };
-            let fit = FitEntry { id: 0, report, problem, before, document, number, generation, mask };
-            let fit = self.work.fit_history.push(fit);
-            if Some(index) == shown {
-                self.show_fit(Some(fit));
-            }
-        }
-        let setup = self.work.setup();
-        self.work.undo.replace(setup);
     }
 }

@@ -50,10 +50,11 @@ fn next_generation() -> u64 {
 }
 
 impl Document {
-    pub fn new(name: String, measurement: Measurement, number: u64) -> Self {
+    pub fn new(name: String, measurement: Measurement) -> Self {
+        let number = next_generation();
         let series = IncidenceSeries::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
-        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: next_generation(), mask }
+        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number, mask }
     }
 
     /// The rows that are masked.

@@ -3,11 +3,13 @@
 pub mod design;
 pub mod diagnostics;
 pub mod document;
+pub mod edit;
 pub mod fit_history;
 pub mod fit_setup;
 pub mod history;
 pub mod layout;
 pub mod lesson;
+mod lesson_setup;
 pub mod model_fit;
 pub mod pane_id;
 pub mod parameter_text;

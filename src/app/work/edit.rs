@@ -1,0 +1,129 @@
+//! The changes that can be made to the work.
+
+use crate::app::work::design::Plan;
+use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
+use crate::app::work::document::Document;
+use crate::app::work::fit_history::FitEntry;
+use crate::app::work::model_fit::ModelFit;
+use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
+use pbrdf::fit::{FitOptions, FitResult, Starts};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+use std::sync::Arc;
+
+/// One change of the work, in terms of what a user does; [`Workspace::apply`] carries it out.
+///
+/// A panel never writes to the work. Where a widget needs a `&mut`, the panel hands it a copy of the small value behind it, and pushes an
+/// edit if the copy differs afterwards:
+///
+/// ```ignore
+/// let mut options = cx.work.settings.shown;
+/// ui.checkbox(&mut options.filled, tr!("Filled lobes"));
+/// if options != cx.work.settings.shown {
+///     cx.edits.push(Edit::SetViewOptions(options));
+/// }
+/// ```
+///
+/// The edits of a frame are carried out after it, in their order. Each bumps [`Workspace::revision`]; what depends on the work compares that
+/// number.
+///
+/// [`Workspace::apply`]: crate::app::work::workspace::Workspace::apply
+/// [`Workspace::revision`]: crate::app::work::workspace::Workspace::revision
+pub enum Edit {
+    /// One slider.
+    SetParameter(Parameter, f64),
+    /// All sliders.
+    SetParameters(Parameters),
+    SetModel(Model),
+    /// The parameters that a fit leaves alone.
+    SetLocked(ParameterSet),
+    /// Lower and upper bound in fits; without, the range of the slider. Bounds that [`pbrdf::fit::Bounds::set`] refuses change nothing.
+    SetBounds(Parameter, Option<(f64, f64)>),
+    /// Angles of the lobes, degrees.
+    SetDirection {
+        theta_i: f64,
+        dphi: f64,
+    },
+    /// Something that is on or off.
+    SetSwitch(Switch, bool),
+    SetFitOptions(FitOptions),
+    SetStarts(Starts),
+    /// Seed of the starts and of the bootstrap.
+    SetSeed(u64),
+    SetViewOptions(ViewOptions),
+    SetLandscapeAxes(LandscapeAxes),
+    SetMetalSelection(MetalSelection),
+    /// The angles that might be measured.
+    SetPlan(Plan),
+    /// Masks these rows of the active measurement, or unmasks them.
+    Mask {
+        rows: Vec<usize>,
+        masked: bool,
+    },
+    /// Puts a measurement in the place of the active one.
+    Open(Box<Document>),
+    /// Adds a finished fit to the history, shows it and takes its values.
+    AddFit(Box<FitEntry>),
+    /// Takes the free parameters of a fit that ran while sliders moved.
+    Refit(Box<FitResult>),
+    ShowFit(Option<Arc<FitEntry>>),
+    /// Values and model of something that was looked at. A live refit does not begin there.
+    TakeValues {
+        parameters: Parameters,
+        model: Model,
+    },
+    /// Takes the values and the model of the shown fit.
+    UseFit,
+    /// Takes the values from before the shown fit.
+    UseValuesBeforeFit,
+    /// Takes the values and the model of an earlier fit, 0 the newest, and shows it.
+    ReturnToFit(usize),
+    /// The fits of all presets to the active measurement.
+    SetModelComparison(Vec<ModelFit>),
+    /// Takes the values and the model of that row of the comparison.
+    UseModelFit(usize),
+    /// What the next profile and bootstrap are about.
+    SetScan {
+        parameter: Option<Parameter>,
+        replicates: usize,
+    },
+    SetProfile(Option<ProfileCurve>),
+    SetBootstrap(Option<Bootstrap>),
+    Undo,
+    Redo,
+}
+
+/// What is either on or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Switch {
+    LogBrdf,
+    Limit,
+    Band,
+    Backscatter,
+    RefitLive,
+    /// The bounds under the sliders.
+    Bounds,
+}
+
+impl Switch {
+    pub fn is_on(self, settings: &Settings) -> bool {
+        match self {
+            Self::LogBrdf => settings.log_brdf,
+            Self::Limit => settings.show_limit,
+            Self::Band => settings.show_band,
+            Self::Backscatter => settings.show_backscatter,
+            Self::RefitLive => settings.refit_live,
+            Self::Bounds => settings.show_bounds,
+        }
+    }
+
+    pub(super) fn set(self, settings: &mut Settings, on: bool) {
+        *match self {
+            Self::LogBrdf => &mut settings.log_brdf,
+            Self::Limit => &mut settings.show_limit,
+            Self::Band => &mut settings.show_band,
+            Self::Backscatter => &mut settings.show_backscatter,
+            Self::RefitLive => &mut settings.refit_live,
+            Self::Bounds => &mut settings.show_bounds,
+        } = on;
+    }
+}
