@@ -348,9 +348,10 @@ impl App {
             Command::UseCase(index) => self.use_case(index),
             Command::CancelComparison => self.jobs.fits.compare.cancel(),
             Command::Toggle(switch) => {
-                let on = switch.of(self);
-                *on = !*on;
+                let on = switch.is_on(&self.work.settings);
+                self.work.apply(Edit::SetSwitch(switch, !on));
             }
+            Command::ToggleFrameTimes => self.window.show_frame_times = !self.window.show_frame_times,
             Command::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
             Command::TogglePane(pane) => self.panes.show(pane),
             Command::ClosePane(pane) => self.panes.close(pane),

@@ -10,6 +10,7 @@ use crate::app::text::i18n::translated;
 use crate::app::views;
 use crate::app::views::spec;
 use crate::app::work::document::EXAMPLES;
+use crate::app::work::edit::Switch;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
 use egui::{Key, KeyboardShortcut, Modifiers};
@@ -111,6 +112,7 @@ pub enum Command {
     /// Sliders, terms and angles as that case of the stability gallery has them.
     UseCase(usize),
     Toggle(Switch),
+    ToggleFrameTimes,
     /// A pane to the screen, or off it.
     TogglePane(PaneId),
     ClosePane(PaneId),
@@ -121,16 +123,6 @@ pub enum Command {
     ShowHelp(Help),
     CloseHelp,
     Quit,
-}
-
-/// What is either on or off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Switch {
-    LogBrdf,
-    Limit,
-    Backscatter,
-    RefitLive,
-    FrameTimes,
 }
 
 impl Command {
@@ -144,19 +136,6 @@ impl Command {
                 Some(tr!("Fit first (F5)."))
             }
             _ => None,
-        }
-    }
-}
-
-impl Switch {
-    /// Where it is kept.
-    pub fn of(self, explorer: &mut App) -> &mut bool {
-        match self {
-            Self::LogBrdf => &mut explorer.work.settings.log_brdf,
-            Self::Limit => &mut explorer.work.settings.show_limit,
-            Self::Backscatter => &mut explorer.work.settings.show_backscatter,
-            Self::RefitLive => &mut explorer.work.settings.refit_live,
-            Self::FrameTimes => &mut explorer.window.show_frame_times,
         }
     }
 }
@@ -326,7 +305,7 @@ static ENTRIES: &[Entry] = &[
         |e| switch(e.work.settings.show_limit)),
     row(Command::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
         ctrl(Key::B), |e| switch(e.work.settings.show_backscatter)),
-    row(Command::Toggle(Switch::FrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
+    row(Command::ToggleFrameTimes, Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |e| switch(e.window.show_frame_times)),
     row(Command::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
         |e| only_if(e.lessons.open.is_some())),

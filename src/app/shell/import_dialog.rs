@@ -97,7 +97,7 @@ impl App {
         if !about.is_empty() {
             self.say(format!("{name}: {about}"));
         }
-        self.open(Document { sha256, ..Document::new(name, imported.measurement) });
+        self.open(Document::new(name, imported.measurement).of_file(sha256));
         self.work.session_file = None;
     }
 }

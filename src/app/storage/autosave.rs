@@ -144,7 +144,7 @@ impl App {
         self.lesson_session = None;
         let OpenedSession { session, fits } = opened;
         let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
-        let document = Document { sha256: session.sha256, ..Document::new(session.name, measurement) };
+        let document = Document::new(session.name, measurement).of_file(session.sha256);
         let Document { number, generation, .. } = document;
         let fits = fits.into_iter().enumerate().rev().map(|(index, RestoredFit { report, problem, before, mask })| {
             // No generation of this document, where the mask was another one.

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
-use crate::app::shell::commands::{Command, Status, Switch};
+use crate::app::shell::commands::{Command, Status};
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
 use crate::app::work::settings::Theme;
@@ -210,7 +210,7 @@ fn undo_brings_back_every_setting() {
 fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
     let mut harness = harness();
     let steps_before = explorer(&mut harness).work.undo.can_undo();
-    for command in [Command::SetTheme(Theme::Dark), Command::Toggle(Switch::FrameTimes)] {
+    for command in [Command::SetTheme(Theme::Dark), Command::ToggleFrameTimes] {
         explorer(&mut harness).commands.push(command);
         harness.run();
     }

@@ -57,6 +57,12 @@ impl Document {
         Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number, mask }
     }
 
+    /// The same, read from a file with that SHA-256.
+    #[must_use]
+    pub fn of_file(self, sha256: Option<String>) -> Self {
+        Self { sha256, ..self }
+    }
+
     /// The rows that are masked.
     pub fn mask(&self) -> &Mask {
         &self.mask
