@@ -36,7 +36,6 @@ use crate::app::views::derived::Derived;
 use crate::app::views::{Cx, Views};
 use crate::app::work::document::{Document, EXAMPLES};
 use crate::app::work::edit::Edit;
-use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{free, problem, reason};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
@@ -51,7 +50,6 @@ use pbrdf::model::{FINISHES, PRESETS, Parameter, ParameterSet, Parameters};
 use pbrdf::selftest::Setting;
 use std::io::Write as _;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 use tr::tr;
 
