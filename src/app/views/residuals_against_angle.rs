@@ -171,7 +171,7 @@ mod tests {
     use pbrdf::optics::SlopeDistribution;
 
     fn document(text: &str) -> Document {
-        Document::new("a".to_owned(), Measurement::read(text.as_bytes()).expect("a table"), 1)
+        Document::new("a".to_owned(), Measurement::read(text.as_bytes()).expect("a table"))
     }
 
     #[test]
