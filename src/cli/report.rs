@@ -7,7 +7,7 @@ use crate::cli::{interrupt, output};
 use crate::figure::Figure;
 use crate::files::export::{machine, now};
 use crate::report::{BenchmarkFigures, English};
-use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Row, Stability};
+use pbrdf::selftest::{BenchmarkRow, Cost, ErrorVsTime, Host, Report, Stability};
 use serde_json::Value;
 use std::path::Path;
 use std::process::ExitCode;
@@ -30,7 +30,7 @@ struct Answer {
 }
 
 impl Answer {
-    fn new<R: Row>(report: &Report<R>) -> Self
+    fn new<R: BenchmarkRow>(report: &Report<R>) -> Self
     where
         Report<R>: BenchmarkFigures,
     {

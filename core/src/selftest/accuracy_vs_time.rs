@@ -8,7 +8,7 @@ use crate::selftest::reference::{Reference, golden, relative_error};
 use crate::selftest::solver_benchmark::{BenchmarkSize, SolverBenchmark, TraceStep};
 use crate::selftest::table::Curves;
 use crate::selftest::textbook::{textbook_f32, textbook_f64};
-use crate::selftest::{Cell, Host, Machine, Report, Row, Timing, quantile};
+use crate::selftest::{BenchmarkRow, Cell, Host, Machine, Report, Timing, quantile};
 use serde_json::{Map, Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -52,7 +52,7 @@ pub struct ErrorVsTime {
     pub success_rate: Option<f64>,
 }
 
-impl Row for ErrorVsTime {
+impl BenchmarkRow for ErrorVsTime {
     const COLUMNS: &'static [&'static str] =
         &["task", "method", "ns_per_point", "elapsed_ms", "worst_relative_error", "median_relative_error", "success_rate"];
 

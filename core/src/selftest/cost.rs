@@ -10,7 +10,7 @@ use crate::model::{
     Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances,
 };
 use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
-use crate::selftest::{Cell, Host, Machine, Note, Report, Row, Timing, gradient_error, relative_error};
+use crate::selftest::{BenchmarkRow, Cell, Host, Machine, Note, Report, Timing, gradient_error, relative_error};
 use std::hint::black_box;
 
 /// Points of the scalar rows.
@@ -89,7 +89,7 @@ pub struct Cost {
     pub max_relative_error: f64,
 }
 
-impl Row for Cost {
+impl BenchmarkRow for Cost {
     const COLUMNS: &'static [&'static str] = &[
         "scene",
         "distribution",

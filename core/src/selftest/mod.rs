@@ -25,6 +25,6 @@ pub use method::BenchmarkMethod;
 pub use note::Note;
 pub use reference::{Reference, critical_angle_factor, golden, gradient_error, relative_error};
 pub use stability::{GRADIENT_BAR, Setting, Stability, StabilityCase, StabilityOutcome, VALUE_BAR, digits};
-pub use table::{Cell, Curves, Report, Row};
+pub use table::{BenchmarkRow, Cell, Curves, Report};
 pub use textbook::{textbook_f32, textbook_f64};
 pub use timing::{Host, Timing, quantile};

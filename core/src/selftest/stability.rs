@@ -9,7 +9,7 @@ use crate::optics::{Facet, Geometry, SlopeDistribution};
 use crate::selftest::reference::{Reference, critical_angle_factor, gradient_error, references, relative_error};
 use crate::selftest::stability_fits::StiffFit;
 use crate::selftest::textbook::textbook_f64;
-use crate::selftest::{Cell, Host, Machine, Note, Report, Row};
+use crate::selftest::{BenchmarkRow, Cell, Host, Machine, Note, Report};
 use std::fmt;
 
 /// The evaluation cases.
@@ -136,7 +136,7 @@ impl fmt::Display for StabilityOutcome {
     }
 }
 
-impl Row for Stability {
+impl BenchmarkRow for Stability {
     const COLUMNS: &'static [&'static str] =
         &["case", "brdf_error", "dolp_error", "gradient_error", "textbook_error", "condition", "outcome", "pass"];
 

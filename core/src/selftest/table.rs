@@ -61,7 +61,7 @@ impl std::fmt::Display for Cell {
 }
 
 /// A row of a report.
-pub trait Row {
+pub trait BenchmarkRow {
     /// Names of the columns: the keys in JSON, the head of the table.
     const COLUMNS: &'static [&'static str];
 
@@ -107,7 +107,7 @@ impl<R> Report<R> {
     }
 }
 
-impl<R: Row> Report<R> {
+impl<R: BenchmarkRow> Report<R> {
     /// As JSON: `machine`, `date` and `rows`, flat objects with the columns of the table.
     #[must_use]
     pub fn json(&self) -> Value {
@@ -163,11 +163,11 @@ impl<R: Row> Report<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Machine, Note, Report, Row};
+    use super::{BenchmarkRow, Cell, Machine, Note, Report};
 
     struct Pair(f64, bool);
 
-    impl Row for Pair {
+    impl BenchmarkRow for Pair {
         const COLUMNS: &'static [&'static str] = &["number", "flag"];
 
         fn cells(&self) -> Vec<Cell> {

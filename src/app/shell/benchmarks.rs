@@ -6,7 +6,7 @@ use crate::app::text::i18n::{self, Language};
 use crate::app::text::messages::WindowWording;
 use crate::figure::Figure;
 use crate::report::BenchmarkFigures;
-use pbrdf::selftest::{Cost, ErrorVsTime, Report, Row, Stability};
+use pbrdf::selftest::{BenchmarkRow, Cost, ErrorVsTime, Report, Stability};
 
 /// A report as it is shown.
 pub struct BenchmarkView<R> {
@@ -23,7 +23,7 @@ pub struct BenchmarkView<R> {
     pub page: usize,
 }
 
-impl<R: Row> BenchmarkView<R>
+impl<R: BenchmarkRow> BenchmarkView<R>
 where
     Report<R>: BenchmarkFigures,
 {
@@ -67,7 +67,7 @@ pub struct Benchmarks {
 impl Benchmarks {
     /// Shows a report in place of the one before; on the same page.
     pub fn take(&mut self, made: BenchmarkResult, is_part: bool) {
-        fn again<R: Row>(slot: &mut Option<BenchmarkView<R>>, report: Report<R>, is_part: bool)
+        fn again<R: BenchmarkRow>(slot: &mut Option<BenchmarkView<R>>, report: Report<R>, is_part: bool)
         where
             Report<R>: BenchmarkFigures,
         {

@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::Quantity;
+use crate::app::work::settings::HemisphereQuantity;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -43,10 +43,10 @@ fn the_pointer_reads_what_the_model_gives_there() {
     let mut harness = shown();
     let rect = harness.get_by_role_and_label(Role::Image, "Map of all directions of view: DoLP").rect();
     for (button, quantity) in [
-        ("DoLP", Quantity::Dolp),
-        ("Angle of polarisation", Quantity::Angle),
-        ("BRDF", Quantity::Brdf),
-        ("Specular share", Quantity::SpecularShare),
+        ("DoLP", HemisphereQuantity::Dolp),
+        ("Angle of polarisation", HemisphereQuantity::Angle),
+        ("BRDF", HemisphereQuantity::Brdf),
+        ("Specular share", HemisphereQuantity::SpecularShare),
     ] {
         // A tab may have the same name; it comes first.
         harness.query_all_by_role_and_label(Role::Button, button).last().expect("a choice").click();
@@ -61,13 +61,13 @@ fn the_pointer_reads_what_the_model_gives_there() {
             let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("inside the disc");
             let reflection = surface.reflection(&Facet::new(geometry));
             let expected = match quantity {
-                Quantity::Dolp => reflection.dolp,
-                Quantity::Angle => {
+                HemisphereQuantity::Dolp => reflection.dolp,
+                HemisphereQuantity::Angle => {
                     let mueller = surface.mueller(geometry);
                     0.5 * libm::atan2(mueller.element(2, 0), mueller.element(1, 0)).to_degrees()
                 }
-                Quantity::Brdf => reflection.brdf,
-                Quantity::SpecularShare => reflection.specular / reflection.brdf,
+                HemisphereQuantity::Brdf => reflection.brdf,
+                HemisphereQuantity::SpecularShare => reflection.specular / reflection.brdf,
             };
             // Angles are read to 0.01°, over which nothing here changes by more than some thousandths of itself.
             assert!((value - expected).abs() < 5e-3 * expected.abs().max(1e-2), "{line}: {expected}");

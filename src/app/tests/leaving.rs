@@ -8,7 +8,7 @@ use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::Quantity;
+use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -111,7 +111,7 @@ fn map_of(figure: &Figure) -> &HeatMap {
 fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
     let mut harness = harness();
     show(&mut harness, PaneId::Hemisphere);
-    for quantity in [Quantity::Dolp, Quantity::Brdf] {
+    for quantity in [HemisphereQuantity::Dolp, HemisphereQuantity::Brdf] {
         explorer(&mut harness).work.settings.shown.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
@@ -125,11 +125,11 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
         let surface = Pbrdf::new(settings.model, settings.parameters).expect("a surface");
         let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("a direction");
         let reflection = surface.reflection(&Facet::new(geometry));
-        let expected = if quantity == Quantity::Dolp { reflection.dolp } else { reflection.brdf };
+        let expected = if quantity == HemisphereQuantity::Dolp { reflection.dolp } else { reflection.brdf };
         let value = map.values[row * (map.x_edges.len() - 1) + column];
         // Angles went through degrees and back, and the BRDF through its logarithm.
         assert!((value / expected - 1.0).abs() < 1e-9, "{quantity:?}: {value} {expected}");
-        assert_eq!(map.color_axis.scale == Scale::Log, quantity == Quantity::Brdf);
+        assert_eq!(map.color_axis.scale == Scale::Log, quantity == HemisphereQuantity::Brdf);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::app::text::messages::Localized;
 use crate::app::views::context::Cx;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
-use pbrdf::selftest::Row;
+use pbrdf::selftest::BenchmarkRow;
 use tr::tr;
 
 /// The line with the button and what it does, and what has come out.
@@ -42,7 +42,7 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
 }
 
 /// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
-pub fn pages_ui<R: Row>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
+pub fn pages_ui<R: BenchmarkRow>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
     let text = RichText::new(format!("{part}{}, {}", report.machine.localized(), report.date)).weak().small();

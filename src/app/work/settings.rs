@@ -49,7 +49,7 @@ pub enum Overlay {
 /// What the hemisphere map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub enum HemisphereQuantity {
     #[default]
     Dolp,
     /// Of polarisation.
@@ -59,7 +59,7 @@ pub enum Quantity {
     SpecularShare,
 }
 
-impl Quantity {
+impl HemisphereQuantity {
     pub const ALL: [Self; 4] = [Self::Dolp, Self::Angle, Self::Brdf, Self::SpecularShare];
 }
 
@@ -82,7 +82,7 @@ pub struct ViewOptions {
     pub facets_equal_median: bool,
     /// Whether the way of a fit is drawn against time rather than evaluations.
     pub convergence_by_time: bool,
-    pub hemisphere: Quantity,
+    pub hemisphere: HemisphereQuantity,
 }
 
 /// Which two parameters the landscape is drawn over, and what lies on it.

@@ -3,7 +3,7 @@
 use crate::app::jobs::async_memo::Stopped;
 use crate::app::plots::{ColorScale, Range, nice_ceiling};
 use crate::app::views::curves::{DECADES, SETS_AXES};
-use crate::app::work::settings::Quantity;
+use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Axis, ColorMap, HeatMap};
 use egui::{ColorImage, Vec2, vec2};
 use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
@@ -23,14 +23,14 @@ pub struct Made {
     pub theta_i: f64,
     pub map: HemisphereMap,
     /// Smallest and largest value of each quantity, as it is coloured.
-    pub extremes: [(f64, f64); Quantity::ALL.len()],
+    pub extremes: [(f64, f64); HemisphereQuantity::ALL.len()],
 }
 
 impl Made {
     /// The map in a figure, over degrees from the middle outwards so that axes can tell θr.
-    pub fn heat_map(&self, quantity: Quantity, range: Range, axis: Axis) -> HeatMap {
+    pub fn heat_map(&self, quantity: HemisphereQuantity, range: Range, axis: Axis) -> HeatMap {
         // The BRDF is kept as its logarithm.
-        let value = |value: f64| if quantity == Quantity::Brdf { libm::exp10(value) } else { value };
+        let value = |value: f64| if quantity == HemisphereQuantity::Brdf { libm::exp10(value) } else { value };
         let edges = Range { low: -90.0, high: 90.0 }.edges(SIZE);
         HeatMap {
             x_edges: edges.clone(),
@@ -47,11 +47,11 @@ impl Made {
         let mut map = hemisphere.map(surface, stopped)?;
         // Coloured by its decades.
         map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
-        let extremes = Quantity::ALL.map(|quantity| extremes(values(&map, quantity)));
+        let extremes = HemisphereQuantity::ALL.map(|quantity| extremes(values(&map, quantity)));
         Some(Self { hemisphere, theta_i, map, extremes })
     }
 
-    pub fn image(&self, quantity: Quantity, scale: ColorScale) -> ColorImage {
+    pub fn image(&self, quantity: HemisphereQuantity, scale: ColorScale) -> ColorImage {
         let table = scale.table();
         // The first row of an image is the uppermost, that of a map has the smallest y.
         let rows = values(&self.map, quantity).chunks(SIZE).rev();
@@ -60,12 +60,12 @@ impl Made {
 }
 
 /// The values that are coloured, cell by cell; of the BRDF the logarithms.
-pub fn values(map: &HemisphereMap, quantity: Quantity) -> &[f64] {
+pub fn values(map: &HemisphereMap, quantity: HemisphereQuantity) -> &[f64] {
     match quantity {
-        Quantity::Dolp => &map.dolp,
-        Quantity::Angle => &map.angle,
-        Quantity::Brdf => &map.brdf,
-        Quantity::SpecularShare => &map.specular_share,
+        HemisphereQuantity::Dolp => &map.dolp,
+        HemisphereQuantity::Angle => &map.angle,
+        HemisphereQuantity::Brdf => &map.brdf,
+        HemisphereQuantity::SpecularShare => &map.specular_share,
     }
 }
 
@@ -93,13 +93,13 @@ fn center(index: usize) -> f64 {
 }
 
 /// The range of colours that fits the values.
-pub fn wanted(quantity: Quantity, (low, high): (f64, f64)) -> Range {
+pub fn wanted(quantity: HemisphereQuantity, (low, high): (f64, f64)) -> Range {
     match quantity {
-        Quantity::Dolp => Range { low: 0.0, high: if high <= 1.0 { nice_ceiling(high).min(1.0) } else { nice_ceiling(high) } },
-        Quantity::Angle => Range { low: -90.0, high: 90.0 },
-        Quantity::SpecularShare => Range { low: 0.0, high: 1.0 },
-        Quantity::Brdf if !high.is_finite() => Range { low: -1.0, high: 0.0 },
-        Quantity::Brdf => {
+        HemisphereQuantity::Dolp => Range { low: 0.0, high: if high <= 1.0 { nice_ceiling(high).min(1.0) } else { nice_ceiling(high) } },
+        HemisphereQuantity::Angle => Range { low: -90.0, high: 90.0 },
+        HemisphereQuantity::SpecularShare => Range { low: 0.0, high: 1.0 },
+        HemisphereQuantity::Brdf if !high.is_finite() => Range { low: -1.0, high: 0.0 },
+        HemisphereQuantity::Brdf => {
             // By half decades.
             let high = 0.5 * (2.0 * high).ceil();
             Range { low: (0.5 * (2.0 * low).floor()).clamp(high - DECADES, high - 1.0), high }
@@ -123,7 +123,7 @@ pub fn place(theta_r: f64, dphi: f64) -> Vec2 {
     vec2(at(cos), at(sin))
 }
 
-impl Quantity {
+impl HemisphereQuantity {
     pub fn colors(self) -> ColorMap {
         if self == Self::Angle { ColorMap::Cyclic } else { ColorMap::Sequential }
     }
@@ -131,7 +131,7 @@ impl Quantity {
 
 #[cfg(test)]
 mod tests {
-    use super::{ColorScale, Made, Quantity, Range, SIZE, extremes, index, place, values, wanted};
+    use super::{ColorScale, HemisphereQuantity, Made, Range, SIZE, extremes, index, place, values, wanted};
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
 
@@ -140,13 +140,13 @@ mod tests {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
         let made = Made::new(&surface, 50.0, None, &|| false).expect("a map");
         // On either side of the plane of incidence the angle of polarisation has the other sign.
-        let scale = ColorScale { map: Quantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
-        let image = made.image(Quantity::Angle, scale);
+        let scale = ColorScale { map: HemisphereQuantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
+        let image = made.image(HemisphereQuantity::Angle, scale);
         let (row, column) = (3 * SIZE / 4, SIZE / 2);
         let (theta_r, dphi) = made.map.direction(row, column).expect("inside the disc");
         let at = place(theta_r, dphi);
         assert!(at.y > 0.4, "above the middle: {at:?}");
-        let value = values(&made.map, Quantity::Angle)[row * SIZE + column];
+        let value = values(&made.map, HemisphereQuantity::Angle)[row * SIZE + column];
         assert!(value.abs() > 5.0);
         assert_eq!(image.pixels[(SIZE - 1 - row) * SIZE + column], scale.table().color(value));
         assert_ne!(image.pixels[row * SIZE + column], scale.table().color(value));
@@ -173,11 +173,11 @@ mod tests {
 
     #[test]
     fn colours_reach_the_largest_value_and_no_impossible_one() {
-        assert_eq!(wanted(Quantity::Dolp, (0.0, 0.97)), Range { low: 0.0, high: 1.0 });
-        assert_eq!(wanted(Quantity::Dolp, (0.0, 0.04)), Range { low: 0.0, high: 0.05 });
+        assert_eq!(wanted(HemisphereQuantity::Dolp, (0.0, 0.97)), Range { low: 0.0, high: 1.0 });
+        assert_eq!(wanted(HemisphereQuantity::Dolp, (0.0, 0.04)), Range { low: 0.0, high: 0.05 });
         // Eq. (17) as printed divides by k_s.
-        assert_eq!(wanted(Quantity::Dolp, (0.0, 1.9)), Range { low: 0.0, high: 2.0 });
-        assert_eq!(wanted(Quantity::Brdf, (-2.3, 0.1)), Range { low: -2.5, high: 0.5 });
-        assert_eq!(wanted(Quantity::Brdf, (-80.0, 0.1)), Range { low: -7.5, high: 0.5 });
+        assert_eq!(wanted(HemisphereQuantity::Dolp, (0.0, 1.9)), Range { low: 0.0, high: 2.0 });
+        assert_eq!(wanted(HemisphereQuantity::Brdf, (-2.3, 0.1)), Range { low: -2.5, high: 0.5 });
+        assert_eq!(wanted(HemisphereQuantity::Brdf, (-80.0, 0.1)), Range { low: -7.5, high: 0.5 });
     }
 }

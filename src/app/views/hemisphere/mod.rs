@@ -12,7 +12,7 @@ use crate::app::plots::{AutoRange, BAR_ROOM, BarLabels, BarMarks, ColorScale, co
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
 use crate::app::work::document::Document;
-use crate::app::work::settings::Quantity;
+use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Series, Symbol};
 use disc::{Disc, MARGIN, incident_mark, legend_ui, measured_mark, mirror_mark};
 use egui::{Color32, ColorImage, Key, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
@@ -34,8 +34,8 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct HemisphereView {
     job: AsyncMemo<MapKey, Option<Made>>,
-    ranges: [AutoRange; Quantity::ALL.len()],
-    colored: Memo<(MapKey, Quantity, ColorScale), ()>,
+    ranges: [AutoRange; HemisphereQuantity::ALL.len()],
+    colored: Memo<(MapKey, HemisphereQuantity, ColorScale), ()>,
     /// An image that the texture does not show yet.
     fresh: Option<ColorImage>,
     texture: Option<TextureHandle>,
@@ -43,7 +43,7 @@ pub struct HemisphereView {
     measured: Memo<(u64, f64), Vec<Vec2>>,
 }
 
-impl Quantity {
+impl HemisphereQuantity {
     /// Its name and what the pointer finds out about it.
     fn texts(self) -> [String; 2] {
         match self {
@@ -81,7 +81,7 @@ impl Quantity {
 
 impl HemisphereView {
     /// What is known at a place of the disc, x to the right and y upwards; none outside it.
-    fn reading(&self, x: f64, y: f64, quantity: Quantity) -> Option<String> {
+    fn reading(&self, x: f64, y: f64, quantity: HemisphereQuantity) -> Option<String> {
         let map = &self.job.get()?.as_ref()?.map;
         let (row, column) = (index(y)?, index(x)?);
         let (theta_r, dphi) = map.direction(row, column)?;
@@ -109,7 +109,7 @@ impl HemisphereView {
     }
 
     /// The disc with its colours, and what lies on it.
-    fn disc_ui(&mut self, theta_i: f64, quantity: Quantity, room: Vec2, ui: &mut Ui) -> Option<String> {
+    fn disc_ui(&mut self, theta_i: f64, quantity: HemisphereQuantity, room: Vec2, ui: &mut Ui) -> Option<String> {
         let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
         let radius = 0.5 * (room.x - 2.0 * MARGIN.x - BAR_ROOM).min(room.y - 2.0 * MARGIN.y).max(20.0);
         let disc = Disc { center: rect.center() - vec2(0.5 * BAR_ROOM, 0.0), radius };
@@ -168,7 +168,7 @@ impl View for HemisphereView {
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
-            for quantity in Quantity::ALL {
+            for quantity in HemisphereQuantity::ALL {
                 let [name, help] = quantity.texts();
                 ui.selectable_value(&mut cx.settings.shown.hemisphere, quantity, name).on_hover_text(help);
             }
@@ -236,11 +236,11 @@ fn in_degrees(place: Vec2) -> [f64; 2] {
 }
 
 /// What stands at the colour bar.
-fn labels(quantity: Quantity) -> BarLabels<'static> {
+fn labels(quantity: HemisphereQuantity) -> BarLabels<'static> {
     match quantity {
-        Quantity::Dolp => BarLabels { title: "DoLP", marks: BarMarks::Linear },
-        Quantity::Angle => BarLabels { title: "°", marks: BarMarks::At(&[-90.0, -45.0, 0.0, 45.0, 90.0]) },
-        Quantity::Brdf => BarLabels { title: "1/sr", marks: BarMarks::Log },
-        Quantity::SpecularShare => BarLabels { title: "", marks: BarMarks::Linear },
+        HemisphereQuantity::Dolp => BarLabels { title: "DoLP", marks: BarMarks::Linear },
+        HemisphereQuantity::Angle => BarLabels { title: "°", marks: BarMarks::At(&[-90.0, -45.0, 0.0, 45.0, 90.0]) },
+        HemisphereQuantity::Brdf => BarLabels { title: "1/sr", marks: BarMarks::Log },
+        HemisphereQuantity::SpecularShare => BarLabels { title: "", marks: BarMarks::Linear },
     }
 }
