@@ -47,9 +47,12 @@ fn dolp(bencher: Bencher, surface: Pbrdf, in_plane: bool) {
 
 fn gradient(bencher: Bencher, scene: &GeometrySet, wanted: GradientRequest) {
     let surface = full();
-    bencher
-        .counter(ItemsCount::new(POINTS))
-        .bench_local(|| scene.reflections_and_gradients(black_box(&surface), wanted).map(|at| at.1.dolp[2] + at.1.brdf[2]).sum::<f64>());
+    bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
+        scene
+            .reflections_and_gradients(black_box(&surface), wanted)
+            .map(|at| at.1.dolp[Parameter::Sigma] + at.1.brdf[Parameter::Sigma])
+            .sum::<f64>()
+    });
 }
 
 /// Budget: a quarter of `everything`.
@@ -91,7 +94,7 @@ fn everything(bencher: Bencher) {
     let scene = GeometrySet::new(geometries(false));
     let surface = full();
     bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
-        let gradients = scene.reflections_and_gradients(black_box(&surface), GradientRequest::ALL).map(|at| at.1.dolp[2]);
+        let gradients = scene.reflections_and_gradients(black_box(&surface), GradientRequest::ALL).map(|at| at.1.dolp[Parameter::Sigma]);
         let matrices = scene.facets().iter().map(|facet| surface.mueller(facet.geometry).element(1, 2));
         gradients.zip(matrices).map(|(a, b)| a + b).sum::<f64>()
     });

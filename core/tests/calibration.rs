@@ -3,7 +3,7 @@
 
 use pbrdf::fit::{Bounds, FitOptions, Observer, Problem, Starts, fit, free_by_default};
 use pbrdf::measurement::{Columns, Simulation};
-use pbrdf::model::{Model, Parameters, Pbrdf};
+use pbrdf::model::{Model, Parameters, Pbrdf, PerParameter};
 use pbrdf::optics::SlopeDistribution;
 
 const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.2, q: 2.2, c: -0.4, sigma_v: 0.6 };
@@ -16,8 +16,8 @@ const DATA_SETS: u32 = 2000;
 fn the_truth_lies_within_the_standard_errors_as_often_as_it_should() {
     for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
         let model = Model::full(distribution);
-        let mut within = [[0_u32; 2]; 9];
-        let mut determined = [0_u32; 9];
+        let mut within = PerParameter::<[u32; 2]>::default();
+        let mut determined = PerParameter::<u32>::default();
         for seed in 0..DATA_SETS {
             let measurement = Simulation {
                 model_name: "test".to_owned(),
@@ -38,23 +38,22 @@ fn the_truth_lies_within_the_standard_errors_as_often_as_it_should() {
             let report = fit(&problem, Starts::One, 0, Observer::NONE);
             for estimate in &report.estimates {
                 if let Some(error) = estimate.std_error {
-                    let j = estimate.parameter as usize;
+                    let parameter = estimate.parameter;
                     let off = (estimate.value - TRUTH[estimate.parameter]).abs() / error;
-                    determined[j] += 1;
-                    within[j][0] += u32::from(off <= 1.0);
-                    within[j][1] += u32::from(off <= 2.0);
+                    determined[parameter] += 1;
+                    within[parameter][0] += u32::from(off <= 1.0);
+                    within[parameter][1] += u32::from(off <= 2.0);
                 }
             }
         }
         for parameter in free_of(model) {
-            let j = parameter as usize;
-            let share = |k: usize| 100.0 * f64::from(within[j][k]) / f64::from(determined[j]);
+            let share = |k: usize| 100.0 * f64::from(within[parameter][k]) / f64::from(determined[parameter]);
             println!(
                 "{distribution:?} {:<8} within 1σ {:.1} %, within 2σ {:.1} % of {}",
                 parameter.key(),
                 share(0),
                 share(1),
-                determined[j]
+                determined[parameter]
             );
             assert!((64.0..=72.0).contains(&share(0)) && (93.0..=97.5).contains(&share(1)), "{distribution:?} {parameter:?}");
         }

@@ -47,7 +47,7 @@ fn k_s_cancels_from_hydes_dolp() {
     };
     let ((one, gradient), (two, _)) = (at(1.0), at(2.0));
     assert_eq!(one.dolp, two.dolp);
-    assert_eq!(gradient.dolp[Parameter::Ks as usize], 0.0);
+    assert_eq!(gradient.dolp[Parameter::Ks], 0.0);
 }
 
 #[test]
@@ -69,10 +69,9 @@ fn derivatives_of_hydes_term_are_those_of_its_values() {
                     };
                     let (up, down) = (moved(step), moved(-step));
                     let width = 2.0 * step * here[parameter];
-                    let j = parameter as usize;
                     for (analytic, numeric, size) in [
-                        (gradient.brdf[j], (up.brdf - down.brdf) / width, up.brdf),
-                        (gradient.dolp[j], (up.dolp - down.dolp) / width, up.dolp),
+                        (gradient.brdf[parameter], (up.brdf - down.brdf) / width, up.brdf),
+                        (gradient.dolp[parameter], (up.dolp - down.dolp) / width, up.dolp),
                     ] {
                         let scale = numeric.abs().max(1e-3 * size / here[parameter].abs());
                         assert!(
@@ -167,7 +166,7 @@ fn dolp_depends_on_the_parameters_that_each_model_says_and_on_no_others() {
         let facets = [(20.0, 65.0), (60.0, 10.0), (75.0, 40.0)].map(|(theta_i, theta_r)| facet(theta_i, theta_r, 180.0));
         let gradients = facets.map(|facet| surface.reflection_and_gradient(&facet, GradientRequest::ALL).1.dolp);
         for parameter in Parameter::ALL {
-            let is_felt = gradients.iter().any(|gradient| gradient[parameter as usize].abs() > NOTHING);
+            let is_felt = gradients.iter().any(|gradient| gradient[parameter].abs() > NOTHING);
             assert_eq!(is_felt, model.dolp_parameters().contains(parameter), "{}: {}", preset.key, parameter.key());
         }
     }
@@ -190,10 +189,9 @@ fn dolp_as_printed_is_the_consistent_one_over_k_s() {
             let dolp = consistent.0.dolp / parameters.ks;
             assert!((printed.0.dolp / dolp - 1.0).abs() < ROUNDING, "{model:?}");
             for parameter in Parameter::ALL {
-                let j = parameter as usize;
                 let by_ks = if parameter == Parameter::Ks { dolp / parameters.ks } else { 0.0 };
-                let of_consistent = consistent.1.dolp[j] / parameters.ks;
-                let error = (printed.1.dolp[j] - (of_consistent - by_ks)).abs();
+                let of_consistent = consistent.1.dolp[parameter] / parameters.ks;
+                let error = (printed.1.dolp[parameter] - (of_consistent - by_ks)).abs();
                 assert!(error <= ROUNDING * (of_consistent.abs() + by_ks), "{model:?} {parameter:?}: {error:e}");
             }
         }
@@ -211,5 +209,5 @@ fn dolp_as_printed_has_a_limit_at_k_s_of_0() {
     // The slope is of the order of 1.
     assert!(here.dolp > 1.0 && (here.dolp - near.dolp).abs() < 1e-7, "{here:?} {near:?}");
     let by_difference = (near.dolp - here.dolp) / 1e-9;
-    assert!((gradient.dolp[Parameter::Ks as usize] / by_difference - 1.0).abs() < 1e-5, "{gradient:?} {by_difference}");
+    assert!((gradient.dolp[Parameter::Ks] / by_difference - 1.0).abs() < 1e-5, "{gradient:?} {by_difference}");
 }

@@ -4,7 +4,7 @@ use crate::cli::arguments::EvaluateArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, exact};
-use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf};
+use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf, PerParameter};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -12,7 +12,7 @@ use std::process::ExitCode;
 /// Which column holds what.
 struct Layout {
     distribution: usize,
-    parameters: [Option<usize>; 9],
+    parameters: PerParameter<Option<usize>>,
     theta_i: usize,
     theta_r: usize,
     dphi: Option<usize>,
@@ -94,10 +94,11 @@ fn read(bytes: &[u8]) -> Result<Vec<(Pbrdf, Geometry)>, ReadError> {
 
 impl Layout {
     fn new(table: &Table) -> Result<Self, ReadError> {
-        let mut parameters = [None; 9];
-        for (slot, parameter) in parameters.iter_mut().zip(Parameter::ALL) {
+        let mut parameters = PerParameter::default();
+        for parameter in Parameter::ALL {
             // A table of Gauss rows needs no q.
-            *slot = if parameter == Parameter::Q { table.find(parameter.key())? } else { Some(table.require(parameter.key())?) };
+            parameters[parameter] =
+                if parameter == Parameter::Q { table.find(parameter.key())? } else { Some(table.require(parameter.key())?) };
         }
         Ok(Self {
             distribution: table.require("distribution")?,
@@ -115,12 +116,12 @@ impl Layout {
         let model = Model::full(distribution);
         let mut parameters = Parameters::default();
         for parameter in model.parameters() {
-            let column = self.parameters[parameter as usize]
-                .ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn { name: "q", similar: None }))?;
+            let column =
+                self.parameters[parameter].ok_or_else(|| record.row_error(ReadErrorKind::MissingColumn { name: "q", similar: None }))?;
             parameters[parameter] = record.number(column, Expected::FiniteNumber)?;
         }
         Pbrdf::new(model, parameters).map_err(|error| {
-            let column = self.parameters[error.parameter() as usize].unwrap_or(self.distribution);
+            let column = self.parameters[error.parameter()].unwrap_or(self.distribution);
             match error {
                 ParameterError::Outside { parameter, .. } => record.out_of_range(column, Expected::Parameter(parameter.domain())),
                 ParameterError::NoIndex => record.out_of_range(column, Expected::Index),

@@ -4,7 +4,7 @@ use crate::cli::arguments::MetalsArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use pbrdf::optics;
-use pbrdf::optics::{Metal, RefractiveIndex, Source};
+use pbrdf::optics::{Metal, MetalSource, RefractiveIndex};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -45,11 +45,11 @@ fn refuse_outside(metal: &Metal, wavelength: f64) -> Result<(), Failure> {
     Err(Failure::usage(format!("No source of {} has {wavelength} nm: they span {low} to {high} nm.", metal.name)))
 }
 
-fn index_at(source: &Source, wavelength: Option<f64>) -> Option<RefractiveIndex> {
+fn index_at(source: &MetalSource, wavelength: Option<f64>) -> Option<RefractiveIndex> {
     source.index_at(wavelength?).ok()
 }
 
-fn row(metal: &Metal, source: &Source, wavelength: Option<f64>) -> Value {
+fn row(metal: &Metal, source: &MetalSource, wavelength: Option<f64>) -> Value {
     let (from, to) = source.range_nm();
     let index = index_at(source, wavelength);
     json!({

@@ -53,7 +53,7 @@ pub fn write_curves(surface: &Pbrdf, series: &[IncidenceSeries], backscatter: bo
     for group in series {
         for point in curve(surface, group, backscatter) {
             let Some(geometry) = group.geometry(point.theta_r) else { continue };
-            let CurvePoint { theta_r, reflection: Reflection { brdf, dolp, specular, diffuse, volume }, limit } = point;
+            let CurvePoint { theta_r, reflection: Reflection { brdf, dolp, specular, diffuse, volume, .. }, limit } = point;
             let angles = [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0, theta_r];
             let numbers = angles.into_iter().chain([dolp, limit, brdf, specular, diffuse, volume]);
             let cells: Vec<String> = numbers.map(exact).collect();

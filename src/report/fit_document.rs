@@ -7,7 +7,7 @@ use crate::report::wording::Wording;
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
-use pbrdf::optics::SlopeDistribution;
+use pbrdf::optics::{Masking, SlopeDistribution};
 
 /// Where measured data come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -371,7 +371,10 @@ impl FitDocument<'_> {
             SlopeDistribution::Gauss => "Gauss facets",
             SlopeDistribution::Cauchy => "Cauchy facets",
         };
-        let masking = if model.masking { "masking and shadowing of V grooves" } else { "no masking" };
+        let masking = match model.masking {
+            Masking::VGroove => "masking and shadowing of V grooves",
+            _ => "no masking",
+        };
         let diffuse = match model.diffuse {
             Diffuse::Absent => None,
             Diffuse::Lambert => Some("a Lambertian term"),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes golden_corners.csv: values and one-sided derivatives at the corners of the domain, to 60 digits.
+"""Makes golden_corners.csv: values and one-sided derivatives at the corners and ends of the domain, to 60 digits.
 
     pip install mpmath==1.3.0
-    python3 assets/reference/make_corner_rows.py > assets/reference/golden_corners.csv
+    python3 core/assets/reference/make_corner_rows.py > core/assets/reference/golden_corners.csv
 
 Straight from the textbook forms (Eqs. 2, 4-7, 10, 12-14, 17 with k_s inside the numerator) in 520-digit arithmetic;
 nothing here is shared with the program. Derivatives are differences of 520-digit values: central where the parameter is
@@ -58,7 +58,7 @@ def derivatives(dist, p, geometry):
         if name == "q":
             h = mpf(10) ** -40 * (p[j] - 1)
         if one_sided:
-            # Far below the smallest weight, 1e-318.
+            # Far below the smallest weight, 1e-100.
             h = mpf(10) ** -400
 
         def at(x):
@@ -108,21 +108,27 @@ def cases():
         "kv_zero": lambda: dict(kv=0.0),
         "no_depolarised": lambda: dict(kd=0.0, kv=0.0),
         "ks_zero": lambda: dict(ks=0.0),
-        "ks_denormal": lambda: dict(ks=10 ** rng.uniform(-318, -290), kd=rng.choice([0.0, 1e-305]), kv=rng.choice([0.0, 1e-300])),
+        "ks_smallest": lambda: dict(ks=10 ** rng.uniform(-100, -90), kd=rng.choice([0.0, 1e-100]), kv=rng.choice([0.0, 1e-98])),
         "specular_underflow": lambda: dict(sigma=10 ** rng.uniform(-5, -2)),
         "specular_underflow_alone": lambda: dict(sigma=10 ** rng.uniform(-5, -2), kd=0.0, kv=0.0),
         "volume_underflow": lambda: dict(sigma_v=10 ** rng.uniform(-4, -2)),
         "both_underflow": lambda: (lambda s: dict(sigma=s, sigma_v=s * rng.uniform(0.9, 3), kd=0.0, tr=rng.uniform(10, 60)))(10 ** rng.uniform(-2.5, -0.8)),
         "sigma_huge": lambda: dict(sigma=10 ** rng.uniform(1, 3)),
+        "sigma_at_its_ends": lambda: dict(sigma=rng.choice([1e-30, 1e30])),
         "sigma_v_huge": lambda: dict(sigma_v=10 ** rng.uniform(1, 3)),
-        "q_near_one": lambda: dict(q=1 + 10 ** rng.uniform(-8, -2)),
+        "sigma_v_at_its_ends": lambda: dict(sigma_v=rng.choice([1e-30, 1e30])),
+        "q_near_one": lambda: dict(q=1 + 10 ** rng.uniform(-12, -2)),
         "q_huge": lambda: dict(q=10 ** rng.uniform(1, 4)),
+        "q_at_its_end": lambda: (lambda t: dict(q=1e12, ti=t, tr=t + 10 ** rng.uniform(-7, -4), dphi=180))(rng.uniform(5, 80)),
+        "c_at_its_ends": lambda: dict(c=rng.choice([-1e3, 1e3]), ti=rng.uniform(1, 18), tr=rng.uniform(1, 18)),
         "brewster": lambda: (lambda n: (lambda t: dict(n=n, k=0.0, ti=t, tr=t, dphi=180))(float(180 * atan(n) / pi)))(rng.uniform(1.1, 4)),
-        "faint_weights_in_the_dark": lambda: dict(sigma=10 ** rng.uniform(-2.2, -1.2), kd=10 ** rng.uniform(-320, -255), kv=0.0),
+        "faint_weights_in_the_dark": lambda: dict(sigma=10 ** rng.uniform(-2.2, -1.2), kd=10 ** rng.uniform(-100, -60), kv=0.0),
         "no_specular_and_no_volume_to_speak_of": lambda: dict(ks=0.0, kd=0.0, sigma_v=10 ** rng.uniform(-4, -2.5), tr=rng.uniform(20, 80)),
-        "volume_absent_and_beyond_f64": lambda: dict(kv=0.0, sigma_v=5e-324, tr=0.0),
-        "glaring_weights": lambda: dict(ks=10 ** rng.uniform(150, 305), kd=10 ** rng.uniform(150, 305), kv=10 ** rng.uniform(150, 305)),
-        "index_huge": lambda: dict(n=10 ** rng.uniform(3, 90), k=10 ** rng.uniform(3, 90)),
+        "volume_absent": lambda: dict(kv=0.0, sigma_v=1e-30, tr=0.0),
+        "glaring_weights": lambda: dict(ks=10 ** rng.uniform(60, 100), kd=10 ** rng.uniform(60, 100), kv=10 ** rng.uniform(60, 100)),
+        "weights_at_their_ends": lambda: dict(ks=rng.choice([1e-100, 1e100]), kd=rng.choice([1e-100, 1e100]), kv=rng.choice([1e-100, 1e100])),
+        "index_huge": lambda: dict(n=10 ** rng.uniform(3, 10), k=10 ** rng.uniform(3, 10)),
+        "index_tiny": lambda: dict(n=10 ** rng.uniform(-300, -20), k=rng.choice([0.0, 10 ** rng.uniform(-300, -20)])),
     }
     for name, corner in corners.items():
         for _ in range(12):
@@ -141,7 +147,7 @@ def text(x):
 
 
 def main():
-    print("# 60-digit values and derivatives at the corners of the domain; made by make_corner_rows.py (mpmath), 2026-11-23")
+    print("# 60-digit values and derivatives at the corners of the domain; made by make_corner_rows.py (mpmath), 2026-11-29")
     header = ["case", "distribution", *NAMES, "theta_i", "theta_r", "dphi", "brdf", "dolp", "specular", "diffuse", "volume"]
     header += ["dbrdf_d" + name for name in NAMES] + ["ddolp_d" + name for name in NAMES]
     print(",".join(header))

@@ -2,7 +2,7 @@
 """Makes stability_gallery.csv: the named stiff and extreme cases of `report stability`, to 60 digits.
 
     pip install mpmath==1.3.0
-    python3 assets/reference/make_stability_gallery.py > assets/reference/stability_gallery.csv
+    python3 core/assets/reference/make_stability_gallery.py > core/assets/reference/stability_gallery.csv
 
 Values and one-sided derivatives come from make_corner_rows.py: the textbook forms in 520-digit arithmetic, nothing of which is
 shared with the program.
@@ -38,11 +38,12 @@ CASES = [
     ("σ = 1e-5 a facet's width off", "both", dict(sigma=1e-5, theta_i=60, theta_r=60.001)),
     ("σ = 1e-5 far off", "both", dict(sigma=1e-5)),
     ("σ = 1000", "both", dict(sigma=1e3)),
-    ("σ = 1e-120", "cauchy", dict(sigma=1e-120)),
-    ("σ = 1e120", "both", dict(sigma=1e120, kd=1e-250, kv=1e-250)),
+    ("σ = 1e-30", "cauchy", dict(sigma=1e-30)),
+    ("σ = 1e30", "both", dict(sigma=1e30, kd=1e-62, kv=1e-62)),
     ("q = 1.0001", "cauchy", dict(q=1.0001)),
     ("q = 1 + 1e-12", "cauchy", dict(q=1 + 1e-12)),
     ("q = 10000", "cauchy", dict(q=1e4)),
+    ("q = 1e12, a facet's width off", "cauchy", dict(q=1e12, theta_i=60, theta_r=60.00001)),
     ("q = 10000, tilted facets", "cauchy", dict(q=1e4, theta_i=10, theta_r=70)),
     ("glass, k = 0", "both", dict(n=1.5, k=0)),
     ("glass at Brewster's angle", "cauchy", dict(n=1.5, k=0, theta_i=56.309932474020215, theta_r=56.309932474020215)),
@@ -61,8 +62,11 @@ CASES = [
     ("n = 0, k = 3", "cauchy", dict(n=0, k=3)),
     ("n = 0.000001, k = 20, grazing", "cauchy", dict(n=1e-6, k=20, theta_i=EDGE, theta_r=89.9)),
     ("n = k = 1000", "cauchy", dict(n=1e3, k=1e3)),
+    ("n = k = 1e10", "cauchy", dict(n=1e10, k=1e10)),
     ("k_s = 0", "both", dict(ks=0)),
-    ("k_s = 1e-300", "cauchy", dict(ks=1e-300)),
+    ("k_s = 1e-100", "cauchy", dict(ks=1e-100)),
+    ("k_s = 1e100", "cauchy", dict(ks=1e100)),
+    ("all weights 1e-100", "cauchy", dict(ks=1e-100, kd=1e-100, kv=1e-100)),
     ("no light at all", "cauchy", dict(ks=0, kd=0, kv=0)),
     ("k_d = k_v = 0", "both", dict(kd=0, kv=0)),
     ("specular term underflows", "gauss", dict(sigma=0.01, theta_i=10, theta_r=70)),
@@ -73,17 +77,21 @@ CASES = [
     ("specular and volume term underflow, q = 10000", "cauchy", dict(sigma=0.7007954, sigma_v=0.016557, q=1e4, kd=0, theta_i=10, theta_r=60)),
     ("σ_v = 0.01 rad", "cauchy", dict(sigma_v=0.01)),
     ("σ_v = 0.001 rad, k_d = 0", "cauchy", dict(sigma_v=0.001, kd=0)),
+    ("σ_v = 1e-30 rad", "cauchy", dict(sigma_v=1e-30)),
     ("σ_v = 1000 rad", "cauchy", dict(sigma_v=1e3)),
+    ("σ_v = 1e30 rad", "cauchy", dict(sigma_v=1e30)),
     ("c = −1", "cauchy", dict(c=-1)),
     ("c = −1, both grazing", "cauchy", dict(c=-1, theta_i=EDGE, theta_r=EDGE)),
     ("c = 0", "cauchy", dict(c=0)),
     ("c = 0, both grazing", "cauchy", dict(c=0, theta_i=EDGE, theta_r=EDGE)),
-    ("faint depolarising terms, k_d = k_v = 1e-218", "gauss", dict(kd=1e-218, kv=1e-218, sigma=0.014746, theta_i=10, theta_r=60)),
+    ("c = −1000", "cauchy", dict(c=-1e3, theta_i=10, theta_r=15)),
+    ("c = 1000", "cauchy", dict(c=1e3, theta_i=10, theta_r=15)),
+    ("faint depolarising terms, k_d = k_v = 1e-50", "gauss", dict(kd=1e-50, kv=1e-50, sigma=0.0301, theta_i=10, theta_r=60)),
 ]
 
 
 def main():
-    print("# 60-digit values and derivatives of the stability gallery; made by make_stability_gallery.py (mpmath), 2026-11-25")
+    print("# 60-digit values and derivatives of the stability gallery; made by make_stability_gallery.py (mpmath), 2026-11-29")
     header = ["case", "distribution", *NAMES, "theta_i", "theta_r", "dphi", "brdf", "dolp", "specular", "diffuse", "volume"]
     header += ["dbrdf_d" + name for name in NAMES] + ["ddolp_d" + name for name in NAMES]
     print(",".join(header))

@@ -64,6 +64,7 @@ pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, 
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Axis, Landscape};
 pub use least_squares::LeastSquares;
+pub(crate) use local::sin_squared::SinSquared;
 pub use local::solution::{LocalFit, Solution};
 pub use local::solver::{Effort, fit_local, minimise};
 pub use multistart::basin::{Basin, MultistartResult};

@@ -35,11 +35,10 @@ impl Kind {
 
     /// Derivative of the predicted value by a parameter.
     pub(crate) fn derivative(self, parameter: Parameter, (reflection, gradient): &(Reflection, Gradient)) -> f64 {
-        let j = parameter as usize;
         match self {
-            Self::Dolp => gradient.dolp[j],
-            Self::Brdf => gradient.brdf[j],
-            Self::LogBrdf => gradient.brdf[j] / reflection.brdf,
+            Self::Dolp => gradient.dolp[parameter],
+            Self::Brdf => gradient.brdf[parameter],
+            Self::LogBrdf => gradient.brdf[parameter] / reflection.brdf,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters as text: `n=2.07, k=3, sigma_v=0.5`, as in options, files and on the clipboard.
 //!
-//! Names are those of files; values lie in the mathematical domain. Assignments are separated by commas, semicolons, blanks or
+//! Names are those of files; values lie in the domain of the parameter. Assignments are separated by commas, semicolons, blanks or
 //! line ends; blanks around the equals sign are allowed.
 
 use crate::model::{Domain, Parameter, ParameterSet, Parameters};
@@ -17,14 +17,14 @@ pub enum AssignmentError {
     /// A value that is no finite number.
     #[error("{0:?} is not a finite number")]
     Number(String),
-    /// A value that the formulas do not allow.
+    /// A value outside the domain.
     #[error("{} = {value} is not allowed: expected {expected}", .parameter.key())]
     Outside {
         /// Which parameter.
         parameter: Parameter,
         /// Its value.
         value: f64,
-        /// What the formulas allow.
+        /// The domain.
         expected: Domain,
     },
     /// The same name twice.
@@ -33,6 +33,10 @@ pub enum AssignmentError {
 }
 
 /// One `name=value`.
+///
+/// # Errors
+///
+/// [`AssignmentError`] where the text has another form, or the value lies outside the parameter's domain.
 pub fn assignment_from_text(text: &str) -> Result<(Parameter, f64), AssignmentError> {
     let (name, value) = text.split_once('=').ok_or_else(|| AssignmentError::Form(text.to_owned()))?;
     let parameter = Parameter::from_key(name.trim()).ok_or_else(|| AssignmentError::Name(name.trim().to_owned()))?;
@@ -47,6 +51,10 @@ pub fn assignment_from_text(text: &str) -> Result<(Parameter, f64), AssignmentEr
 }
 
 /// A list of assignments, each parameter at most once; an empty text is an empty list.
+///
+/// # Errors
+///
+/// [`AssignmentError`] of the first part that is no assignment, or assigns a parameter again.
 pub fn assignments_from_text(text: &str) -> Result<Vec<(Parameter, f64)>, AssignmentError> {
     let mut assignments: Vec<(Parameter, f64)> = Vec::new();
     for part in parts(text) {
@@ -97,7 +105,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit() {
-        let parameters = Parameters { n: 1.0 / 3.0, sigma: 1e-300, c: -0.1, ..Parameters::default() };
+        let parameters = Parameters { n: 1.0 / 3.0, sigma: 1e-30, kd: 1e-100, c: -0.1, ..Parameters::default() };
         let text = text_from_parameters(&parameters, ParameterSet::ALL);
         let read = assignments_from_text(&text).expect("its own text");
         assert!(read.iter().all(|&(parameter, value)| parameters[parameter] == value) && read.len() == 9, "{text}");

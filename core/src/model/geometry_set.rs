@@ -2,8 +2,8 @@
 
 use crate::model::prepared::PreparedGeometry;
 use crate::model::{Gradient, GradientRequest, Pbrdf, Reflection};
-use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex, SharpFacet};
-use std::sync::{Arc, OnceLock};
+use crate::optics::{Facet, Fresnel, Geometry, RefractiveIndex};
+use std::sync::Arc;
 
 /// Geometries, prepared.
 #[derive(Debug, Clone, Default)]
@@ -11,8 +11,6 @@ pub struct GeometrySet {
     facets: Vec<Facet>,
     /// Of each facet, for surfaces of that index.
     fresnel: Option<(RefractiveIndex, Arc<[Fresnel]>)>,
-    /// Of each facet, from when it was first asked for, and room for it from when any was; the copies of a scene have it in common.
-    sharp: Arc<OnceLock<Box<[OnceLock<SharpFacet>]>>>,
 }
 
 /// Equal where the geometries are: what else is prepared changes no result.
@@ -101,39 +99,34 @@ impl GeometrySet {
         (0..self.len()).map(move |point| self.reflection_and_gradient(surface, point, wanted))
     }
 
-    fn at(&self, point: usize) -> Place<'_> {
-        Place { scene: self, point }
+    fn at(&self, point: usize) -> PreparedPoint<'_> {
+        PreparedPoint { set: self, point }
     }
 }
 
-/// One geometry of a scene.
-struct Place<'a> {
-    scene: &'a GeometrySet,
+/// One geometry of a set.
+struct PreparedPoint<'a> {
+    set: &'a GeometrySet,
     point: usize,
 }
 
-impl PreparedGeometry for Place<'_> {
+impl PreparedGeometry for PreparedPoint<'_> {
     fn facet(&self) -> &Facet {
-        &self.scene.facets[self.point]
+        &self.set.facets[self.point]
     }
 
     fn fresnel(&self, wanted: RefractiveIndex) -> Fresnel {
-        match &self.scene.fresnel {
+        match &self.set.fresnel {
             Some((index, fresnel)) if *index == wanted => fresnel[self.point],
             _ => Fresnel::new(wanted, self.facet()),
         }
-    }
-
-    fn sharp(&self) -> SharpFacet {
-        let all = self.scene.sharp.get_or_init(|| self.scene.facets.iter().map(|_| OnceLock::new()).collect());
-        *all[self.point].get_or_init(|| SharpFacet::new(self.facet().geometry))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::GeometrySet;
-    use crate::model::{Batch, GradientRequest, Model, Parameters, Pbrdf};
+    use crate::model::{GradientRequest, Model, Parameters, Pbrdf};
     use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
 
     #[test]
@@ -142,45 +135,16 @@ mod tests {
         let geometries = geometries.map(|(theta_i, theta_r, dphi)| Geometry::new(theta_i, theta_r, dphi).expect("angles in range"));
         let defaults = Parameters::default();
         let index = RefractiveIndex::new(defaults.n, defaults.k).expect("an index");
-        let scene = GeometrySet::new(geometries).with_index(index);
+        let set = GeometrySet::new(geometries).with_index(index);
         for parameters in [defaults, Parameters { sigma: 0.1, ..defaults }, Parameters { n: 1.5, ..defaults }] {
             let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), parameters).expect("in range");
             for (point, geometry) in geometries.into_iter().enumerate() {
                 let facet = Facet::new(geometry);
-                assert_eq!(scene.dolp(&surface, point), surface.dolp(&facet));
-                assert_eq!(scene.reflection(&surface, point), surface.reflection(&facet));
+                assert_eq!(set.dolp(&surface, point), surface.dolp(&facet));
+                assert_eq!(set.reflection(&surface, point), surface.reflection(&facet));
                 let expected = surface.reflection_and_gradient(&facet, GradientRequest::ALL);
-                assert_eq!(scene.reflection_and_gradient(&surface, point, GradientRequest::ALL), expected);
+                assert_eq!(set.reflection_and_gradient(&surface, point, GradientRequest::ALL), expected);
             }
-        }
-    }
-
-    #[test]
-    fn far_tails_are_the_same_in_a_scene() {
-        let surface =
-            Pbrdf::new(Model::full(SlopeDistribution::Gauss), Parameters { sigma: 0.02, kd: 1e-200, kv: 0.0, ..Parameters::default() })
-                .expect("in range");
-        let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
-        let (scene, facet) = (GeometrySet::new([geometry]), Facet::new(geometry));
-        let copy = scene.clone();
-        assert!(surface.dolp(&facet) > 0.0);
-        assert_eq!(scene.dolp(&surface, 0), surface.dolp(&facet));
-        assert_eq!(copy.reflection(&surface, 0), surface.reflection(&facet));
-        let sharp = copy.sharp.get().expect("a far tail was asked for");
-        assert!(sharp[0].get().is_some(), "both copies have it from the first that asked");
-    }
-
-    #[test]
-    fn a_batch_takes_far_tails_from_its_scene() {
-        let extreme = Parameters { sigma: 1e-200, ..Parameters::default() };
-        for distribution in [SlopeDistribution::Gauss, SlopeDistribution::Cauchy] {
-            let surface = Pbrdf::new(Model::full(distribution), extreme).expect("in range");
-            let geometry = Geometry::in_plane(30.0, 70.0).expect("angles in range");
-            let scene = GeometrySet::new([geometry]);
-            let mut dolp = Vec::new();
-            Batch::from_scene(scene.clone()).dolp(&surface, &mut dolp);
-            assert_eq!(dolp, [surface.dolp(&Facet::new(geometry))]);
-            assert!(scene.sharp.get().is_some_and(|sharp| sharp[0].get().is_some()), "made once, for all that share the scene");
         }
     }
 }

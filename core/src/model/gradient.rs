@@ -1,4 +1,4 @@
-//! Analytic partial derivatives of BRDF and DoLP by each of the nine parameters.
+//! Analytic partial derivatives of BRDF and DoLP by each of the parameters.
 //!
 //! With the lobes of unit weight U (specular, without reflectance), D and V, the mean reflectance R and `b = (k_d D + k_v V)/U`:
 //!
@@ -14,18 +14,19 @@ use crate::model::hyde_diffuse::SingleScatteringLoss;
 use crate::model::lobes::Lobe;
 use crate::model::pbrdf::{Lobes, Pbrdf, Reflection};
 use crate::model::prepared::PreparedGeometry;
-use crate::model::{Diffuse, DolpFormula, Parameter, ParameterSet};
+use crate::model::{Diffuse, DolpFormula, Parameter, ParameterSet, PerParameter};
 use crate::optics::{Facet, Fresnel, FresnelGradient};
 
-/// Partial derivatives of BRDF (sr⁻¹ per unit of the parameter) and DoLP, in the order of [`Parameter::ALL`].
+/// Partial derivatives of BRDF (sr⁻¹ per unit of the parameter) and DoLP.
 ///
 /// Those by parameters that play no part in the model are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Gradient {
     /// ∂BRDF/∂p.
-    pub brdf: [f64; 9],
+    pub brdf: PerParameter<f64>,
     /// ∂DoLP/∂p.
-    pub dolp: [f64; 9],
+    pub dolp: PerParameter<f64>,
 }
 
 /// Which derivatives are wanted; the others are left out and stay 0, and so do BRDF with its terms, or DoLP, where no derivative of them is.
@@ -45,12 +46,12 @@ impl GradientRequest {
 }
 
 /// A product that is 0 wherever a factor is, however large the other.
-fn fading(value: f64, slope: f64) -> f64 {
+fn mul_zero_absorbing(value: f64, slope: f64) -> f64 {
     if value == 0.0 || slope == 0.0 { 0.0 } else { value * slope }
 }
 
 /// Adds to a derivative; one that lies beyond f64 already stays there, even against another.
-fn join(derivative: &mut f64, other: f64) {
+fn add_saturating(derivative: &mut f64, other: f64) {
     if derivative.is_finite() {
         *derivative += other;
     }
@@ -65,7 +66,7 @@ struct Mixture {
     /// s = DoLP/DoLP_s: the specular share of the radiance, over k_s as printed.
     share: f64,
     /// 1 − r, formed without a difference.
-    rest: f64,
+    depolarised_share: f64,
     /// k_s R + b.
     total: f64,
 }
@@ -77,7 +78,7 @@ impl Pbrdf {
         self.reflection_and_gradient_with(facet, wanted)
     }
 
-    /// The same of a geometry of which more may be at hand.
+    /// Like [`Self::reflection_and_gradient`], with whatever of the geometry is prepared.
     pub(crate) fn reflection_and_gradient_with(&self, at: &impl PreparedGeometry, wanted: GradientRequest) -> (Reflection, Gradient) {
         let p = self.parameters();
         let facet = at.facet();
@@ -85,8 +86,8 @@ impl Pbrdf {
         let mut reflection = Reflection::default();
         let mut gradient = Gradient::default();
         if wanted.brdf {
-            reflection.diffuse = lobes.diffuse.weighted(self.diffuse_weight());
-            reflection.volume = lobes.volume.weighted(p.kv);
+            reflection.diffuse = lobes.diffuse.scaled(self.diffuse_weight()).value();
+            reflection.volume = lobes.volume.scaled(p.kv).value();
         }
         if self.model().specular {
             let fresnel = at.fresnel(self.index());
@@ -97,7 +98,7 @@ impl Pbrdf {
                 FresnelGradient { mean: [0.0; 2], dolp: [0.0; 2] }
             };
             if wanted.brdf {
-                reflection.specular = lobes.specular.scaled(mean).weighted(p.ks);
+                reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
                 self.specular_brdf_gradient(&lobes, mean, reflection.specular, by_index, wanted.by, &mut gradient.brdf);
             }
             if wanted.dolp {
@@ -120,15 +121,15 @@ impl Pbrdf {
     fn mixture(&self, lobes: &Lobes, fresnel: &Fresnel, mean: f64) -> Mixture {
         let depolarised = self.depolarised_over_specular(lobes);
         let share = self.polarised_share(mean, depolarised);
-        let total = self.raised(self.parameters().ks) * mean + depolarised;
-        let rest = if depolarised == 0.0 {
+        let total = self.parameters().ks * mean + depolarised;
+        let depolarised_share = if depolarised == 0.0 {
             if self.reflects_specularly() { 0.0 } else { 1.0 }
         } else if total.is_finite() {
             depolarised / total
         } else {
             1.0
         };
-        Mixture { mean, limit: fresnel.dolp(), share, rest, total }
+        Mixture { mean, limit: fresnel.dolp(), share, depolarised_share, total }
     }
 
     /// Whether there is any light, so that DoLP has a derivative.
@@ -144,46 +145,53 @@ impl Pbrdf {
         specular: f64,
         by_index: FresnelGradient,
         by: ParameterSet,
-        out: &mut [f64; 9],
+        out: &mut PerParameter<f64>,
     ) {
         let p = self.parameters();
         let distribution = self.model().distribution;
         if by.contains(Parameter::N) || by.contains(Parameter::K) {
-            let weighted = lobes.specular.weighted(p.ks);
-            out[Parameter::N as usize] = fading(weighted, by_index.mean[0]);
-            out[Parameter::K as usize] = fading(weighted, by_index.mean[1]);
+            let weighted = lobes.specular.scaled(p.ks).value();
+            out[Parameter::N] = mul_zero_absorbing(weighted, by_index.mean[0]);
+            out[Parameter::K] = mul_zero_absorbing(weighted, by_index.mean[1]);
         }
-        out[Parameter::Sigma as usize] = fading(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        out[Parameter::Sigma] = mul_zero_absorbing(specular, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         if by.contains(Parameter::Ks) {
-            out[Parameter::Ks as usize] = lobes.specular.value() * mean;
+            out[Parameter::Ks] = lobes.specular.value() * mean;
         }
         if by.contains(Parameter::Q) {
-            let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).weighted(p.ks);
-            out[Parameter::Q as usize] = fading(per_height, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q));
+            let per_height = lobes.specular.scaled(mean / distribution.height(p.q)).scaled(p.ks).value();
+            out[Parameter::Q] = mul_zero_absorbing(per_height, distribution.q_slope(libm::log1p(lobes.w), p.q));
         }
     }
 
-    fn depolarised_brdf_gradient(&self, lobes: &Lobes, facet: &Facet, reflection: &Reflection, by: ParameterSet, out: &mut [f64; 9]) {
+    fn depolarised_brdf_gradient(
+        &self,
+        lobes: &Lobes,
+        facet: &Facet,
+        reflection: &Reflection,
+        by: ParameterSet,
+        out: &mut PerParameter<f64>,
+    ) {
         let p = self.parameters();
         let value = |parameter: Parameter, lobe: Lobe| if by.contains(parameter) { lobe.value() } else { 0.0 };
-        out[Parameter::Kv as usize] = value(Parameter::Kv, lobes.volume);
+        out[Parameter::Kv] = value(Parameter::Kv, lobes.volume);
         match self.model().diffuse {
             Diffuse::Absent => {}
-            Diffuse::Lambert => out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse),
+            Diffuse::Lambert => out[Parameter::Kd] = value(Parameter::Kd, lobes.diffuse),
             Diffuse::Minnaert => {
-                out[Parameter::Kd as usize] = value(Parameter::Kd, lobes.diffuse);
-                out[Parameter::C as usize] = reflection.diffuse * facet.ln_cosines;
+                out[Parameter::Kd] = value(Parameter::Kd, lobes.diffuse);
+                out[Parameter::C] = reflection.diffuse * facet.ln_cosines;
             }
             Diffuse::Hyde if self.model().specular => {
                 let loss = self.loss(facet);
-                out[Parameter::Ks as usize] += lobes.diffuse.value();
-                join(&mut out[Parameter::Sigma as usize], fading(reflection.diffuse, loss.by_sigma));
-                join(&mut out[Parameter::Q as usize], fading(reflection.diffuse, loss.by_q));
+                out[Parameter::Ks] += lobes.diffuse.value();
+                add_saturating(&mut out[Parameter::Sigma], mul_zero_absorbing(reflection.diffuse, loss.by_sigma));
+                add_saturating(&mut out[Parameter::Q], mul_zero_absorbing(reflection.diffuse, loss.by_q));
             }
             Diffuse::Hyde => {}
         }
         if self.model().volume {
-            out[Parameter::SigmaV as usize] = fading(reflection.volume, volume_slope(lobes.volume, p.sigma_v));
+            out[Parameter::SigmaV] = mul_zero_absorbing(reflection.volume, volume_slope(lobes.volume, p.sigma_v));
         }
     }
 
@@ -194,71 +202,72 @@ impl Pbrdf {
         mixture: &Mixture,
         by_index: FresnelGradient,
         by: ParameterSet,
-        out: &mut [f64; 9],
+        out: &mut PerParameter<f64>,
     ) {
         let p = self.parameters();
-        let &Mixture { mean, limit, share, rest, total } = mixture;
+        let &Mixture { mean, limit, share, depolarised_share, total } = mixture;
         let distribution = self.model().distribution;
         // ∂s/∂R and ∂s/∂k_s, without s/R or s/k_s, which are 0/0 in the dark.
-        let by_mean = fading(rest * self.polarised_weight(), 1.0 / total);
+        let by_mean = mul_zero_absorbing(depolarised_share * self.polarised_weight(), 1.0 / total);
         for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
-            out[parameter as usize] = fading(share, by_index.dolp[j]) + fading(limit * by_mean, by_index.mean[j]);
+            out[parameter] = mul_zero_absorbing(share, by_index.dolp[j]) + mul_zero_absorbing(limit * by_mean, by_index.mean[j]);
         }
-        out[Parameter::Ks as usize] = self.raised(fading(limit * self.ks_factor(rest, share) * mean, 1.0 / total));
-        let both = limit * (share * rest);
-        out[Parameter::Sigma as usize] = fading(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
+        out[Parameter::Ks] = mul_zero_absorbing(limit * self.ks_factor(depolarised_share, share) * mean, 1.0 / total);
+        let both = limit * (share * depolarised_share);
+        out[Parameter::Sigma] = mul_zero_absorbing(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         if by.contains(Parameter::Q) {
-            out[Parameter::Q as usize] = fading(both, distribution.q_slope(lobes.ln_1p_w(p.sigma), p.q) / distribution.height(p.q));
+            out[Parameter::Q] = mul_zero_absorbing(both, distribution.q_slope(libm::log1p(lobes.w), p.q) / distribution.height(p.q));
         }
 
-        // −DoLP_s r ∂b/(k_s R + b): the small factors go in before the exponential can overflow.
+        // −DoLP_s s ∂b/(k_s R + b): the small factors enter before the exponential can overflow.
         let gains = [-limit * share, 1.0 / total];
-        let darken = |lobe: Lobe, weight: f64| lobe.scaled(self.raised(weight)).over_times(lobes.specular, gains);
-        let darken_for = |parameter: Parameter, lobe: Lobe, weight: f64| if by.contains(parameter) { darken(lobe, weight) } else { 0.0 };
-        out[Parameter::Kv as usize] = darken_for(Parameter::Kv, lobes.volume, 1.0);
+        let neg_ratio = |lobe: Lobe, weight: f64| lobe.scaled(weight).scaled_ratio(lobes.specular, gains);
+        let neg_ratio_for =
+            |parameter: Parameter, lobe: Lobe, weight: f64| if by.contains(parameter) { neg_ratio(lobe, weight) } else { 0.0 };
+        out[Parameter::Kv] = neg_ratio_for(Parameter::Kv, lobes.volume, 1.0);
         match self.model().diffuse {
             Diffuse::Absent => {}
-            Diffuse::Lambert => out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0),
+            Diffuse::Lambert => out[Parameter::Kd] = neg_ratio_for(Parameter::Kd, lobes.diffuse, 1.0),
             Diffuse::Minnaert => {
-                out[Parameter::Kd as usize] = darken_for(Parameter::Kd, lobes.diffuse, 1.0);
-                out[Parameter::C as usize] = darken_for(Parameter::C, lobes.diffuse, p.kd) * facet.ln_cosines;
+                out[Parameter::Kd] = neg_ratio_for(Parameter::Kd, lobes.diffuse, 1.0);
+                out[Parameter::C] = neg_ratio_for(Parameter::C, lobes.diffuse, p.kd) * facet.ln_cosines;
             }
             Diffuse::Hyde => {
                 let loss = self.loss(facet);
-                let balance = darken(lobes.diffuse, p.ks);
-                join(&mut out[Parameter::Sigma as usize], fading(balance, loss.by_sigma));
-                join(&mut out[Parameter::Q as usize], fading(balance, loss.by_q));
+                let balance = neg_ratio(lobes.diffuse, p.ks);
+                add_saturating(&mut out[Parameter::Sigma], mul_zero_absorbing(balance, loss.by_sigma));
+                add_saturating(&mut out[Parameter::Q], mul_zero_absorbing(balance, loss.by_q));
                 // Specular lobe and balance rise together with k_s: in the consistent formula k_s counts against the
                 // volume lobe alone.
-                let others = lobes.volume.scaled(self.raised(p.kv)).over(lobes.specular);
-                let rest = if others == 0.0 { 0.0 } else { (others / total).min(1.0) };
-                out[Parameter::Ks as usize] = match self.model().dolp_formula {
-                    DolpFormula::Consistent => self.raised(fading(limit * rest * mean, 1.0 / total)),
+                let others = lobes.volume.scaled(p.kv).ratio(lobes.specular);
+                let volume_share = if others == 0.0 { 0.0 } else { (others / total).min(1.0) };
+                out[Parameter::Ks] = match self.model().dolp_formula {
+                    DolpFormula::Consistent => mul_zero_absorbing(limit * volume_share * mean, 1.0 / total),
                     // −DoLP ∂ln(k_s R + b)/∂k_s
                     DolpFormula::AsPrinted => {
-                        let ratio = lobes.diffuse.over(lobes.specular);
-                        self.raised(fading(-limit * share * (mean + ratio), 1.0 / total))
+                        let ratio = lobes.diffuse.ratio(lobes.specular);
+                        mul_zero_absorbing(-limit * share * (mean + ratio), 1.0 / total)
                     }
                 };
             }
         }
         if self.model().volume {
-            out[Parameter::SigmaV as usize] =
-                fading(darken_for(Parameter::SigmaV, lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
+            out[Parameter::SigmaV] =
+                mul_zero_absorbing(neg_ratio_for(Parameter::SigmaV, lobes.volume, p.kv), volume_slope(lobes.volume, p.sigma_v));
         }
     }
 }
 
 impl Pbrdf {
     /// `∂s/∂k_s` over `R/(k_s R + b)`.
-    fn ks_factor(&self, rest: f64, share: f64) -> f64 {
+    fn ks_factor(&self, depolarised_share: f64, share: f64) -> f64 {
         match self.model().dolp_formula {
-            DolpFormula::Consistent => rest,
+            DolpFormula::Consistent => depolarised_share,
             DolpFormula::AsPrinted => -share,
         }
     }
 
-    /// What single reflection loses, for Hyde's term.
+    /// The light that single reflection loses: Hyde's term.
     fn loss(&self, facet: &Facet) -> SingleScatteringLoss {
         SingleScatteringLoss::at(self.model().distribution, facet.theta_i, self.parameters().sigma, self.parameters().q)
     }
@@ -269,15 +278,15 @@ fn volume_slope(volume: Lobe, sigma_v: f64) -> f64 {
     (2.0 * volume.exponent - 1.0) / sigma_v
 }
 
-/// Clears the derivatives that nobody asked for.
+/// Sets derivatives that are not requested to 0.
 fn mask(gradient: &mut Gradient, wanted: ParameterSet) {
     if wanted == ParameterSet::ALL {
         return;
     }
     for parameter in Parameter::ALL {
         if !wanted.contains(parameter) {
-            gradient.brdf[parameter as usize] = 0.0;
-            gradient.dolp[parameter as usize] = 0.0;
+            gradient.brdf[parameter] = 0.0;
+            gradient.dolp[parameter] = 0.0;
         }
     }
 }

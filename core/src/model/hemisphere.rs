@@ -32,6 +32,7 @@ struct Row {
 
 /// A surface over all directions of view: `size`² cells, row by row from y = −1 upwards, NaN outside the disc.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct HemisphereMap {
     /// Cells along an edge.
     pub size: usize,
@@ -56,6 +57,10 @@ impl HemisphereMap {
 
 impl Hemisphere {
     /// For an angle of incidence in degrees and a grid of `size`² cells; none if it is cancelled.
+    ///
+    /// # Errors
+    ///
+    /// [`GeometryError`] where the angle lies outside [0, 90) degrees.
     pub fn new(theta_i: f64, size: usize, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Option<Self>, GeometryError> {
         Geometry::new(theta_i, 0.0, 0.0)?;
         let row = |index: usize| if cancelled() { None } else { Some(Row::new(theta_i, size, index)) };

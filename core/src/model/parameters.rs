@@ -1,7 +1,9 @@
-//! The nine parameters, declared once: sliders, file headers, options, bounds and help derive from here.
+//! The parameters, declared once: sliders, file headers, options, bounds and help derive from here.
 
-use crate::optics::{RefractiveIndex, RefractiveIndexError};
-use serde::{Deserialize, Serialize};
+use crate::model::Domain;
+use crate::optics::RefractiveIndex;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::{Index, IndexMut, RangeInclusive};
 
 macro_rules! parameters {
@@ -10,11 +12,11 @@ macro_rules! parameters {
         range: $low:literal..=$high:literal, domain: $domain:expr, default: $default:literal, logarithmic: $log:literal,
         help: $help:literal $(,)?
     })*) => {
-        /// Which of the nine parameters.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        /// A parameter of the model; a file holds its key.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Parameter { $(#[doc = $help] $variant,)* }
 
-        /// Values of the nine parameters.
+        /// Values of the parameters.
         #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
         #[serde(default)]
         pub struct Parameters { $(#[doc = $help] pub $field: f64,)* }
@@ -24,12 +26,17 @@ macro_rules! parameters {
         }
 
         impl Parameter {
-            /// All nine, in the order of files and tables.
-            pub const ALL: [Self; 9] = [$(Self::$variant,)*];
+            /// How many there are.
+            pub const COUNT: usize = Self::KEYS.len();
+
+            /// All of them, in the order of files and tables.
+            pub const ALL: [Self; Self::COUNT] = [$(Self::$variant,)*];
+
+            const KEYS: &[&str] = &[$($key,)*];
 
             /// Name in files, options and JSON.
             #[must_use]
-            pub fn key(self) -> &'static str { match self { $(Self::$variant => $key,)* } }
+            pub fn key(self) -> &'static str { Self::KEYS[self as usize] }
 
             /// Symbol in the literature.
             #[must_use]
@@ -47,7 +54,7 @@ macro_rules! parameters {
             #[must_use]
             pub fn range(self) -> RangeInclusive<f64> { match self { $(Self::$variant => $low..=$high,)* } }
 
-            /// Values that the formulas allow; finite ones only.
+            /// Values that it may have.
             #[must_use]
             pub fn domain(self) -> Domain { match self { $(Self::$variant => $domain,)* } }
 
@@ -77,84 +84,57 @@ macro_rules! parameters {
     };
 }
 
-/// Values that the formulas allow for a parameter; always finite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Domain {
-    /// From this value on.
-    From(f64),
-    /// Above this value.
-    Above(f64),
-    /// Any finite number.
-    Finite,
-}
-
-impl Domain {
-    /// Whether a value lies in it.
-    #[must_use]
-    pub fn contains(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::From(low) => value >= low,
-                Self::Above(low) => value > low,
-                Self::Finite => true,
-            }
-    }
-}
-
-impl std::fmt::Display for Domain {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::From(low) => write!(f, "a finite number ≥ {low}"),
-            Self::Above(low) => write!(f, "a finite number > {low}"),
-            Self::Finite => write!(f, "a finite number"),
-        }
-    }
-}
+/// Of a slope or an angle: a mirror below, a surface without direction above.
+const WIDTH: Domain = Domain::Between(1e-30, 1e30);
+/// Of k_s, k_d and k_v.
+const WEIGHT: Domain = Domain::ZeroOrBetween(1e-100, 1e100);
+/// Of n and k.
+const INDEX: Domain = Domain::Between(0.0, RefractiveIndex::LARGEST);
 
 parameters! {
     N n {
         key: "n", symbol: "n", name: "refractive index", unit: "",
-        range: 0.01..=10.0, domain: Domain::From(0.0), default: 2.0, logarithmic: true,
+        range: 0.01..=10.0, domain: INDEX, default: 2.0, logarithmic: true,
         help: "Real part of the complex refractive index N = n + i k of the metal. With k it sets the Fresnel limit that DoLP cannot exceed.",
     }
     K k {
         key: "k", symbol: "k", name: "extinction coefficient", unit: "",
-        range: 0.0..=20.0, domain: Domain::From(0.0), default: 3.0, logarithmic: false,
+        range: 0.0..=20.0, domain: INDEX, default: 3.0, logarithmic: false,
         help: "Imaginary part of the complex refractive index N = n + i k. For a good metal it is larger than n, and DoLP knows little more than n/(n² + k²).",
     }
     Sigma sigma {
         key: "sigma", symbol: "σ", name: "surface slope", unit: "",
-        range: 0.001..=3.0, domain: Domain::Above(0.0), default: 0.3, logarithmic: true,
+        range: 0.001..=3.0, domain: WIDTH, default: 0.3, logarithmic: true,
         help: "Scale of the facet slopes: larger is rougher and gives a wider specular lobe. A slope, without unit; not a height in µm.",
     }
     Ks ks {
         key: "ks", symbol: "k_s", name: "specular coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 1.0, logarithmic: true,
+        range: 0.0..=10.0, domain: WEIGHT, default: 1.0, logarithmic: true,
         help: "Weight of the specular lobe, the only one that polarises. DoLP depends on k_d/k_s and k_v/k_s alone: fix k_s = 1 unless the BRDF is measured too.",
     }
     Kd kd {
         key: "kd", symbol: "k_d", name: "diffuse coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: true,
+        range: 0.0..=10.0, domain: WEIGHT, default: 0.1, logarithmic: true,
         help: "Weight of the Minnaert lobe, which depolarises.",
     }
     Kv kv {
         key: "kv", symbol: "k_v", name: "volume coefficient", unit: "",
-        range: 0.0..=10.0, domain: Domain::From(0.0), default: 0.1, logarithmic: true,
+        range: 0.0..=10.0, domain: WEIGHT, default: 0.1, logarithmic: true,
         help: "Weight of the volume lobe around the surface normal, which depolarises.",
     }
     Q q {
         key: "q", symbol: "q", name: "tail exponent", unit: "",
-        range: 1.0001..=20.0, domain: Domain::Above(1.0), default: 2.0, logarithmic: true,
+        range: 1.0001..=20.0, domain: Domain::Between(1.000_000_000_001, 1e12), default: 2.0, logarithmic: true,
         help: "Tail of the Cauchy slope distribution, which falls off as slope to the power −2q: smaller is a heavier tail. q = 2 is GGX.",
     }
     C c {
         key: "c", symbol: "c", name: "Minnaert exponent", unit: "",
-        range: -1.0..=0.0, domain: Domain::Finite, default: -0.5, logarithmic: false,
+        range: -1.0..=0.0, domain: Domain::Between(-1e3, 1e3), default: -0.5, logarithmic: false,
         help: "Exponent of (cos θi cos θr) in the Minnaert lobe. c = 0 is Lambert; towards −1 the lobe brightens at grazing angles.",
     }
     SigmaV sigma_v {
         key: "sigma_v", symbol: "σ_v", name: "volume width", unit: "rad",
-        range: 0.01..=3.0, domain: Domain::Above(0.0), default: 0.5, logarithmic: true,
+        range: 0.01..=3.0, domain: WIDTH, default: 0.5, logarithmic: true,
         help: "Standard deviation of the volume lobe in the angle of view θr.",
     }
 }
@@ -169,142 +149,45 @@ impl Parameter {
     /// All names in files and options, for messages.
     #[must_use]
     pub fn keys() -> String {
-        Self::ALL.map(Self::key).join(", ")
+        Self::KEYS.join(", ")
     }
 }
 
-/// A value that the formulas do not allow.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ParameterError {
-    /// One parameter outside its mathematical domain.
-    #[error("{} = {value} is not allowed: expected {}", .parameter.key(), .parameter.domain())]
-    Outside {
-        /// Which.
-        parameter: Parameter,
-        /// Its value.
-        value: f64,
-    },
-    /// n and k are both 0.
-    #[error("n and k are both 0: a medium needs at least one of them above 0")]
-    NoIndex,
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
 }
 
-impl ParameterError {
-    /// The parameter to look at.
-    #[must_use]
-    pub fn parameter(self) -> Parameter {
-        match self {
-            Self::Outside { parameter, .. } => parameter,
-            Self::NoIndex => Parameter::N,
-        }
+impl<'de> Deserialize<'de> for Parameter {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        // Sessions of earlier releases hold the names of the variants.
+        let by_variant = || Self::ALL.into_iter().find(|parameter| format!("{parameter:?}") == name);
+        Self::from_key(&name).or_else(by_variant).ok_or_else(|| D::Error::unknown_variant(&name, Self::KEYS))
     }
 }
 
 impl Parameters {
-    /// Checks those parameters against the mathematical domain (not the ranges of the sliders).
-    pub fn validate(&self, used: ParameterSet) -> Result<(), ParameterError> {
-        for parameter in used {
-            let value = self[parameter];
-            if !parameter.domain().contains(value) {
-                return Err(ParameterError::Outside { parameter, value });
-            }
+    /// With weights too small for their domain set to 0, as [`Domain::flush_to_zero`] has it.
+    #[must_use]
+    pub fn flushed_to_zero(mut self) -> Self {
+        for parameter in Parameter::ALL {
+            self[parameter] = parameter.domain().flush_to_zero(self[parameter]);
         }
-        match RefractiveIndex::new(self.n, self.k) {
-            Err(RefractiveIndexError::Zero) if used.contains(Parameter::N) => Err(ParameterError::NoIndex),
-            _ => Ok(()),
-        }
+        self
     }
 
     /// As an array in the order of [`Parameter::ALL`].
     #[must_use]
-    pub fn to_array(&self) -> [f64; 9] {
+    pub fn to_array(&self) -> [f64; Parameter::COUNT] {
         Parameter::ALL.map(|parameter| self[parameter])
-    }
-}
-
-/// A set of parameters: those a model uses, or those a fit may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct ParameterSet(u16);
-
-impl ParameterSet {
-    /// No parameter.
-    pub const EMPTY: Self = Self(0);
-    /// All nine.
-    pub const ALL: Self = Self(0x1ff);
-
-    /// Whether a parameter is in it.
-    #[must_use]
-    pub fn contains(self, parameter: Parameter) -> bool {
-        self.0 & (1 << parameter as u16) != 0
-    }
-
-    /// With one parameter more.
-    #[must_use]
-    pub fn with(self, parameter: Parameter) -> Self {
-        Self(self.0 | 1 << parameter as u16)
-    }
-
-    /// With one parameter less.
-    #[must_use]
-    pub fn without(self, parameter: Parameter) -> Self {
-        Self(self.0 & !(1 << parameter as u16))
-    }
-
-    /// The parameters in both.
-    #[must_use]
-    pub fn intersection(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-
-    /// The parameters in either.
-    #[must_use]
-    pub fn union(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Without those of another set.
-    #[must_use]
-    pub fn without_all(self, other: Self) -> Self {
-        Self(self.0 & !other.0)
-    }
-
-    /// How many.
-    #[must_use]
-    pub fn len(self) -> usize {
-        self.0.count_ones() as usize
-    }
-
-    /// Whether there is none.
-    #[must_use]
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Each in the order of [`Parameter::ALL`].
-    pub fn iter(self) -> impl Iterator<Item = Parameter> {
-        Parameter::ALL.into_iter().filter(move |&parameter| self.contains(parameter))
-    }
-}
-
-impl FromIterator<Parameter> for ParameterSet {
-    fn from_iter<I: IntoIterator<Item = Parameter>>(parameters: I) -> Self {
-        parameters.into_iter().fold(Self::EMPTY, Self::with)
-    }
-}
-
-impl IntoIterator for ParameterSet {
-    type Item = Parameter;
-    type IntoIter = std::vec::IntoIter<Parameter>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.iter().collect::<Vec<_>>().into_iter()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Parameter, ParameterSet, Parameters};
+    use super::{Parameter, Parameters};
 
     #[test]
     fn defaults_lie_in_the_ranges_and_the_ranges_in_the_domains() {
@@ -324,10 +207,15 @@ mod tests {
     }
 
     #[test]
-    fn sets_keep_what_was_put_in() {
-        let set = ParameterSet::ALL.without(Parameter::Ks);
-        assert_eq!(set.len(), 8);
-        assert!(!set.contains(Parameter::Ks) && set.contains(Parameter::SigmaV));
-        assert_eq!(set.with(Parameter::Ks), ParameterSet::ALL);
+    fn files_hold_keys_and_older_ones_names_of_variants() {
+        for parameter in Parameter::ALL {
+            let text = serde_json::to_string(&parameter).expect("a text");
+            assert_eq!(text, format!("{:?}", parameter.key()));
+            for text in [text, format!("\"{parameter:?}\"")] {
+                assert_eq!(serde_json::from_str::<Parameter>(&text).expect("a parameter"), parameter);
+            }
+        }
+        let error = serde_json::from_str::<Parameter>("\"m\"").expect_err("no parameter");
+        assert!(error.to_string().contains("unknown variant `m`, expected one of `n`, `k`"), "{error}");
     }
 }

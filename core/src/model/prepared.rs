@@ -1,6 +1,6 @@
-//! What an evaluation needs of a geometry, and may find prepared: the facet, its Fresnel reflection, and the digits for far tails.
+//! What an evaluation needs of a geometry: the facet, and its Fresnel reflection, which may be prepared.
 
-use crate::optics::{Facet, Fresnel, RefractiveIndex, SharpFacet};
+use crate::optics::{Facet, Fresnel, RefractiveIndex};
 
 /// A geometry as an evaluation sees it.
 pub(crate) trait PreparedGeometry {
@@ -9,11 +9,6 @@ pub(crate) trait PreparedGeometry {
     /// Its Fresnel reflection on surfaces of that index.
     fn fresnel(&self, index: RefractiveIndex) -> Fresnel {
         Fresnel::new(index, self.facet())
-    }
-
-    /// What exponents need where f64 has too few digits; costly to make, and seldom asked for.
-    fn sharp(&self) -> SharpFacet {
-        SharpFacet::new(self.facet().geometry)
     }
 }
 

@@ -1,8 +1,9 @@
 //! The ladder of models to compare: one core, different terms switched on.
 
 use crate::model::{Diffuse, DolpFormula, Model};
-use crate::optics::SlopeDistribution;
+use crate::optics::Masking::VGroove;
 use crate::optics::SlopeDistribution::{Cauchy, Gauss};
+use crate::optics::{Masking, SlopeDistribution};
 
 /// A model with a name and a source.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +20,7 @@ pub struct Preset {
     pub dolp_only: bool,
 }
 
-const fn model(distribution: SlopeDistribution, masking: bool, diffuse: Diffuse, volume: bool) -> Model {
+const fn model(distribution: SlopeDistribution, masking: Masking, diffuse: Diffuse, volume: bool) -> Model {
     Model { distribution, masking, specular: true, diffuse, volume, dolp_formula: DolpFormula::Consistent }
 }
 
@@ -29,56 +30,56 @@ pub const PRESETS: [Preset; 10] = [
         key: "fresnel",
         name: "Fresnel reflection alone (Thilak)",
         citation: "Thilak, Voelz, Creusere, Appl. Opt. 46(30), 7527 (2007)",
-        model: model(Gauss, true, Diffuse::Absent, false),
+        model: model(Gauss, VGroove, Diffuse::Absent, false),
         dolp_only: true,
     },
     Preset {
         key: "priest-germer",
         name: "Gauss facets without masking (Priest–Germer)",
         citation: "Priest, Germer, Proc. MSS (2000)",
-        model: model(Gauss, false, Diffuse::Absent, false),
+        model: model(Gauss, Masking::None, Diffuse::Absent, false),
         dolp_only: false,
     },
     Preset {
         key: "specular",
         name: "Cauchy facets with masking",
         citation: "the specular part of Wang et al. 2021",
-        model: model(Cauchy, true, Diffuse::Absent, false),
+        model: model(Cauchy, VGroove, Diffuse::Absent, false),
         dolp_only: false,
     },
     Preset {
         key: "specular-gauss",
         name: "Gauss facets with masking",
         citation: "the specular part of Wang et al. 2021",
-        model: model(Gauss, true, Diffuse::Absent, false),
+        model: model(Gauss, VGroove, Diffuse::Absent, false),
         dolp_only: false,
     },
     Preset {
         key: "hyde",
         name: "Gauss facets, and what they lose as depolarised light (Hyde)",
         citation: "Hyde, Schmidt, Havrilla, Opt. Express 17(24), 22138 (2009)",
-        model: model(Gauss, true, Diffuse::Hyde, false),
+        model: model(Gauss, VGroove, Diffuse::Hyde, false),
         dolp_only: false,
     },
     Preset {
         key: "lambert",
         name: "two components, Lambertian diffuse",
         citation: "Torrance–Sparrow with a Lambertian term",
-        model: model(Gauss, true, Diffuse::Lambert, false),
+        model: model(Gauss, VGroove, Diffuse::Lambert, false),
         dolp_only: false,
     },
     Preset {
         key: "minnaert",
         name: "two components, Minnaert diffuse (Zhu)",
         citation: "Zhu et al., Laser Optoelectron. Prog. 57(9), 092901 (2020)",
-        model: model(Gauss, true, Diffuse::Minnaert, false),
+        model: model(Gauss, VGroove, Diffuse::Minnaert, false),
         dolp_only: false,
     },
     Preset {
         key: "three-component",
         name: "three components, Lambertian diffuse (Wang 2017)",
         citation: "Wang, Zhu, Liu, Chin. Phys. B 26(2), 024210 (2017)",
-        model: model(Gauss, true, Diffuse::Lambert, true),
+        model: model(Gauss, VGroove, Diffuse::Lambert, true),
         dolp_only: false,
     },
     Preset {

@@ -10,24 +10,17 @@
 //!
 //! These follow from `rs = (cos β − a)/(cos β + a)` and `rp = rs (sin²β − a cos β)/(sin²β + a cos β)`, the
 //! "Verdet" sign: at normal incidence rp = −rs.
-//!
-//! Everything is divided by a power of two near |N| where N is so large that its square would overflow.
 
 use crate::optics::{Facet, RefractiveIndex};
 
 /// Fresnel reflection at one facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fresnel {
-    /// n, k_m, cos β and sin²β over the scale, and the reciprocal of the scale.
-    n: f64,
-    k: f64,
-    cos_over: f64,
-    sin_sq_over: f64,
-    one_over: f64,
+    index: RefractiveIndex,
     cos_beta: f64,
     cos_beta_sq: f64,
-    /// sin²β over the scale squared.
-    sin_sq: f64,
+    sin_beta_sq: f64,
+    /// Letters of the module's page.
     u: f64,
     v: f64,
     a_sq: f64,
@@ -46,9 +39,6 @@ pub struct FresnelGradient {
     pub dolp: [f64; 2],
 }
 
-/// Indices above this are scaled: their fourth powers leave the range of f64.
-const LARGE_INDEX: f64 = 1e60;
-
 impl Fresnel {
     /// Of that index at that facet.
     #[must_use]
@@ -58,37 +48,29 @@ impl Fresnel {
 
     /// Under an angle of incidence β, given cos β, its square and sin²β.
     pub(crate) fn under(index: RefractiveIndex, cos_beta: f64, cos_beta_sq: f64, sin_beta_sq: f64) -> Self {
-        let one_over = scale(index);
-        let (n, k) = (index.n() * one_over, index.k_m() * one_over);
-        let (cos_over, sin_sq_over) = (cos_beta * one_over, sin_beta_sq * one_over);
-        let sin_sq = sin_sq_over * one_over;
-
-        let x = real_part_of_a_sq(n, k, sin_sq, cos_over * cos_over, one_over);
+        let (n, k) = (index.n(), index.k_m());
+        let x = real_part_of_a_sq(n, k, sin_beta_sq, cos_beta_sq);
         let nk = n * k;
         let a_sq = libm::hypot(x, 2.0 * nk);
         let larger = (0.5 * (a_sq + x.abs())).sqrt();
         let smaller = if larger > 0.0 { nk / larger } else { 0.0 };
         let (u, v) = if x >= 0.0 { (larger, smaller) } else { (smaller, larger) };
 
-        let (minus, plus) = (n - one_over, n + one_over);
-        let h = a_sq * cos_beta_sq + sin_sq_over * sin_sq_over;
-        let cos_plus_u = cos_over + u;
+        let (minus, plus) = (n - 1.0, n + 1.0);
+        let h = a_sq * cos_beta_sq + sin_beta_sq * sin_beta_sq;
+        let cos_plus_u = cos_beta + u;
         Self {
-            n,
-            k,
-            cos_over,
-            sin_sq_over,
-            one_over,
+            index,
             cos_beta,
             cos_beta_sq,
-            sin_sq,
+            sin_beta_sq,
             u,
             v,
             a_sq,
             e: (minus * minus + k * k) * (plus * plus + k * k),
             w: cos_plus_u * cos_plus_u + v * v,
             h,
-            z: h + 2.0 * u * cos_beta * sin_sq_over,
+            z: h + 2.0 * u * cos_beta * sin_beta_sq,
         }
     }
 
@@ -110,7 +92,7 @@ impl Fresnel {
     /// At N = 1 it is the limit for an index near 1 (where it is itself well defined).
     #[must_use]
     pub fn dolp(&self) -> f64 {
-        let numerator = 2.0 * self.u * self.sin_sq_over * self.cos_beta;
+        let numerator = 2.0 * self.u * self.sin_beta_sq * self.cos_beta;
         // An ulp or two above 1 near Brewster's angle.
         if numerator > 0.0 { (numerator / self.h).min(1.0) } else { 0.0 }
     }
@@ -122,8 +104,8 @@ impl Fresnel {
             return (-self.rs(), 0.0);
         }
         let scale = self.rs() / self.z;
-        let real = self.sin_sq_over * self.sin_sq_over - self.a_sq * self.cos_beta_sq;
-        (scale * real, scale * 2.0 * self.v * self.cos_beta * self.sin_sq_over)
+        let real = self.sin_beta_sq * self.sin_beta_sq - self.a_sq * self.cos_beta_sq;
+        (scale * real, scale * 2.0 * self.v * self.cos_beta * self.sin_beta_sq)
     }
 
     /// Partial derivatives by n and k_m; at k_m = 0 one-sided.
@@ -134,17 +116,17 @@ impl Fresnel {
         if self.a_sq == 0.0 {
             return FresnelGradient { mean: [f64::NEG_INFINITY; 2], dolp: [f64::INFINITY; 2] };
         }
-        let Self { n, k, u, v, a_sq, .. } = *self;
+        let (n, k) = (self.index.n(), self.index.k_m());
+        let Self { u, v, a_sq, .. } = *self;
         // ∂a/∂n = N/a and ∂a/∂k = iN/a; the second real part is S v n/((n² + v²)|a|²), S = sin²β, once
         // v² − k² = S v²/(n² + v²) has taken the place of its difference.
         let along = (n * u + k * v) / a_sq;
         let size = libm::hypot(n, v);
-        let across = if size > 0.0 { self.sin_sq * (n / size) * (v / size) / a_sq } else { 0.0 };
+        let across = if size > 0.0 { self.sin_beta_sq * (n / size) * (v / size) / a_sq } else { 0.0 };
         let modulus_sq = n * n + k * k;
         let u_slopes = [along, across];
-        let a_sq_slopes = [2.0 * n * (modulus_sq - self.sin_sq) / a_sq, 2.0 * k * (modulus_sq + self.sin_sq) / a_sq];
-        let one_sq = self.one_over * self.one_over;
-        let e_slopes = [4.0 * n * ((n - self.one_over) * (n + self.one_over) + k * k), 4.0 * k * (modulus_sq + one_sq)];
+        let a_sq_slopes = [2.0 * n * (modulus_sq - self.sin_beta_sq) / a_sq, 2.0 * k * (modulus_sq + self.sin_beta_sq) / a_sq];
+        let e_slopes = [4.0 * n * ((n - 1.0) * (n + 1.0) + k * k), 4.0 * k * (modulus_sq + 1.0)];
         let by = |j: usize| self.slopes(u_slopes[j], a_sq_slopes[j], e_slopes[j]);
         let ((mean_n, dolp_n), (mean_k, dolp_k)) = (by(0), by(1));
         FresnelGradient { mean: [mean_n, mean_k], dolp: [dolp_n, dolp_k] }
@@ -157,8 +139,8 @@ impl Fresnel {
         }
         let Self { u, w, h, z, .. } = *self;
         let dh = self.cos_beta_sq * da_sq;
-        let dw = 2.0 * self.cos_over * du + da_sq;
-        let dz = dh + 2.0 * self.cos_beta * self.sin_sq_over * du;
+        let dw = 2.0 * self.cos_beta * du + da_sq;
+        let dz = dh + 2.0 * self.cos_beta * self.sin_beta_sq * du;
         let mean = self.mean();
         let dmean = if mean < 0.5 {
             de / w / w * (h / z) + mean * (dh / h - 2.0 * dw / w - dz / z)
@@ -166,25 +148,19 @@ impl Fresnel {
             // A strong reflector hardly changes: 1 − (Rs + Rp)/2 = 4u (cos β/W + Rs cos β sin²β/2Z) keeps the digits.
             let rs = self.rs();
             let drs = de / w / w - 2.0 * rs * dw / w;
-            let s_part = self.cos_over / w;
-            let p_part = 0.5 * self.cos_beta * self.sin_sq_over / z;
+            let s_part = self.cos_beta / w;
+            let p_part = 0.5 * self.cos_beta * self.sin_beta_sq / z;
             let absorbed = s_part + rs * p_part;
             let dabsorbed = -s_part * dw / w + p_part * (drs - rs * dz / z);
             -4.0 * (du * absorbed + u * dabsorbed)
         };
-        let ddolp = 2.0 * self.sin_sq_over * self.cos_beta / h * (du - u * dh / h);
-        (dmean * self.one_over, ddolp * self.one_over)
+        let ddolp = 2.0 * self.sin_beta_sq * self.cos_beta / h * (du - u * dh / h);
+        (dmean, ddolp)
     }
 }
 
-/// The reciprocal of the power of two by which a huge index is divided; 1 otherwise.
-fn scale(index: RefractiveIndex) -> f64 {
-    let largest = index.n().max(index.k_m());
-    if largest > LARGE_INDEX { libm::ldexp(1.0, -libm::ilogb(largest)) } else { 1.0 }
-}
-
 /// Re(N² − sin²β), by whichever of two equal sums has the smaller terms.
-fn real_part_of_a_sq(n: f64, k: f64, sin_sq: f64, cos_sq: f64, one: f64) -> f64 {
-    let excess = (n - one) * (n + one);
+fn real_part_of_a_sq(n: f64, k: f64, sin_sq: f64, cos_sq: f64) -> f64 {
+    let excess = (n - 1.0) * (n + 1.0);
     if excess.abs().max(cos_sq) < (n * n).max(sin_sq) { (excess - k * k) + cos_sq } else { (n - k) * (n + k) - sin_sq }
 }

@@ -19,12 +19,12 @@ pub struct Metal {
     /// Name in words.
     pub name: String,
     /// Who measured it, at least one.
-    pub sources: Vec<Source>,
+    pub sources: Vec<MetalSource>,
 }
 
 /// One table of a metal's index.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Source {
+pub struct MetalSource {
     /// Short name, unique within the metal.
     pub key: String,
     /// Authors and year.
@@ -139,19 +139,29 @@ const HEADER: &str = "source,wavelength_nm,n,k";
 
 /// The bundled metals; read at the first call.
 ///
-/// The error is that of a damaged build, which a test rules out.
+/// # Errors
+///
+/// [`MetalsError`] where the table of the build is damaged, which a test rules out.
 pub fn metals() -> Result<&'static [Metal], MetalsError> {
     static METALS: OnceLock<Result<Vec<Metal>, MetalsError>> = OnceLock::new();
     METALS.get_or_init(|| read_metals(include_str!("../../assets/optical_constants.csv"))).as_deref().map_err(Clone::clone)
 }
 
 /// The bundled metal of that key or name, capitals or not.
+///
+/// # Errors
+///
+/// As [`metals`].
 pub fn metal(name: &str) -> Result<Option<&'static Metal>, MetalsError> {
     let is_it = |metal: &&Metal| metal.key.eq_ignore_ascii_case(name) || metal.name.eq_ignore_ascii_case(name);
     Ok(metals()?.iter().find(is_it))
 }
 
 /// The bundled metal that a text names as a word: its symbol as it is written, or its name, capitals or not. Of several the one named first.
+///
+/// # Errors
+///
+/// As [`metals`].
 pub fn metal_named_in(text: &str) -> Result<Option<&'static Metal>, MetalsError> {
     let words = |text: &str| -> Vec<String> {
         text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
@@ -173,6 +183,10 @@ pub fn metal_named_in(text: &str) -> Result<Option<&'static Metal>, MetalsError>
 
 /// Reads a table of metals: `# metal: key | name` and `# source: metal/key | name | citation | comment` lines, the header
 /// `source,wavelength_nm,n,k`, and a row per sample, by source and ascending wavelength in nm. Other `#` lines are comments.
+///
+/// # Errors
+///
+/// [`MetalsError`] with the line that has another form.
 pub fn read_metals(text: &str) -> Result<Vec<Metal>, MetalsError> {
     let mut metals: Vec<Metal> = Vec::new();
     let mut header_seen = false;
@@ -206,7 +220,7 @@ pub fn read_metals(text: &str) -> Result<Vec<Metal>, MetalsError> {
     if metals.is_empty() { at_end(MetalsErrorKind::Empty) } else { Ok(metals) }
 }
 
-fn full_name(metal: &Metal, source: &Source) -> String {
+fn full_name(metal: &Metal, source: &MetalSource) -> String {
     format!("{}/{}", metal.key, source.key)
 }
 
@@ -234,7 +248,7 @@ fn source_head(text: &str, metals: &mut [Metal]) -> Result<(), MetalsErrorKind> 
     if metal.sources.iter().any(|source| source.key == key) {
         return Err(MetalsErrorKind::Repeated { found: full });
     }
-    metal.sources.push(Source { key: key.to_owned(), name, citation, comment, samples: Vec::new() });
+    metal.sources.push(MetalSource { key: key.to_owned(), name, citation, comment, samples: Vec::new() });
     Ok(())
 }
 
@@ -274,19 +288,19 @@ fn number(column: &'static str, cell: &str) -> Result<f64, MetalsErrorKind> {
 impl Metal {
     /// The source of that key, capitals or not.
     #[must_use]
-    pub fn source(&self, key: &str) -> Option<&Source> {
+    pub fn source(&self, key: &str) -> Option<&MetalSource> {
         self.sources.iter().find(|source| source.key.eq_ignore_ascii_case(key))
     }
 
     /// From the shortest to the longest wavelength in nm that any source speaks of.
     #[must_use]
     pub fn range_nm(&self) -> (f64, f64) {
-        let ranges = self.sources.iter().map(Source::range_nm);
+        let ranges = self.sources.iter().map(MetalSource::range_nm);
         ranges.fold((f64::INFINITY, 0.0), |(low, high), range| (low.min(range.0), high.max(range.1)))
     }
 }
 
-impl Source {
+impl MetalSource {
     /// Samples by ascending wavelength, at least one.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
@@ -301,6 +315,10 @@ impl Source {
     }
 
     /// The index at a vacuum wavelength in nm, linear between its neighbours; the tabulated one at a sample.
+    ///
+    /// # Errors
+    ///
+    /// [`OutsideRange`] where the wavelength lies outside the tabulated range.
     pub fn index_at(&self, wavelength_nm: f64) -> Result<RefractiveIndex, OutsideRange> {
         let outside = || OutsideRange { wavelength_nm, range_nm: self.range_nm() };
         let above = self.samples.partition_point(|sample| sample.wavelength_nm < wavelength_nm);

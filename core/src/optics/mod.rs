@@ -5,26 +5,26 @@
 //! basis [E_s, E_p] with s = k × n, p = k × s for a ray along k, so that S1 = I_s − I_p.
 
 mod angle;
-mod double;
-mod facets;
+mod facet;
 mod fresnel;
 mod geometry;
-mod grooves;
+mod masking;
 mod metals;
 mod polarization;
 mod quadrature;
 mod refractive_index;
-mod sharp_facet;
+mod slope_distribution;
+mod v_grooves;
 
 pub use angle::Degrees;
-pub(crate) use double::{Double, LN_2, two_sum};
-pub use facets::SlopeDistribution;
-pub(crate) use facets::reduced_slope_sq;
+pub use facet::Facet;
 pub use fresnel::{Fresnel, FresnelGradient};
-pub use geometry::{Facet, Geometry, GeometryError, Rotation};
-pub(crate) use grooves::Grooves;
-pub use metals::{Metal, MetalsError, MetalsErrorKind, OutsideRange, Sample, Source, metal, metal_named_in, metals, read_metals};
+pub use geometry::{Geometry, GeometryError, Rotation};
+pub use masking::Masking;
+pub use metals::{Metal, MetalSource, MetalsError, MetalsErrorKind, OutsideRange, Sample, metal, metal_named_in, metals, read_metals};
 pub use polarization::{Mueller, Stokes};
-pub(crate) use quadrature::Order;
+pub(crate) use quadrature::{Order, pieces};
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};
-pub(crate) use sharp_facet::SharpFacet;
+pub use slope_distribution::SlopeDistribution;
+pub(crate) use slope_distribution::reduced_slope_sq;
+pub(crate) use v_grooves::VGrooves;

@@ -63,6 +63,18 @@ impl Order {
     }
 }
 
+/// Longest piece that one rule is used for, of an integrand that changes by factors of e per unit.
+const LONGEST: f64 = 4.0;
+
+/// An interval in equal pieces short enough for one rule.
+pub(crate) fn pieces(low: f64, high: f64) -> impl Iterator<Item = [f64; 2]> {
+    let count = ((high - low) / LONGEST).ceil().clamp(0.0, 200.0);
+    let width = (high - low) / count;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of 200 at most")]
+    let count = count as u32;
+    (0..count).map(move |i| [low + f64::from(i) * width, low + f64::from(i + 1) * width])
+}
+
 fn scaled(rule: &'static [Node], low: f64, high: f64) -> impl Iterator<Item = Node> {
     rule.iter().map(move |(x, weight)| (low + (high - low) * x, (high - low) * weight))
 }

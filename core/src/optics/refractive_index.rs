@@ -12,11 +12,11 @@ pub struct RefractiveIndex {
 /// Why a pair of numbers is no refractive index.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RefractiveIndexError {
-    /// n is negative, infinite or not a number.
-    #[error("n = {0} is outside 0 ≤ n < ∞")]
+    /// n is outside its range.
+    #[error("n = {0} is outside 0 ≤ n ≤ 1e10")]
     N(f64),
-    /// k is negative, infinite or not a number.
-    #[error("k = {0} is outside 0 ≤ k < ∞")]
+    /// k is outside its range.
+    #[error("k = {0} is outside 0 ≤ k ≤ 1e10")]
     K(f64),
     /// A medium without any refractive index.
     #[error("n and k are both 0")]
@@ -24,11 +24,18 @@ pub enum RefractiveIndexError {
 }
 
 impl RefractiveIndex {
-    /// From its real part n ≥ 0 and its imaginary part k_m ≥ 0, both finite and not both 0.
+    /// Largest n and k: no medium has a larger one, and the fourth powers of these are far from the end of f64.
+    pub const LARGEST: f64 = 1e10;
+
+    /// From the real part n and the imaginary part k_m, both from 0 to [`Self::LARGEST`] and not both 0.
+    ///
+    /// # Errors
+    ///
+    /// [`RefractiveIndexError`] where n or k_m lies outside, or both are 0.
     pub fn new(n: f64, k_m: f64) -> Result<Self, RefractiveIndexError> {
-        if !(n.is_finite() && n >= 0.0) {
+        if !(0.0..=Self::LARGEST).contains(&n) {
             Err(RefractiveIndexError::N(n))
-        } else if !(k_m.is_finite() && k_m >= 0.0) {
+        } else if !(0.0..=Self::LARGEST).contains(&k_m) {
             Err(RefractiveIndexError::K(k_m))
         } else if n == 0.0 && k_m == 0.0 {
             Err(RefractiveIndexError::Zero)

@@ -2,94 +2,37 @@
 
 use crate::model::{Batch, GeometrySet, Model, Parameters, Pbrdf, Radiances};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
+use crate::selftest::benchmark_run::{BenchmarkSize, TraceStep};
+use crate::selftest::error_vs_time::{ErrorVsTime, TaskKind};
 use crate::selftest::method::BenchmarkMethod;
 use crate::selftest::note::Note;
 use crate::selftest::reference::{Reference, golden, relative_error};
-use crate::selftest::solver_benchmark::{BenchmarkSize, SolverBenchmark, TraceStep};
-use crate::selftest::table::Curves;
+use crate::selftest::solver_benchmark::SolverBenchmark;
+use crate::selftest::table::BenchmarkCurves;
 use crate::selftest::textbook::{textbook_f32, textbook_f64};
-use crate::selftest::{BenchmarkRow, Cell, Host, Machine, Report, Timing, quantile};
+use crate::selftest::{Host, Machine, Report, Timing, model_benchmark, quantile};
 use serde_json::{Map, Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
 
-/// What was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TaskKind {
-    /// Values of BRDF and DoLP.
-    Evaluate,
-    /// Parameters from data.
-    Fit,
-}
-
-impl TaskKind {
-    /// Its name in the table.
-    #[must_use]
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Evaluate => "evaluate",
-            Self::Fit => "fit",
-        }
-    }
-}
-
-/// A method: how long it takes and how far off it is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ErrorVsTime {
-    /// What was done.
-    pub task: TaskKind,
-    /// By which method.
-    pub method: BenchmarkMethod,
-    /// Median time: nanoseconds of an evaluated point, milliseconds of a fit.
-    pub time: f64,
-    /// Half the distance between the quartiles of the time over its median; NaN where there is one time alone.
-    pub spread: f64,
-    /// Largest relative error.
-    pub worst_relative_error: f64,
-    /// Its median.
-    pub median_relative_error: f64,
-    /// Share of fits that reached the best objective known.
-    pub success_rate: Option<f64>,
-}
-
-impl BenchmarkRow for ErrorVsTime {
-    const COLUMNS: &'static [&'static str] =
-        &["task", "method", "ns_per_point", "elapsed_ms", "worst_relative_error", "median_relative_error", "success_rate"];
-
-    fn cells(&self) -> Vec<Cell> {
-        let time_of = |task: TaskKind| if self.task == task { Cell::Number(self.time) } else { Cell::Absent };
-        vec![
-            Cell::Text(self.task.key().to_owned()),
-            Cell::Text(self.method.to_string()),
-            time_of(TaskKind::Evaluate),
-            time_of(TaskKind::Fit),
-            Cell::Number(self.worst_relative_error),
-            Cell::Number(self.median_relative_error),
-            Cell::maybe(self.success_rate),
-        ]
-    }
-}
-
 impl ErrorVsTime {
     /// Makes the report.
     #[must_use]
-    pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
-        Self::to_extent(BenchmarkSize::WHOLE, machine, date, surroundings)
+    pub fn run(machine: Machine, date: String, host: Host<'_>) -> Report<Self> {
+        Self::to_extent(BenchmarkSize::WHOLE, machine, date, host)
     }
 
-    fn to_extent(extent: BenchmarkSize, machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
+    fn to_extent(extent: BenchmarkSize, machine: Machine, date: String, host: Host<'_>) -> Report<Self> {
         let golden = golden();
-        let mut rows = evaluations(&golden, surroundings);
-        (surroundings.progress)(0.05);
-        let mut race = if (surroundings.cancelled)() { SolverBenchmark::default() } else { SolverBenchmark::run(extent, surroundings) };
-        rows.append(&mut race.rows);
+        let mut rows = evaluations(&golden, host);
+        (host.progress)(0.05);
+        let mut solvers = if (host.cancelled)() { SolverBenchmark::default() } else { SolverBenchmark::run(extent, host) };
+        rows.append(&mut solvers.rows);
+        let (of_models, models) = if (host.cancelled)() { (Vec::new(), Vec::new()) } else { model_benchmark::run(extent, host) };
+        rows.extend(of_models);
         let notes = notes(golden.len(), extent, &rows);
-        let further = curves(&rows, &race);
-        Report {
-            further,
-            curves: Curves { fits: race.curves, models: race.ladder, profiles: race.profiles },
-            ..Report::new("Error against run time", machine, date, rows, notes)
-        }
+        let curves = BenchmarkCurves { fits: solvers.curves, models, profiles: solvers.profiles };
+        Report { further: further(&rows, &curves), curves, ..Report::new("Error against run time", machine, date, rows, notes) }
     }
 }
 
@@ -105,7 +48,7 @@ fn notes(golden: usize, extent: BenchmarkSize, rows: &[ErrorVsTime]) -> Vec<Note
 }
 
 /// Times with their spread, curves and profiles, for the file.
-fn curves(rows: &[ErrorVsTime], race: &SolverBenchmark) -> Map<String, Value> {
+fn further(rows: &[ErrorVsTime], curves: &BenchmarkCurves) -> Map<String, Value> {
     let column = |steps: &[TraceStep], i: usize| steps.iter().map(|step| step[i]).collect::<Vec<_>>();
     let timing = |row: &ErrorVsTime| json!({ "task": row.task.key(), "method": row.method.to_string(), "spread": row.spread });
     let curve = |(method, steps): &(BenchmarkMethod, Vec<TraceStep>)| json!({ "method": method.to_string(), "elapsed_ms": column(steps, 0), "objective": column(steps, 1), "distance": column(steps, 2) });
@@ -115,17 +58,9 @@ fn curves(rows: &[ErrorVsTime], race: &SolverBenchmark) -> Map<String, Value> {
     };
     let mut map = Map::new();
     map.insert("spreads".to_owned(), rows.iter().map(timing).collect());
-    map.insert("curves".to_owned(), race.curves.iter().chain(&race.ladder).map(curve).collect());
-    map.insert("profiles".to_owned(), race.profiles.iter().map(profile).collect());
+    map.insert("curves".to_owned(), curves.fits.iter().chain(&curves.models).map(curve).collect());
+    map.insert("profiles".to_owned(), curves.profiles.iter().map(profile).collect());
     map
-}
-
-impl ErrorVsTime {
-    /// Whether it compares models, not methods.
-    #[must_use]
-    pub fn is_model(&self) -> bool {
-        matches!(self.method, BenchmarkMethod::Model(_))
-    }
 }
 
 /// BRDF and DoLP.
@@ -140,7 +75,7 @@ struct Evaluator<'a> {
     all: &'a dyn Fn(),
 }
 
-fn evaluations(golden: &[Reference], surroundings: Host<'_>) -> Vec<ErrorVsTime> {
+fn evaluations(golden: &[Reference], host: Host<'_>) -> Vec<ErrorVsTime> {
     let model = Model::full(SlopeDistribution::Cauchy);
     let parameters = Parameters::default();
     let geometries: Vec<Geometry> = golden.iter().map(|row| row.geometry).collect();
@@ -185,14 +120,14 @@ fn evaluations(golden: &[Reference], surroundings: Host<'_>) -> Vec<ErrorVsTime>
     ];
     let mut rows = Vec::new();
     for Evaluator { method, values, all } in methods {
-        if (surroundings.cancelled)() {
+        if (host.cancelled)() {
             break;
         }
         let mut errors: Vec<f64> = golden.iter().map(|row| error_of(values(row), row)).collect();
         errors.sort_by(f64::total_cmp);
         #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
         let points = golden.len() as f64;
-        let time = Timing::of(surroundings.clock, all);
+        let time = Timing::of(host.clock, all);
         rows.push(ErrorVsTime {
             task: TaskKind::Evaluate,
             method,
@@ -221,9 +156,9 @@ mod tests {
     fn small() -> Value {
         let looks = AtomicU32::new(0);
         let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));
-        let surroundings = Host { clock: &clock, cancelled: &|| false, progress: &|_| {} };
+        let host = Host { clock: &clock, cancelled: &|| false, progress: &|_| {} };
         let extent = BenchmarkSize { starts: 1, repetitions: 1, repetitions_of_many: 1 };
-        ErrorVsTime::to_extent(extent, Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), surroundings).json_with_curves()
+        ErrorVsTime::to_extent(extent, Machine::new("", 1), "2026-11-25T00:00:00Z".to_owned(), host).json_with_curves()
     }
 
     #[test]

@@ -7,7 +7,8 @@ use crate::fit::{Axis, Bounds, FitOptions, Landscape, Problem};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model;
 use crate::model::{
-    Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances,
+    Batch, Diffuse, DolpGradients, GradientRequest, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, PerParameter,
+    Radiances,
 };
 use crate::optics::{Facet, Geometry, RefractiveIndex, SlopeDistribution};
 use crate::selftest::{BenchmarkRow, Cell, Host, Machine, Note, Report, Timing, gradient_error, relative_error};
@@ -213,16 +214,16 @@ impl Cost {
 
     /// Makes the report; fewer rows if it is cancelled.
     #[must_use]
-    pub fn run(machine: Machine, date: String, surroundings: Host<'_>) -> Report<Self> {
+    pub fn run(machine: Machine, date: String, host: Host<'_>) -> Report<Self> {
         let scenes = scenes();
         let mut rows = Vec::new();
         for (done, scene) in scenes.iter().enumerate() {
-            if (surroundings.cancelled)() {
+            if (host.cancelled)() {
                 break;
             }
             #[expect(clippy::cast_precision_loss, reason = "a number of scenes")]
-            (surroundings.progress)(done as f64 / scenes.len() as f64);
-            rows.extend(scene.cost(&machine, surroundings));
+            (host.progress)(done as f64 / scenes.len() as f64);
+            rows.extend(scene.cost(&machine, host));
         }
         let notes = vec![Note::CostReference, Note::CostInstructions];
         Report::new("What a scene costs", machine, date, rows, notes)
@@ -254,9 +255,9 @@ impl CostScene {
         terms.iter().filter(|(there, _)| *there).map(|(_, name)| *name).collect::<Vec<_>>().join("+")
     }
 
-    fn cost(&self, machine: &Machine, surroundings: Host<'_>) -> Option<Cost> {
+    fn cost(&self, machine: &Machine, host: Host<'_>) -> Option<Cost> {
         let surface = Pbrdf::new(self.model(), Parameters::default()).ok()?;
-        let (points, time) = self.time(&surface, surroundings)?;
+        let (points, time) = self.time(&surface, host)?;
         let (max_ulp, max_relative_error) = self.differences()?;
         let output = match self.asked {
             Asked::Dolp => "dolp",
@@ -283,10 +284,10 @@ impl CostScene {
     }
 
     /// Points in one evaluation, and its time.
-    fn time(&self, surface: &Pbrdf, surroundings: Host<'_>) -> Option<(usize, Timing)> {
+    fn time(&self, surface: &Pbrdf, host: Host<'_>) -> Option<(usize, Timing)> {
         if self.asked == Asked::Landscape {
             let (problem, across, up) = landscape(surface)?;
-            let time = Timing::of(surroundings.clock, || _ = black_box(Landscape::new(black_box(&problem), across, up, &|| false)));
+            let time = Timing::of(host.clock, || _ = black_box(Landscape::new(black_box(&problem), across, up, &|| false)));
             return Some((across.count * up.count * problem.len(), time));
         }
         let count = match self.means {
@@ -298,11 +299,11 @@ impl CostScene {
         let time = if self.asked == Asked::GradientOfLobes {
             let index = RefractiveIndex::new(surface.parameters().n, surface.parameters().k).ok()?;
             let prepared = model::GeometrySet::new(facets.iter().map(|(geometry, _)| *geometry)).with_index(index);
-            Timing::of(surroundings.clock, || {
+            Timing::of(host.clock, || {
                 prepared.reflections_and_gradients(black_box(surface), self.wanted()).for_each(|at| _ = black_box(at));
             })
         } else if self.means == Means::Scalar {
-            Timing::of(surroundings.clock, || {
+            Timing::of(host.clock, || {
                 for (geometry, facet) in &facets {
                     self.evaluate(black_box(surface), *geometry, facet);
                 }
@@ -310,7 +311,7 @@ impl CostScene {
         } else {
             let batch = self.batch(facets.iter().map(|(_, facet)| *facet).collect());
             let (mut radiances, mut gradients) = (Radiances::default(), DolpGradients::default());
-            Timing::of(surroundings.clock, || match self.asked {
+            Timing::of(host.clock, || match self.asked {
                 Asked::Brdf => batch.brdf(black_box(surface), &mut radiances.brdf),
                 Asked::Gradient => batch.dolp_gradients(black_box(surface), &mut gradients),
                 _ => batch.dolp(black_box(surface), &mut radiances.dolp),
@@ -369,7 +370,7 @@ impl CostScene {
                 worst.1 = f64::max(worst.1, relative_error(values.value, reference));
                 if let Some(mut derivatives) = values.derivatives {
                     for parameter in ParameterSet::ALL.without_all(self.wanted().by) {
-                        derivatives[parameter as usize] = gradient.dolp[parameter as usize];
+                        derivatives[parameter] = gradient.dolp[parameter];
                     }
                     let pairs = derivatives.iter().zip(&gradient.dolp);
                     worst.0 = pairs.map(|(value, reference)| ulps(*value, *reference)).fold(worst.0, f64::max);
@@ -383,9 +384,10 @@ impl CostScene {
     /// Parameters in the range, with weight 0 for the terms that are not there.
     fn parameters(&self, index: u32) -> Parameters {
         let mut parameters = Parameters::default();
+        let count = u32::try_from(Parameter::COUNT).unwrap_or(u32::MAX);
         for (j, parameter) in (0..).zip(Parameter::ALL) {
             let (low, high) = (*parameter.range().start(), *parameter.range().end());
-            parameters[parameter] = low + (high - low) * (0.02 + 0.96 * spread(9 * index + j + 1, 0.618_034));
+            parameters[parameter] = low + (high - low) * (0.02 + 0.96 * spread(count * index + j + 1, 0.618_034));
         }
         if self.diffuse == Diffuse::Absent {
             parameters.kd = 0.0;
@@ -418,7 +420,7 @@ impl CostScene {
             Asked::Brdf => batch.brdf(surface, &mut values),
             _ if gradient => {
                 batch.dolp_gradients(surface, &mut gradients);
-                let derivatives = |point: usize| Some(std::array::from_fn(|j| gradients.by[j][point]));
+                let derivatives = |point: usize| Some(PerParameter::from_fn(|parameter| gradients.by[parameter][point]));
                 return gradients.dolp.iter().enumerate().map(|(i, &value)| Values { value, derivatives: derivatives(i) }).collect();
             }
             _ => batch.dolp(surface, &mut values),
@@ -430,7 +432,7 @@ impl CostScene {
 /// DoLP or BRDF at a point, and the derivatives of DoLP where they are asked for.
 struct Values {
     value: f64,
-    derivatives: Option<[f64; 9]>,
+    derivatives: Option<PerParameter<f64>>,
 }
 
 impl From<f64> for Values {

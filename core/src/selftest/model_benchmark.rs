@@ -3,11 +3,11 @@
 use crate::fit::{Observer, Problem, Starts, fit};
 use crate::measurement::Measurement;
 use crate::model::{GeometrySet, PRESETS, Parameters, Pbrdf, Preset};
-use crate::selftest::accuracy_vs_time::{ErrorVsTime, TaskKind};
+use crate::selftest::benchmark_problem::{SEED, problem, simulate, truth};
+use crate::selftest::benchmark_run::{BenchmarkRun, BenchmarkSize, SMALLEST_SIZE, Task, TraceStep, typical};
+use crate::selftest::benchmark_solver::Solver;
+use crate::selftest::error_vs_time::{ErrorVsTime, TaskKind};
 use crate::selftest::method::BenchmarkMethod;
-use crate::selftest::solver_benchmark::{
-    BenchmarkSize, Method, Run, SEED, SMALLEST_SIZE, Task, TraceStep, problem, simulate, truth, typical,
-};
 use crate::selftest::{Host, quantile};
 
 /// Steel under dense angles with noise, and the same without.
@@ -18,7 +18,7 @@ struct Data {
 }
 
 /// A row for each model, from many starts; its errors are those of its DoLP against the noise-free one. And the way of each from the defaults.
-pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVsTime>, Vec<(BenchmarkMethod, Vec<TraceStep>)>) {
+pub(crate) fn run(extent: BenchmarkSize, host: Host<'_>) -> (Vec<ErrorVsTime>, Vec<(BenchmarkMethod, Vec<TraceStep>)>) {
     let (mut rows, mut curves) = (Vec::new(), Vec::new());
     let Some(full) = Preset::from_key("cauchy") else { return (rows, curves) };
     let (measured, exact) = (simulate(full, true, 0.005), simulate(full, true, 0.0));
@@ -26,27 +26,27 @@ pub(crate) fn run(extent: BenchmarkSize, surroundings: Host<'_>) -> (Vec<ErrorVs
     let data = Data { measured, exact: exact.rows.iter().map(|row| row.dolp.map_or(0.0, |dolp| dolp.value)).collect(), scene };
     let truth = truth();
     for (done, preset) in (0_u32..).zip(&PRESETS) {
-        if (surroundings.cancelled)() {
+        if (host.cancelled)() {
             break;
         }
         let Some(problem) = problem(preset, &data.measured, Parameters::default()) else { continue };
-        rows.extend(row(preset, &problem, &data, extent, surroundings));
+        rows.extend(row(preset, &problem, &data, extent, host));
         let task = Task { problem: &problem, truth: Some(&truth).filter(|_| preset.model == full.model) };
-        let ways: Vec<Run> = (0..extent.repetitions).map(|_| Method::One.run(&task, surroundings)).collect();
+        let ways: Vec<BenchmarkRun> = (0..extent.repetitions).map(|_| Solver::One.run(&task, host)).collect();
         curves.push((BenchmarkMethod::Model(preset.key), typical(&ways).steps));
-        (surroundings.progress)(0.7 + 0.03 * f64::from(done));
+        (host.progress)(0.7 + 0.03 * f64::from(done));
     }
     (rows, curves)
 }
 
-fn row(preset: &Preset, problem: &Problem, data: &Data, extent: BenchmarkSize, surroundings: Host<'_>) -> Option<ErrorVsTime> {
-    let clock = surroundings.clock;
+fn row(preset: &Preset, problem: &Problem, data: &Data, extent: BenchmarkSize, host: Host<'_>) -> Option<ErrorVsTime> {
+    let clock = host.clock;
     let mut parameters = Parameters::default();
     let mut once = || {
         let begun = clock();
-        let watch = Observer { clock: &|| clock() - begun, cancelled: surroundings.cancelled, progress: &|_| {} };
+        let watch = Observer { clock: &|| clock() - begun, cancelled: host.cancelled, progress: &|_| {} };
         parameters = fit(problem, Starts::Automatic, SEED, watch).parameters;
-        Run { elapsed_ms: clock() - begun, ..Run::begun(problem) }
+        BenchmarkRun { elapsed_ms: clock() - begun, ..BenchmarkRun::begun(problem) }
     };
     let run = typical(&(0..extent.repetitions_of_many).map(|_| once()).collect::<Vec<_>>());
     let surface = Pbrdf::new(preset.model, parameters).ok()?;

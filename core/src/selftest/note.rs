@@ -1,7 +1,7 @@
 //! How to read a report.
 
 use crate::selftest::method::BenchmarkMethod;
-use crate::selftest::stability::{GRADIENT_BAR, VALUE_BAR};
+use crate::selftest::reference::{DARK_BAR, GRADIENT_BAR, VALUE_BAR};
 use std::fmt;
 
 /// A paragraph under the table of a report.
@@ -42,7 +42,7 @@ impl fmt::Display for Note {
                 f,
                 "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {VALUE_BAR:.0e}; error of the nine derivatives by the \
                  smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {GRADIENT_BAR:.0e}; both limits times sin²β/|N² − sin²β| where that is \
-                 above 1, near the critical angle. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. \
+                 above 1, near the critical angle, and {DARK_BAR:.0e} for DoLP of lobes that are all darker than e^−120. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. \
                  condition: the largest |∂ln f/∂ln p| of BRDF and DoLP."
             ),
             Self::StabilityFits => f.write_str(

@@ -1,13 +1,22 @@
 //! The bundled 60-digit tables, and the measures of error against them (MODEL.md of the model's definition, sections 6 and 8).
 
-use crate::model::{Model, Parameter, Parameters, Pbrdf};
+use crate::model::{Model, Parameter, Parameters, Pbrdf, PerParameter};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 
 /// Values at random settings, ordinary and extreme.
 const GOLDEN: &str = include_str!("../../assets/reference/golden.csv");
 
+/// Bar on the relative error of BRDF and DoLP.
+pub const VALUE_BAR: f64 = 1e-13;
+/// Bar on the error of the gradient.
+pub const GRADIENT_BAR: f64 = 1e-12;
+/// Bar on DoLP and its gradient where all lobes are darker than e^−120.
+pub const DARK_BAR: f64 = 1e-9;
+
 /// References below this are compared by their absolute error.
 const NEGLIGIBLE: f64 = 1e-30;
+/// e^−120.
+const DARK: f64 = 1e-52;
 /// Weight below which a parameter does not count for less, in the measure of gradients.
 const SMALLEST_WEIGHT: f64 = 1e-3;
 
@@ -24,8 +33,10 @@ pub struct Reference {
     pub brdf: f64,
     /// DoLP.
     pub dolp: f64,
+    /// Whether DoLP is a ratio of lobes that are all darker than e^−120: its exponents then hold fewer digits.
+    pub is_dark: bool,
     /// ∂BRDF/∂p and ∂DoLP/∂p, where the table has them.
-    pub gradient: Option<[[f64; 9]; 2]>,
+    pub gradient: Option<[PerParameter<f64>; 2]>,
 }
 
 /// The rows of `golden.csv`.
@@ -50,13 +61,16 @@ fn reference(header: &csv::StringRecord, record: &csv::StringRecord) -> Option<R
     }
     let model = Model::full(SlopeDistribution::from_key(cell("distribution")?)?);
     let derivatives = |prefix: &str| {
-        let mut all = [0.0; 9];
-        for (slot, parameter) in all.iter_mut().zip(Parameter::ALL) {
-            *slot = number(&format!("{prefix}{}", parameter.key()))?;
+        let mut all = PerParameter::default();
+        for parameter in Parameter::ALL {
+            all[parameter] = number(&format!("{prefix}{}", parameter.key()))?;
         }
         Some(all)
     };
+    let depolarises = parameters.kd > 0.0 || parameters.kv > 0.0;
+    let lobes = [number("specular")?, number("diffuse")?, number("volume")?];
     Some(Reference {
+        is_dark: depolarises && lobes.into_iter().all(|lobe| lobe < DARK),
         case: cell("case")?.to_owned(),
         surface: Pbrdf::new(model, parameters).ok()?,
         geometry: Geometry::new(number("theta_i")?, number("theta_r")?, number("dphi")?).ok()?,
@@ -79,24 +93,24 @@ pub fn relative_error(value: f64, reference: f64) -> f64 {
     }
 }
 
-/// Error of nine derivatives, at most 1: the worst component by the smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), since some
+/// Error of a gradient, at most 1: the worst component by the smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), since some
 /// derivatives pass through zero. |e| ≤ 1e-30 counts as 0; a reference beyond f64 is outside every bar.
 #[must_use]
-pub fn gradient_error(values: &[f64; 9], references: &[f64; 9], parameters: &Parameters) -> f64 {
+pub fn gradient_error(values: &PerParameter<f64>, references: &PerParameter<f64>, parameters: &Parameters) -> f64 {
     let weights = parameters.to_array().map(|value| value.abs().max(SMALLEST_WEIGHT));
     let scale = references.iter().zip(weights).map(|(derivative, weight)| (derivative * weight).abs());
     let scale = scale.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let of = |j: usize| {
-        let error = (values[j] - references[j]).abs();
-        if references[j].is_infinite() || error <= NEGLIGIBLE {
+    let of = |((value, reference), weight): ((&f64, &f64), f64)| {
+        let error = (value - reference).abs();
+        if reference.is_infinite() || error <= NEGLIGIBLE {
             0.0
         } else if error.is_nan() {
             1.0
         } else {
-            (error / references[j].abs()).min(error * weights[j] / scale).min(1.0)
+            (error / reference.abs()).min(error * weight / scale).min(1.0)
         }
     };
-    (0..9).map(of).fold(0.0, f64::max)
+    values.iter().zip(references).zip(weights).map(of).fold(0.0, f64::max)
 }
 
 /// sin²β/|N² − sin²β|, at least 1: by how much a transparent index below 1 near its critical angle magnifies a rounding of sin²β.
@@ -110,7 +124,7 @@ pub fn critical_angle_factor(parameters: &Parameters, geometry: Geometry) -> f64
 #[cfg(test)]
 mod tests {
     use super::{GOLDEN, golden, gradient_error, relative_error};
-    use crate::model::Parameters;
+    use crate::model::{Parameter, Parameters, PerParameter};
 
     #[test]
     fn every_row_of_the_bundled_table_is_read() {
@@ -129,13 +143,13 @@ mod tests {
     #[test]
     fn a_small_derivative_is_judged_beside_the_large_ones() {
         let parameters = Parameters { n: 1.0, k: 1.0, ..Parameters::default() };
-        let mut references = [0.0; 9];
-        references[0] = 1.0;
-        references[1] = 1e-12;
+        let mut references = PerParameter::default();
+        references[Parameter::N] = 1.0;
+        references[Parameter::K] = 1e-12;
         let mut values = references;
-        values[1] = 2e-12;
+        values[Parameter::K] = 2e-12;
         assert_eq!(gradient_error(&values, &references, &parameters), 1e-12);
-        values[0] = f64::NAN;
+        values[Parameter::N] = f64::NAN;
         assert_eq!(gradient_error(&values, &references, &parameters), 1.0);
     }
 }

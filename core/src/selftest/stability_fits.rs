@@ -3,7 +3,7 @@
 use crate::fit::{Bounds, Edge, FitOptions, FitResult, Loss, Observer, Problem, Starts, StopReason, fit, free_by_default};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model::{Parameter, ParameterSet, Parameters, Pbrdf, Preset};
-use crate::selftest::stability::{Setting, Stability, StabilityCase, StabilityOutcome};
+use crate::selftest::stability_case::{Setting, Stability, StabilityCase, StabilityOutcome};
 
 /// What a fit has to do.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -71,7 +71,7 @@ pub trait BenchmarkRow {
 
 /// Courses of fits, by the name of their method.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Curves {
+pub struct BenchmarkCurves {
     /// Elapsed ms, objective ΔE and distance to the truth along one fit.
     pub fits: Vec<(BenchmarkMethod, Vec<[f64; 3]>)>,
     /// The same along one fit of each model.
@@ -94,7 +94,7 @@ pub struct Report<R> {
     /// How to read it: paragraphs under the table.
     pub notes: Vec<Note>,
     /// Courses of the fits that were compared; empty where none were.
-    pub curves: Curves,
+    pub curves: BenchmarkCurves,
     /// What else belongs into the file beside the rows, such as curves.
     pub further: Map<String, Value>,
 }
@@ -103,7 +103,7 @@ impl<R> Report<R> {
     /// A report without curves.
     #[must_use]
     pub fn new(title: &'static str, machine: Machine, date: String, rows: Vec<R>, notes: Vec<Note>) -> Self {
-        Self { title, machine, date, rows, notes, curves: Curves::default(), further: Map::new() }
+        Self { title, machine, date, rows, notes, curves: BenchmarkCurves::default(), further: Map::new() }
     }
 }
 

@@ -11,7 +11,7 @@
 //! that square roots of what rounding makes negative are 0.
 
 use crate::model::{Diffuse, Model, Parameters, lost_by_single_reflection};
-use crate::optics::{Geometry, SlopeDistribution};
+use crate::optics::{Geometry, Masking, SlopeDistribution};
 
 macro_rules! textbook {
     ($(#[$doc:meta])* $name:ident, $real:ident, $sin:path, $cos:path, $exp:path, $pow:path) => {
@@ -53,10 +53,9 @@ macro_rules! textbook {
                     (q - 1.0) * $pow(width, 2.0 * q - 2.0) / (pi * cos_alpha_cubed * $pow(tan_alpha_sq + width * width, q))
                 }
             };
-            let g = if model.masking {
-                (1.0 as $real).min(2.0 * cos_alpha * cos_r / cos_beta).min(2.0 * cos_alpha * cos_i / cos_beta)
-            } else {
-                1.0
+            let g = match model.masking {
+                Masking::None => 1.0,
+                Masking::VGroove => (1.0 as $real).min(2.0 * cos_alpha * cos_r / cos_beta).min(2.0 * cos_alpha * cos_i / cos_beta),
             };
             let shape = if model.specular { ks * p * g / (4.0 * cos_alpha * cos_i * cos_r) } else { 0.0 };
 

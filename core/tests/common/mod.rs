@@ -2,8 +2,8 @@
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each test file uses its own part of this module")]
 
-use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
-use pbrdf::optics::{Geometry, SlopeDistribution};
+use pbrdf::model::{Model, Parameter, Parameters, Pbrdf, PerParameter};
+use pbrdf::optics::{Facet, Geometry, SlopeDistribution};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -56,10 +56,30 @@ impl Row {
         Pbrdf::new(Model::full(distribution), self.parameters()).expect("parameters inside the domain")
     }
 
+    /// Whether DoLP is a ratio of lobes that are all darker than e^−120; false in a table without the terms.
+    pub fn is_dark(&self) -> bool {
+        let depolarises = self.number("kd") > 0.0 || self.number("kv") > 0.0;
+        let lobes = ["specular", "diffuse", "volume"];
+        depolarises && lobes.into_iter().all(|lobe| self.cells.contains_key(lobe) && self.number(lobe) < DARK)
+    }
+
+    /// sin²β/|N² − sin²β|, at least 1: how much an index at its critical angle magnifies a rounding of sin²β.
+    pub fn critical_angle_factor(&self) -> f64 {
+        let s = Facet::new(self.geometry()).sin_beta_sq;
+        let (n, k) = (self.number("n"), self.number("k"));
+        (s / libm::hypot((n - k) * (n + k) - s, 2.0 * n * k)).max(1.0)
+    }
+
     pub fn geometry(&self) -> Geometry {
         Geometry::new(self.number("theta_i"), self.number("theta_r"), self.number("dphi")).expect("a geometry")
     }
 }
+
+/// Bar on DoLP and its derivatives where all lobes are [dark](Row::is_dark): an error of one unit in the last place of an
+/// exponent x is one of x units in the lobe.
+pub const DARK_VALUE: f64 = 1e-9;
+/// e^−120.
+const DARK: f64 = 1e-52;
 
 /// References below this are compared by their absolute error.
 pub const NEGLIGIBLE: f64 = 1e-30;
@@ -72,18 +92,18 @@ pub fn relative_error(value: f64, reference: f64) -> f64 {
 
 /// Error of a gradient in the measure of MODEL.md, section 8: per component the smaller of |e|/|∂| and
 /// |e| w/max(|∂| w), w = max(|p|, 1e-3); |e| ≤ 1e-30 counts as 0, and references beyond f64 are outside the bar.
-pub fn gradient_error(values: &[f64; 9], references: &[f64; 9], parameters: &Parameters) -> f64 {
+pub fn gradient_error(values: &PerParameter<f64>, references: &PerParameter<f64>, parameters: &Parameters) -> f64 {
     let weights = parameters.to_array().map(|p| p.abs().max(1e-3));
     let scale = references.iter().zip(weights).map(|(d, w)| (d * w).abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
     let mut worst: f64 = 0.0;
-    for j in 0..9 {
-        if !references[j].is_finite() {
+    for ((value, reference), weight) in values.iter().zip(references).zip(weights) {
+        if !reference.is_finite() {
             continue;
         }
-        let error = (values[j] - references[j]).abs();
+        let error = (value - reference).abs();
         if error > NEGLIGIBLE || error.is_nan() {
-            let own = error / references[j].abs();
-            let shared = error * weights[j] / scale;
+            let own = error / reference.abs();
+            let shared = error * weight / scale;
             worst = if error.is_nan() { f64::INFINITY } else { worst.max(own.min(shared)) };
         }
     }

@@ -7,8 +7,8 @@ use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::work::settings::Settings;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, Domain, PRESETS, Parameter, Parameters, Preset};
-use pbrdf::optics::SlopeDistribution;
+use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
+use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
@@ -87,7 +87,9 @@ fn specular_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &Slid
                     },
                 );
             }
-            ui.checkbox(&mut settings.model.masking, tr!("Masking")).on_hover_right(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
+            let mut masks = settings.model.masking == Masking::VGroove;
+            ui.checkbox(&mut masks, tr!("Masking")).on_hover_right(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
+            settings.model.masking = if masks { Masking::VGroove } else { Masking::None };
         });
         let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
         if settings.model.distribution == SlopeDistribution::Cauchy {
@@ -224,7 +226,7 @@ fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeIn
     let speed = (0.005 * value.abs()).max(1e-4);
     let refused = RefCell::new(None);
     let refuse = |found: &str| {
-        *refused.borrow_mut() = Some(tr!("{0}: found {1}, expected {2}.", parameter.symbol(), format!("{found:?}"), domain_text(domain)));
+        *refused.borrow_mut() = Some(tr!("{0}: found {1}, expected {2}.", parameter.symbol(), format!("{found:?}"), domain.localized()));
     };
     let typed = DragValue::from_get_set(|new| {
         match new {
@@ -255,7 +257,7 @@ fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeIn
         if outside {
             tr!("outside the slider's range {0} to {1}", range.start(), range.end())
         } else {
-            tr!("type a value: {}", domain_text(domain))
+            tr!("type a value: {}", domain.localized())
         },
     );
 
@@ -325,7 +327,7 @@ fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, p
             })
             .inner;
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("{0} of {1}", name, parameter.key())));
-        response.on_hover_right(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), domain_text(parameter.domain())));
+        response.on_hover_right(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), parameter.domain().localized()));
     }
     if wanted != (low, high)
         && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
@@ -340,15 +342,6 @@ fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, p
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         settings.reset_bounds(parameter);
-    }
-}
-
-/// What values a parameter can have, in the language of the window.
-fn domain_text(domain: Domain) -> String {
-    match domain {
-        Domain::From(low) => tr!("a finite number ≥ {}", low),
-        Domain::Above(low) => tr!("a finite number > {}", low),
-        Domain::Finite => tr!("a finite number"),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Keys of files of earlier releases that mean the same under another key now.
 
+use crate::app::work::settings::Settings;
 use pbrdf::model::{DolpFormula, Model};
 use serde::Deserialize;
 
@@ -20,7 +21,15 @@ struct EarlierChoices {
 #[derive(Deserialize, Default)]
 #[serde(default)]
 pub struct EarlierFile {
-    pub settings: EarlierKeys,
+    settings: EarlierKeys,
+}
+
+impl EarlierFile {
+    /// Puts the values where they stand now; weights too small for the domain, which earlier releases took, become 0.
+    pub fn apply(&self, settings: &mut Settings) {
+        self.settings.apply(&mut settings.model);
+        settings.parameters = settings.parameters.flushed_to_zero();
+    }
 }
 
 impl EarlierKeys {

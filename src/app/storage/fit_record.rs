@@ -171,7 +171,7 @@ impl FitRecord {
 fn place(start: Parameters, free: &[Parameter], at: &[f64]) -> Parameters {
     let mut parameters = start;
     for (&parameter, &value) in free.iter().zip(at) {
-        parameters[parameter] = value;
+        parameters[parameter] = parameter.domain().flush_to_zero(value);
     }
     parameters
 }

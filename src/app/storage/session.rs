@@ -164,6 +164,10 @@ impl SavedFit {
             place => format!("{place}: {}", error.inner()),
         })?;
         earlier?.apply(&mut recipe.model);
+        // Earlier releases took weights of any size.
+        for parameters in [&mut recipe.start, &mut recipe.parameters, &mut recipe.before] {
+            *parameters = parameters.flushed_to_zero();
+        }
         // Some files have an account that tells of the mask alone.
         if let Some(account) = recipe.account.take_if(|account| account.is_empty()) {
             recipe.masked = Some(account.into_mask());
@@ -273,7 +277,7 @@ impl Session {
         let mut contents: Contents<serde_json::Value> =
             serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
         let earlier: EarlierFile = serde_json::from_str(text).map_err(|error| SessionError::json("settings", &error))?;
-        earlier.settings.apply(&mut contents.settings.model);
+        earlier.apply(&mut contents.settings);
         if let Some(fault) = contents.settings.fault() {
             return Err(SessionError::Settings(fault));
         }

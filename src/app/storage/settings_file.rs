@@ -60,7 +60,7 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
 
 fn read(bytes: &[u8]) -> serde_json::Result<SettingsFile> {
     let mut file: SettingsFile = serde_json::from_slice(bytes)?;
-    serde_json::from_slice::<EarlierFile>(bytes)?.settings.apply(&mut file.settings.model);
+    serde_json::from_slice::<EarlierFile>(bytes)?.apply(&mut file.settings);
     Ok(file)
 }
 

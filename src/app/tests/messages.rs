@@ -410,7 +410,7 @@ fn damaged_sessions_are_refused_in_chinese() {
     ] {
         texts.push(Session::read(&text).expect_err(&text).to_string());
     }
-    texts.push(SessionError::Settings("parameters: n = -1 is not allowed: expected a finite number ≥ 0".to_owned()).to_string());
+    texts.push(SessionError::Settings("parameters: n = -1 is not allowed: expected a number from 0 to 1e10".to_owned()).to_string());
     texts.push(SessionError::Settings("theta_i, dphi: theta_i = 95 is outside 0 ≤ θi < 90 degrees".to_owned()).to_string());
     let faults = literals_after(include_str!("../storage/fit_record.rs"), "Some(");
     texts.extend(faults.into_iter().filter(|fault| fault.starts_with("account")));

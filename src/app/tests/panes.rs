@@ -121,7 +121,7 @@ fn views_draw_whatever_the_sliders_hold() {
         Parameters { ks: 0.0, kd: 0.0, kv: 0.0, ..ordinary },
         Parameters { sigma: 1e-3, q: 20.0, ..ordinary },
         Parameters { sigma: 3.0, q: 1.0001, ..ordinary },
-        Parameters { sigma: 1e-200, ..ordinary },
+        Parameters { sigma: 1e-30, ..ordinary },
         Parameters { n: 0.0, k: 0.0, ..ordinary },
         Parameters { c: -40.0, ..ordinary },
     ];

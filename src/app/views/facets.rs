@@ -13,7 +13,7 @@ use crate::app::work::settings::Settings;
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
-use pbrdf::optics::{Degrees, Facet, SlopeDistribution};
+use pbrdf::optics::{Degrees, Facet, Masking, SlopeDistribution};
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -33,8 +33,8 @@ pub struct FacetsView {
     tilts: AutoRange,
     /// Of the densities, in logarithms where those are drawn.
     range: AutoRange,
-    /// Of both by their stamps; whether densities are logarithmic and whether the model masks; the axes; the language.
-    plot: FigurePlot<([u64; 2], [bool; 2], [Option<Range>; 2], Language)>,
+    /// Of both by their stamps; whether densities are logarithmic; how the model masks; the axes; the language.
+    plot: FigurePlot<([u64; 2], bool, Masking, [Option<Range>; 2], Language)>,
 }
 
 /// σ, q, the model's own distribution and whether the other one has the same median slope.
@@ -176,7 +176,7 @@ impl FacetsView {
             ..Panel::default()
         };
         // Without masking, the model has G = 1 everywhere.
-        let ink = if settings.model.masking { FOREGROUND } else { MUTED };
+        let ink = if settings.model.masking == Masking::None { MUTED } else { FOREGROUND };
         let shadows = Panel {
             title: tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi),
             x: Axis::linear("θr", "°").between(-90.0, 90.0),
@@ -202,7 +202,7 @@ impl View for FacetsView {
         self.masking.refresh((settings.theta_i, settings.dphi), |&(theta_i, dphi)| masking(theta_i, dphi));
         self.follow(shown.facets_log, cx.interacting);
         let stamps = [self.densities.stamp(), self.masking.stamp()];
-        let key = (stamps, [shown.facets_log, model.masking], [self.tilts.get(), self.range.get()], i18n::current());
+        let key = (stamps, shown.facets_log, model.masking, [self.tilts.get(), self.range.get()], i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, settings));
         self.plot = plot;

@@ -14,7 +14,7 @@ use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, Sli
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::model::{FINISHES, Finish, Parameter, Parameters};
 use pbrdf::optics;
-use pbrdf::optics::{Metal, RefractiveIndex, Sample, Source};
+use pbrdf::optics::{Metal, MetalSource, RefractiveIndex, Sample};
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -64,7 +64,7 @@ impl MetalsView {
         // Marks at the ends have room for their numbers.
         let air = 0.04 * (high - low);
         self.wavelengths.follow(Range { low: low - air, high: high + air }, interacting);
-        let seen = || metal.sources.iter().flat_map(Source::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
+        let seen = || metal.sources.iter().flat_map(MetalSource::samples).filter(|sample: &&Sample| sample.wavelength_nm <= high);
         for ((parameter, part), range) in PARTS.into_iter().zip(&mut self.ranges) {
             let top = seen().map(|sample| part(sample.index)).fold(parameters[parameter].min(20.0), f64::max);
             let high = nice_ceiling(top);
@@ -126,7 +126,7 @@ impl View for MetalsView {
             metal.sources.iter().map(|source| source.index_at(wavelength_nm).ok()).collect()
         });
         self.lines.refresh(metal.key.clone(), |_| {
-            let line = |source: &Source, part: Part| -> Polyline {
+            let line = |source: &MetalSource, part: Part| -> Polyline {
                 source.samples().iter().map(|sample| [sample.wavelength_nm, part(sample.index)]).collect()
             };
             metal.sources.iter().map(|source| PARTS.map(|(_, part)| line(source, part))).collect()
@@ -255,7 +255,13 @@ impl MetalsView {
 }
 
 /// One source; whether its button was pressed.
-fn source_ui(row: &mut TableRow<'_, '_>, i: usize, source: &Source, index: Option<RefractiveIndex>, tabulated: &MetalSelection) -> bool {
+fn source_ui(
+    row: &mut TableRow<'_, '_>,
+    i: usize,
+    source: &MetalSource,
+    index: Option<RefractiveIndex>,
+    tabulated: &MetalSelection,
+) -> bool {
     let (low, high) = source.range_nm();
     let about = if source.comment.is_empty() { source.citation.clone() } else { format!("{}\n{}", source.citation, source.comment) };
     row.col(|ui| {

@@ -7,7 +7,7 @@
 
 use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::objective::Problem;
-use crate::model::{Gradient, GradientRequest, Model, ParameterSet, Parameters, Pbrdf};
+use crate::model::{Gradient, GradientRequest, Model, ParameterSet, Parameters, Pbrdf, PerParameter};
 use crate::optics::Facet;
 
 /// What is needed to say how far a fitted curve can be trusted.
@@ -48,7 +48,7 @@ impl PredictionBand {
         self.uncertainty.analysed.iter().copied().collect()
     }
 
-    fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&Gradient) -> [f64; 9]) -> Vec<Option<f64>> {
+    fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&Gradient) -> PerParameter<f64>) -> Vec<Option<f64>> {
         let Ok(surface) = Pbrdf::new(self.model, self.parameters) else { return vec![None; facets.len()] };
         let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted).1));
         facets.iter().map(error).collect()

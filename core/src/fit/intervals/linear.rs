@@ -6,7 +6,7 @@
 
 use crate::fit::objective::Problem;
 use crate::fit::options::Weights;
-use crate::model::{Parameter, ParameterSet, Parameters};
+use crate::model::{Parameter, ParameterSet, Parameters, PerParameter};
 use nalgebra::{DMatrix, DVector, SVD};
 use serde::ser::SerializeStruct as _;
 use serde::{Serialize, Serializer};
@@ -185,11 +185,11 @@ impl Uncertainty {
         }
     }
 
-    /// Standard error of a prediction with that gradient (in the order of [`Parameter::ALL`]), `√(gᵀ C g)`; none where the gradient has a share in an open
+    /// Standard error of a prediction with that gradient, `√(gᵀ C g)`; none where the gradient has a share in an open
     /// direction, or where the covariance is unknown.
     #[must_use]
-    pub fn error_of_prediction(&self, gradient: &[f64; 9]) -> Option<f64> {
-        let g = DVector::from_iterator(self.analysed.len(), self.analysed.iter().map(|&parameter| gradient[parameter as usize]));
+    pub fn error_of_prediction(&self, gradient: &PerParameter<f64>) -> Option<f64> {
+        let g = DVector::from_iterator(self.analysed.len(), self.analysed.iter().map(|&parameter| gradient[parameter]));
         let scaled = DVector::from_iterator(g.len(), g.iter().zip(&self.scales).map(|(slope, scale)| slope * scale));
         let is_open = (&self.null_space * &scaled).norm() > UNDETERMINED_SHARE * scaled.norm();
         // Rounding may leave a variance of 0 an ulp below it.

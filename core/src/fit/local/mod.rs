@@ -5,5 +5,6 @@ pub(crate) mod minpack;
 pub(crate) mod qr;
 pub(crate) mod recorder;
 pub(crate) mod reparametrisation;
+pub(crate) mod sin_squared;
 pub(crate) mod solution;
 pub(crate) mod solver;

@@ -27,11 +27,11 @@ fn origin(parameter: Parameter) -> Option<f64> {
 }
 
 impl Problem {
-    /// All nine parameters, given the free ones.
+    /// All parameters, given the free ones; a weight below its domain is 0.
     pub(crate) fn parameters_at(&self, x: &DVector<f64>) -> Parameters {
         let mut parameters = *self.start();
         for (&parameter, value) in self.free().iter().zip(x.iter()) {
-            parameters[parameter] = *value;
+            parameters[parameter] = parameter.domain().flush_to_zero(*value);
         }
         parameters
     }

@@ -17,14 +17,14 @@ const GUESSES: usize = 64;
 pub(crate) struct StartSequence<'a> {
     problem: &'a Problem,
     guesses: std::vec::IntoIter<Parameters>,
-    shift: [f64; Parameter::ALL.len()],
+    shift: [f64; Parameter::COUNT],
     next: u32,
 }
 
 impl<'a> StartSequence<'a> {
     pub(crate) fn new(problem: &'a Problem, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
-        let mut shift = [0.0; Parameter::ALL.len()];
+        let mut shift = [0.0; Parameter::COUNT];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
         let guesses = grid_minima(problem).into_iter().take(GUESSES).map(|guess| guess.parameters);

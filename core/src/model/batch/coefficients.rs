@@ -1,11 +1,15 @@
 //! What the kernels need of a surface, formed once.
 
 use crate::model::{Diffuse, DolpFormula, Model, Parameters, Pbrdf};
-use crate::optics::SlopeDistribution;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// √(2π).
 const SQRT_TWO_PI: f64 = 2.506_628_274_631_000_5;
+
+/// Beyond this, coefficients times e^500 leave the range of f64 ([`crate::model::batch::kernels::STEEPEST`]).
+const LARGEST_RATIO: f64 = 1e60;
+/// Below this, squares of |N|² at normal incidence leave the range of f64.
+const SMALLEST_INDEX: f64 = 1e-30;
 
 /// A surface as the kernels take it.
 #[derive(Debug, Clone, Copy)]
@@ -13,17 +17,7 @@ pub(crate) struct Coefficients {
     /// Terms that are there and have a weight.
     pub model: Model,
     pub parameters: Parameters,
-    /// (n − 1)(n + 1) − k², |(n − 1)(n + 1)|, n², (n − k)(n + k), n k and (2 n k)².
-    pub excess: f64,
-    pub excess_size: f64,
-    pub n_sq: f64,
-    pub difference: f64,
-    pub nk: f64,
-    pub two_nk_sq: f64,
-    /// E = |N² − 1|².
-    pub e: f64,
-    /// ∂ln E/∂n and ∂ln E/∂k.
-    pub ln_e_slopes: [f64; 2],
+    pub index: IndexCoefficients,
     /// 1/2σ².
     pub half_over_sigma_sq: f64,
     /// −1/σ_v².
@@ -40,56 +34,74 @@ pub(crate) struct Coefficients {
     pub volume_over_specular: f64,
 }
 
-/// Numbers that no product or quotient of the kernels takes out of the range of f64.
-fn is_plain(value: f64) -> bool {
-    (1e-30..=1e30).contains(&value)
+/// What depends on n and k alone.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct IndexCoefficients {
+    /// (n − 1)(n + 1) − k² and |(n − 1)(n + 1)|.
+    pub excess: f64,
+    pub excess_size: f64,
+    /// n², (n − k)(n + k), n k and (2 n k)².
+    pub n_sq: f64,
+    pub difference: f64,
+    pub nk: f64,
+    pub two_nk_sq: f64,
+    /// E = |N² − 1|².
+    pub e: f64,
+    /// ∂ln E/∂n and ∂ln E/∂k.
+    pub ln_e_slopes: [f64; 2],
+}
+
+impl IndexCoefficients {
+    fn new(n: f64, k: f64) -> Self {
+        let (minus, plus) = (n - 1.0, n + 1.0);
+        let e = (minus * minus + k * k) * (plus * plus + k * k);
+        Self {
+            excess: minus * plus - k * k,
+            excess_size: (minus * plus).abs(),
+            n_sq: n * n,
+            difference: (n - k) * (n + k),
+            nk: n * k,
+            two_nk_sq: (2.0 * (n * k)) * (2.0 * (n * k)),
+            e,
+            ln_e_slopes: [4.0 * n * (minus * plus + k * k) / e, 4.0 * k * (n * n + k * k + 1.0) / e],
+        }
+    }
 }
 
 impl Coefficients {
-    /// None for a surface that only the scalar form does justice: no specular light, Hyde's
-    /// integral, or values near the ends of f64.
+    /// None for a surface that only the scalar form evaluates: without specular light, with Hyde's integral, or with
+    /// coefficients that kernels could take out of the range of f64.
     pub(crate) fn new(surface: &Pbrdf) -> Option<Self> {
         let model = surface.model();
         let p = *surface.parameters();
-        let (minus, plus) = (p.n - 1.0, p.n + 1.0);
-        let e = (minus * minus + p.k * p.k) * (plus * plus + p.k * p.k);
-        let height = model.distribution.height(p.q);
-        let specular = p.ks * e * height / (8.0 * PI * p.sigma * p.sigma);
+        let index = IndexCoefficients::new(p.n, p.k);
+        let specular = p.ks * index.e * model.distribution.height(p.q) / (8.0 * PI * p.sigma * p.sigma);
         let volume_height = 1.0 / (SQRT_TWO_PI * p.sigma_v);
         let coefficients = Self {
             model,
             parameters: p,
-            excess: minus * plus - p.k * p.k,
-            excess_size: (minus * plus).abs(),
-            n_sq: p.n * p.n,
-            difference: (p.n - p.k) * (p.n + p.k),
-            nk: p.n * p.k,
-            two_nk_sq: (2.0 * (p.n * p.k)) * (2.0 * (p.n * p.k)),
-            e,
-            ln_e_slopes: [4.0 * p.n * (minus * plus + p.k * p.k) / e, 4.0 * p.k * (p.n * p.n + p.k * p.k + 1.0) / e],
+            index,
             half_over_sigma_sq: 0.5 / (p.sigma * p.sigma),
             minus_over_sigma_v_sq: -1.0 / (p.sigma_v * p.sigma_v),
             specular,
-            diffuse_height: FRAC_1_PI,
-            volume_height,
             dolp_gain: match model.dolp_formula {
                 DolpFormula::Consistent => 1.0,
                 DolpFormula::AsPrinted => 1.0 / p.ks,
             },
+            diffuse_height: FRAC_1_PI,
+            volume_height,
             diffuse_over_specular: FRAC_1_PI / specular,
             volume_over_specular: volume_height / specular,
         };
-        (model.specular && model.diffuse != Diffuse::Hyde && coefficients.is_plain()).then_some(coefficients)
+        (model.specular && model.diffuse != Diffuse::Hyde && coefficients.stay_in_range()).then_some(coefficients)
     }
 
-    fn is_plain(&self) -> bool {
+    fn stay_in_range(&self) -> bool {
         let p = &self.parameters;
-        let index = |value: f64| value == 0.0 || (1e-30..=1e6).contains(&value);
-        let weight = |value: f64| value == 0.0 || is_plain(value);
-        let tail = self.model.distribution == SlopeDistribution::Gauss || (is_plain(p.q - 1.0) && p.q < 1e9);
-        let volume = !self.model.volume || (weight(p.kv) && (1e-9..=1e9).contains(&p.sigma_v));
-        let diffuse = self.model.diffuse == Diffuse::Absent || (weight(p.kd) && p.c.abs() < 1e6);
-        index(p.n) && index(p.k) && is_plain(p.ks) && is_plain(p.sigma) && is_plain(self.specular) && tail && volume && diffuse
+        let is_moderate = |height: f64, weight: f64| height.max(weight * height) <= LARGEST_RATIO;
+        let diffuse = self.model.diffuse == Diffuse::Absent || is_moderate(self.diffuse_over_specular, p.kd);
+        let volume = !self.model.volume || is_moderate(self.volume_over_specular, p.kv);
+        p.n.max(p.k) >= SMALLEST_INDEX && self.specular > 0.0 && diffuse && volume
     }
 
     /// Without the terms whose weight is 0, and with c = 0 as Lambert's term: for values, not for derivatives.

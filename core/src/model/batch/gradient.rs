@@ -1,4 +1,4 @@
-//! The kernel for DoLP and its derivatives by the nine parameters, as `model::gradient` has them.
+//! The kernel for DoLP and its derivatives by the parameters, as `model::gradient` has them.
 //!
 //! With `T = B W² Z` (so that r = H/(H + T) is the specular share of the radiance and 1 − r = T/(H + T)) and the reflectance
 //! `R = E H/(W² Z)`:
@@ -11,7 +11,7 @@
 
 use crate::model::batch::coefficients::Coefficients;
 use crate::model::batch::elementary::exp;
-use crate::model::batch::kernels::{Fresnel, MINNAERT, NONE, STEEPEST, Slopes, diffuse_exponent, over_geometric, volume_exponent};
+use crate::model::batch::kernels::{FresnelLanes, MINNAERT, NONE, STEEPEST, Slopes, diffuse_exponent, over_geometric, volume_exponent};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
 use crate::model::{DolpFormula, Parameter};
 use fearless_simd::prelude::*;
@@ -22,18 +22,21 @@ const DARKEST: f64 = 1e280;
 /// DoLP, then its derivatives in the order of [`Parameter::ALL`].
 pub(crate) struct DolpGradient<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool>(pub &'a Coefficients);
 
+/// Columns of the kernel: DoLP and a derivative by each parameter.
+pub(crate) const COLUMNS: usize = 1 + Parameter::COUNT;
+
 /// Where the column of a parameter is.
 const fn column(parameter: Parameter) -> usize {
     1 + parameter as usize
 }
 
-impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for DolpGradient<'_, CAUCHY, DIFFUSE, VOLUME> {
+impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> for DolpGradient<'_, CAUCHY, DIFFUSE, VOLUME> {
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; 10], Mask<S>) {
+    fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; COLUMNS], Mask<S>) {
         let of = self.0;
         let p = &of.parameters;
         let zero = number(simd, 0.0);
-        let fresnel = Fresnel::new(simd, points, of);
+        let fresnel = FresnelLanes::new(simd, points, of);
         let slopes = Slopes::new::<CAUCHY>(simd, points, of);
         let gain = over_geometric(points, of) * fresnel.w_sq_z();
         let mut steepest = slopes.exponent;
@@ -55,7 +58,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for D
         let rest = depolarised * one_over;
         let both = dolp * rest;
 
-        let mut out = [zero; 10];
+        let mut out = [zero; COLUMNS];
         out[0] = dolp;
         let ([mean_n, mean_k], [limit_n, limit_k]) = index_slopes(simd, &fresnel, of);
         out[column(Parameter::N)] = share.mul_add(limit_n, both * mean_n);
@@ -76,7 +79,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for D
             let by_weight = darkening * diffuse;
             out[column(Parameter::Kd)] = by_weight;
             if DIFFUSE == MINNAERT {
-                out[column(Parameter::C)] = by_weight * p.kd * points.load(|eight| &eight.ln_cosines);
+                out[column(Parameter::C)] = by_weight * p.kd * points.load(|block| &block.ln_cosines);
             }
         }
         if VOLUME {
@@ -85,26 +88,26 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<10> for D
             let slope = volume_exponent(points, of) * 2.0 + 1.0;
             out[column(Parameter::SigmaV)] = by_weight * slope * (-p.kv / p.sigma_v);
         }
-        let doubtful = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero) | total.simd_gt(number(simd, DARKEST));
-        (out, doubtful)
+        let needs_scalar = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero) | total.simd_gt(number(simd, DARKEST));
+        (out, needs_scalar)
     }
 }
 
 /// Derivatives of ln R, the reflectance, and of DoLP_s by n and k.
 #[inline(always)]
-fn index_slopes<S: Simd>(simd: S, fresnel: &Fresnel<S>, of: &Coefficients) -> ([V<S>; 2], [V<S>; 2]) {
+fn index_slopes<S: Simd>(simd: S, fresnel: &FresnelLanes<S>, of: &Coefficients) -> ([V<S>; 2], [V<S>; 2]) {
     let (n, k) = (of.parameters.n, of.parameters.k);
     let splat = |value| number(simd, value);
-    let Fresnel { sin_sq, u, a_sq, larger, smaller, dense, .. } = *fresnel;
+    let FresnelLanes { sin_sq, u, a_sq, larger, smaller, dense, .. } = *fresnel;
     let v = choose::<S>(dense, smaller, larger);
     let one_over_a_sq = splat(1.0) / a_sq;
     // ∂u/∂n and ∂u/∂k, the latter without the difference v² − k² (`optics::fresnel`).
     let along = u.mul_add(splat(n), v * k) * one_over_a_sq;
-    let size_sq = v.mul_add(v, splat(of.n_sq));
+    let size_sq = v.mul_add(v, splat(of.index.n_sq));
     let across = choose::<S>(size_sq.simd_gt(splat(0.0)), sin_sq * v * n / size_sq, splat(0.0)) * one_over_a_sq;
-    let modulus_sq = of.n_sq + k * k;
-    let by_n = IndexSlope { u: along, a_sq: (splat(modulus_sq) - sin_sq) * (2.0 * n) * one_over_a_sq, ln_e: of.ln_e_slopes[0] };
-    let by_k = IndexSlope { u: across, a_sq: (sin_sq + modulus_sq) * (2.0 * k) * one_over_a_sq, ln_e: of.ln_e_slopes[1] };
+    let modulus_sq = of.index.n_sq + k * k;
+    let by_n = IndexSlope { u: along, a_sq: (splat(modulus_sq) - sin_sq) * (2.0 * n) * one_over_a_sq, ln_e: of.index.ln_e_slopes[0] };
+    let by_k = IndexSlope { u: across, a_sq: (sin_sq + modulus_sq) * (2.0 * k) * one_over_a_sq, ln_e: of.index.ln_e_slopes[1] };
     let shared = Shared::new(simd, fresnel, of);
     let (mean_n, limit_n) = shared.slopes(simd, fresnel, &by_n);
     let (mean_k, limit_k) = shared.slopes(simd, fresnel, &by_k);
@@ -134,10 +137,10 @@ struct Shared<S: Simd> {
 
 impl<S: Simd> Shared<S> {
     #[inline(always)]
-    fn new(simd: S, fresnel: &Fresnel<S>, of: &Coefficients) -> Self {
+    fn new(simd: S, fresnel: &FresnelLanes<S>, of: &Coefficients) -> Self {
         let one = number(simd, 1.0);
         let (over_h, over_z, over_w) = (one / fresnel.h, one / fresnel.z, one / fresnel.w);
-        let rs = over_w * over_w * of.e;
+        let rs = over_w * over_w * of.index.e;
         let mean = rs * fresnel.h * over_z;
         Self {
             over_h,
@@ -153,9 +156,9 @@ impl<S: Simd> Shared<S> {
 
     /// ∂ln R and ∂DoLP_s.
     #[inline(always)]
-    fn slopes(&self, simd: S, fresnel: &Fresnel<S>, by: &IndexSlope<S>) -> (V<S>, V<S>) {
+    fn slopes(&self, simd: S, fresnel: &FresnelLanes<S>, by: &IndexSlope<S>) -> (V<S>, V<S>) {
         let Self { over_h, over_z, over_w, mean, bright, s_part, p_part, rs } = *self;
-        let Fresnel { cos, cos_sq, sin_sq, u, .. } = *fresnel;
+        let FresnelLanes { cos, cos_sq, sin_sq, u, .. } = *fresnel;
         let two_cos_du = cos * by.u * 2.0;
         let dh = cos_sq * by.a_sq;
         let ln_dh = dh * over_h;

@@ -11,6 +11,7 @@
 use crate::model::batch::coefficients::Coefficients;
 use crate::model::batch::elementary::{exp, ln_1p};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
+use crate::optics::Masking;
 use fearless_simd::prelude::*;
 
 /// Exponents beyond this go the scalar way: e^500 times any weight is far from the end of f64.
@@ -22,7 +23,7 @@ pub(crate) const LAMBERT: u8 = 1;
 pub(crate) const MINNAERT: u8 = 2;
 
 /// Fresnel reflection of the facets, without a reflectance: what DoLP and BRDF share.
-pub(crate) struct Fresnel<S: Simd> {
+pub(crate) struct FresnelLanes<S: Simd> {
     pub sin_sq: V<S>,
     pub cos_sq: V<S>,
     pub cos: V<S>,
@@ -39,20 +40,20 @@ pub(crate) struct Fresnel<S: Simd> {
     pub w: V<S>,
 }
 
-impl<S: Simd> Fresnel<S> {
+impl<S: Simd> FresnelLanes<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, points: &Points<'_, S>, of: &Coefficients) -> Self {
-        let sin_sq = points.load(|eight| &eight.sin_beta_sq);
-        let cos_sq = points.load(|eight| &eight.cos_beta_sq);
-        let cos = points.load(|eight| &eight.cos_beta);
+        let sin_sq = points.load(|block| &block.sin_beta_sq);
+        let cos_sq = points.load(|block| &block.cos_beta_sq);
+        let cos = points.load(|block| &block.cos_beta);
         let splat = |value| number(simd, value);
         // Re(N² − sin²β), by whichever of two equal sums has the smaller terms.
-        let by_excess = splat(of.excess_size).max(cos_sq).simd_lt(splat(of.n_sq).max(sin_sq));
-        let x = choose::<S>(by_excess, cos_sq + of.excess, splat(of.difference) - sin_sq);
-        let a_sq = x.mul_add(x, splat(of.two_nk_sq)).sqrt();
+        let by_excess = splat(of.index.excess_size).max(cos_sq).simd_lt(splat(of.index.n_sq).max(sin_sq));
+        let x = choose::<S>(by_excess, cos_sq + of.index.excess, splat(of.index.difference) - sin_sq);
+        let a_sq = x.mul_add(x, splat(of.index.two_nk_sq)).sqrt();
         let larger = ((a_sq + x.abs()) * 0.5).sqrt();
         // The least number keeps 0/0 away at the critical angle of a transparent index.
-        let smaller = splat(of.nk) / larger.max(splat(f64::MIN_POSITIVE));
+        let smaller = splat(of.index.nk) / larger.max(splat(f64::MIN_POSITIVE));
         let dense = x.simd_ge(splat(0.0));
         let u = choose::<S>(dense, larger, smaller);
         let h = a_sq.mul_add(cos_sq, sin_sq * sin_sq);
@@ -96,7 +97,7 @@ pub(crate) struct Slopes<S: Simd> {
 impl<S: Simd> Slopes<S> {
     #[inline(always)]
     pub(crate) fn new<const CAUCHY: bool>(simd: S, points: &Points<'_, S>, of: &Coefficients) -> Self {
-        let w = points.load(|eight| &eight.tan_alpha_sq) * of.half_over_sigma_sq;
+        let w = points.load(|block| &block.tan_alpha_sq) * of.half_over_sigma_sq;
         if CAUCHY {
             let ln = ln_1p(simd, w);
             Self { w, ln, exponent: ln * of.parameters.q }
@@ -109,18 +110,21 @@ impl<S: Simd> Slopes<S> {
 /// 1/g.
 #[inline(always)]
 pub(crate) fn over_geometric<S: Simd>(points: &Points<'_, S>, of: &Coefficients) -> V<S> {
-    if of.model.masking { points.load(|eight| &eight.over_geometric) } else { points.load(|eight| &eight.over_open) }
+    match of.model.masking {
+        Masking::None => points.load(|block| &block.over_open),
+        Masking::VGroove => points.load(|block| &block.over_geometric),
+    }
 }
 
 /// Exponents of F^d and F^v; those of a term that is not there are not formed.
 #[inline(always)]
 pub(crate) fn diffuse_exponent<S: Simd>(points: &Points<'_, S>, of: &Coefficients) -> V<S> {
-    points.load(|eight| &eight.ln_cosines) * of.parameters.c
+    points.load(|block| &block.ln_cosines) * of.parameters.c
 }
 
 #[inline(always)]
 pub(crate) fn volume_exponent<S: Simd>(points: &Points<'_, S>, of: &Coefficients) -> V<S> {
-    points.load(|eight| &eight.half_theta_r_sq) * of.minus_over_sigma_v_sq
+    points.load(|block| &block.half_theta_r_sq) * of.minus_over_sigma_v_sq
 }
 
 /// DoLP.
@@ -130,7 +134,7 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<1> for Do
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; 1], Mask<S>) {
         let of = self.0;
-        let fresnel = Fresnel::new(simd, points, of);
+        let fresnel = FresnelLanes::new(simd, points, of);
         if DIFFUSE == NONE && !VOLUME {
             return ([fresnel.polarised / fresnel.h * of.dolp_gain], Mask::<S>::splat(simd, false));
         }
@@ -161,7 +165,7 @@ impl<const DOLP: bool, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; 3], Mask<S>) {
         let of = self.0;
-        let fresnel = Fresnel::new(simd, points, of);
+        let fresnel = FresnelLanes::new(simd, points, of);
         let slopes = Slopes::new::<CAUCHY>(simd, points, of);
         let mut steepest = slopes.exponent;
         // S/H.
@@ -195,8 +199,8 @@ pub(crate) struct Brdf<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: 
 impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<1> for Brdf<'_, CAUCHY, DIFFUSE, VOLUME> {
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; 1], Mask<S>) {
-        let ([_, brdf, _], doubtful) = Radiance::<false, CAUCHY, DIFFUSE, VOLUME>(self.0).at(simd, points);
-        ([brdf], doubtful)
+        let ([_, brdf, _], needs_scalar) = Radiance::<false, CAUCHY, DIFFUSE, VOLUME>(self.0).at(simd, points);
+        ([brdf], needs_scalar)
     }
 }
 

@@ -4,7 +4,7 @@
 //! the points were shared among threads. With fused multiply–add (AVX2, AVX-512, NEON) it is the same to the bit; without (SSE2, WebAssembly)
 //! the same formulas round once more here and there.
 
-use crate::model::batch::prepared::{Block, LANES};
+use crate::model::batch::prepared::{LANES, PointBlock};
 use fearless_simd::{Level, prelude::*};
 use std::ops::Range;
 
@@ -81,21 +81,21 @@ pub(crate) trait Kernel<const OUT: usize>: Sync {
 /// As many prepared points as a vector has lanes.
 pub(crate) struct Points<'a, S: Simd> {
     simd: S,
-    eight: &'a Block,
+    block: &'a PointBlock,
     first: usize,
 }
 
 impl<S: Simd> Points<'_, S> {
-    /// A column of [`Block`].
+    /// A column of [`PointBlock`].
     #[inline(always)]
-    pub(crate) fn load(&self, column: impl Fn(&Block) -> &[f64; LANES]) -> V<S> {
-        V::<S>::from_slice(self.simd, &column(self.eight)[self.first..self.first + V::<S>::LEN])
+    pub(crate) fn load(&self, column: impl Fn(&PointBlock) -> &[f64; LANES]) -> V<S> {
+        V::<S>::from_slice(self.simd, &column(self.block)[self.first..self.first + V::<S>::LEN])
     }
 }
 
 /// Points to be evaluated: whole and broken blocks, where the results go, and the scalar form.
-pub(crate) struct Run<'a, const OUT: usize> {
-    pub blocks: &'a [Block],
+pub(crate) struct KernelRun<'a, const OUT: usize> {
+    pub blocks: &'a [PointBlock],
     pub columns: [&'a mut [f64]; OUT],
     /// Number of the first point.
     pub first: usize,
@@ -103,7 +103,7 @@ pub(crate) struct Run<'a, const OUT: usize> {
     pub scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
 }
 
-impl<const OUT: usize> Run<'_, OUT> {
+impl<const OUT: usize> KernelRun<'_, OUT> {
     /// How many points.
     fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.len())
@@ -129,7 +129,7 @@ impl<const OUT: usize> Run<'_, OUT> {
     /// Two jobs: the points before `middle`, a multiple of [`LANES`], and the others.
     #[cfg(feature = "threads")]
     fn split(self, middle: usize) -> (Self, Self) {
-        let (left_eights, right_eights) = self.blocks.split_at(middle / LANES);
+        let (left_blocks, right_blocks) = self.blocks.split_at(middle / LANES);
         let mut right_columns = Vec::with_capacity(OUT);
         let left_columns = self.columns.map(|column| {
             let (left, right) = column.split_at_mut(middle);
@@ -139,8 +139,8 @@ impl<const OUT: usize> Run<'_, OUT> {
         let mut right_columns = right_columns.into_iter();
         let right_columns = std::array::from_fn(|_| right_columns.next().unwrap_or_default());
         (
-            Self { blocks: left_eights, columns: left_columns, ..self },
-            Self { blocks: right_eights, columns: right_columns, first: self.first + middle, scalar: self.scalar },
+            Self { blocks: left_blocks, columns: left_columns, ..self },
+            Self { blocks: right_blocks, columns: right_columns, first: self.first + middle, scalar: self.scalar },
         )
     }
 
@@ -180,45 +180,45 @@ impl<const OUT: usize> Run<'_, OUT> {
     fn run_on<S: Simd, K: Kernel<OUT>>(mut self, simd: S, kernel: &K) {
         let count = self.len();
         let whole = count / LANES;
-        for (i, eight) in self.blocks.iter().enumerate().take(whole) {
+        for (i, block) in self.blocks.iter().enumerate().take(whole) {
             for first in (0..LANES).step_by(V::<S>::LEN) {
-                let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
+                let (values, needs_scalar) = kernel.at(simd, &Points { simd, block, first });
                 let at = LANES * i + first;
                 for (column, value) in self.columns.iter_mut().zip(values) {
                     value.store_slice(&mut column[at..at + V::<S>::LEN]);
                 }
-                if doubtful.any_true() {
-                    self.repair(at..at + V::<S>::LEN, doubtful.to_bitmask());
+                if needs_scalar.any_true() {
+                    self.repair(at..at + V::<S>::LEN, needs_scalar.to_bitmask());
                 }
             }
         }
-        if let Some(eight) = self.blocks.get(whole) {
-            self.run_tail(simd, kernel, eight, LANES * whole..count);
+        if let Some(block) = self.blocks.get(whole) {
+            self.run_tail(simd, kernel, block, LANES * whole..count);
         }
     }
 
-    /// The last eight, of which only a part is wanted.
+    /// The last block, of which only a part is wanted.
     #[inline(always)]
-    fn run_tail<S: Simd, K: Kernel<OUT>>(&mut self, simd: S, kernel: &K, eight: &Block, wanted: Range<usize>) {
+    fn run_tail<S: Simd, K: Kernel<OUT>>(&mut self, simd: S, kernel: &K, block: &PointBlock, wanted: Range<usize>) {
         for first in (0..wanted.len()).step_by(V::<S>::LEN) {
-            let (values, doubtful) = kernel.at(simd, &Points { simd, eight, first });
+            let (values, needs_scalar) = kernel.at(simd, &Points { simd, block, first });
             let at = wanted.start + first;
             let end = wanted.end.min(at + V::<S>::LEN);
             for (column, value) in self.columns.iter_mut().zip(values) {
                 column[at..end].copy_from_slice(&value.as_slice()[..end - at]);
             }
-            if doubtful.any_true() {
-                self.repair(at..end, doubtful.to_bitmask());
+            if needs_scalar.any_true() {
+                self.repair(at..end, needs_scalar.to_bitmask());
             }
         }
     }
 
-    /// Puts the scalar form's numbers where the lane of that bit is doubtful.
+    /// Puts the scalar form's numbers where the lane of that bit is needs_scalar.
     #[cold]
     #[inline(never)]
-    fn repair(&mut self, points: Range<usize>, doubtful: u64) {
+    fn repair(&mut self, points: Range<usize>, needs_scalar: u64) {
         for (lane, point) in points.enumerate() {
-            if doubtful >> lane & 1 == 1 {
+            if needs_scalar >> lane & 1 == 1 {
                 self.put(point);
             }
         }

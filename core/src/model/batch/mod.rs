@@ -15,27 +15,28 @@ mod kernels;
 mod lanes;
 mod prepared;
 
-use crate::model::{Diffuse, GeometrySet, GradientRequest, ParameterSet, Pbrdf};
+use crate::model::{Diffuse, GeometrySet, GradientRequest, ParameterSet, Pbrdf, PerParameter};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use coefficients::Coefficients;
-use gradient::DolpGradient;
+use gradient::{COLUMNS, DolpGradient};
 use kernels::{Both, Brdf, Dolp, LAMBERT, MINNAERT, NONE};
 pub use lanes::Instructions;
-use lanes::{Kernel, Run};
-use prepared::{Block, blocks};
+use lanes::{Kernel, KernelRun};
+use prepared::{PointBlock, blocks};
 
 /// Geometries prepared for many evaluations at once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
     /// For the scalar form.
     scene: GeometrySet,
-    blocks: Vec<Block>,
+    blocks: Vec<PointBlock>,
     instructions: Instructions,
     single_threaded: bool,
 }
 
 /// DoLP, BRDF and the specular part of it, of each point of a batch.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Radiances {
     /// Degree of linear polarisation.
     pub dolp: Vec<f64>,
@@ -47,30 +48,31 @@ pub struct Radiances {
 
 /// DoLP and its derivatives, of each point of a batch.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct DolpGradients {
     /// Degree of linear polarisation.
     pub dolp: Vec<f64>,
-    /// ∂DoLP/∂p in the order of [`Parameter::ALL`](crate::model::Parameter::ALL); 0 for parameters that play no part in the model.
-    pub by: [Vec<f64>; 9],
+    /// ∂DoLP/∂p; 0 for parameters that play no part in the model.
+    pub by: PerParameter<Vec<f64>>,
 }
 
 /// Runs a kernel with the terms that a model has: `$kernel::<CAUCHY, DIFFUSE, VOLUME>`.
 macro_rules! run_with_terms {
-    ($batch:expr, $job:expr, $kernel:ident, $of:expr) => {
+    ($batch:expr, $run:expr, $kernel:ident, $of:expr) => {
         match ($of.model.distribution == SlopeDistribution::Cauchy, $of.model.diffuse, $of.model.volume) {
-            (false, Diffuse::Absent, false) => $batch.run($job, &$kernel::<false, NONE, false>($of)),
-            (false, Diffuse::Absent, true) => $batch.run($job, &$kernel::<false, NONE, true>($of)),
-            (false, Diffuse::Lambert, false) => $batch.run($job, &$kernel::<false, LAMBERT, false>($of)),
-            (false, Diffuse::Lambert, true) => $batch.run($job, &$kernel::<false, LAMBERT, true>($of)),
-            (false, Diffuse::Minnaert, false) => $batch.run($job, &$kernel::<false, MINNAERT, false>($of)),
-            (false, Diffuse::Minnaert, true) => $batch.run($job, &$kernel::<false, MINNAERT, true>($of)),
-            (true, Diffuse::Absent, false) => $batch.run($job, &$kernel::<true, NONE, false>($of)),
-            (true, Diffuse::Absent, true) => $batch.run($job, &$kernel::<true, NONE, true>($of)),
-            (true, Diffuse::Lambert, false) => $batch.run($job, &$kernel::<true, LAMBERT, false>($of)),
-            (true, Diffuse::Lambert, true) => $batch.run($job, &$kernel::<true, LAMBERT, true>($of)),
-            (true, Diffuse::Minnaert, false) => $batch.run($job, &$kernel::<true, MINNAERT, false>($of)),
-            (true, Diffuse::Minnaert, true) => $batch.run($job, &$kernel::<true, MINNAERT, true>($of)),
-            (_, Diffuse::Hyde, _) => $job.run_scalar(),
+            (false, Diffuse::Absent, false) => $batch.run($run, &$kernel::<false, NONE, false>($of)),
+            (false, Diffuse::Absent, true) => $batch.run($run, &$kernel::<false, NONE, true>($of)),
+            (false, Diffuse::Lambert, false) => $batch.run($run, &$kernel::<false, LAMBERT, false>($of)),
+            (false, Diffuse::Lambert, true) => $batch.run($run, &$kernel::<false, LAMBERT, true>($of)),
+            (false, Diffuse::Minnaert, false) => $batch.run($run, &$kernel::<false, MINNAERT, false>($of)),
+            (false, Diffuse::Minnaert, true) => $batch.run($run, &$kernel::<false, MINNAERT, true>($of)),
+            (true, Diffuse::Absent, false) => $batch.run($run, &$kernel::<true, NONE, false>($of)),
+            (true, Diffuse::Absent, true) => $batch.run($run, &$kernel::<true, NONE, true>($of)),
+            (true, Diffuse::Lambert, false) => $batch.run($run, &$kernel::<true, LAMBERT, false>($of)),
+            (true, Diffuse::Lambert, true) => $batch.run($run, &$kernel::<true, LAMBERT, true>($of)),
+            (true, Diffuse::Minnaert, false) => $batch.run($run, &$kernel::<true, MINNAERT, false>($of)),
+            (true, Diffuse::Minnaert, true) => $batch.run($run, &$kernel::<true, MINNAERT, true>($of)),
+            (_, Diffuse::Hyde, _) => $run.run_scalar(),
         }
     };
 }
@@ -127,20 +129,20 @@ impl Batch {
     /// DoLP of each point, as [`Pbrdf::dolp`] has it; `out` takes as many numbers as there are points.
     pub fn dolp(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
         let scalar = |point: usize| [self.scene.dolp(surface, point)];
-        let job = self.job([out], &scalar);
+        let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, job, Dolp, &of),
-            None => job.run_scalar(),
+            Some(of) => run_with_terms!(self, run, Dolp, &of),
+            None => run.run_scalar(),
         }
     }
 
     /// BRDF of each point in sr⁻¹, as [`Pbrdf::reflection`] has it; `out` takes as many numbers as there are points.
     pub fn brdf(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
         let scalar = |point: usize| [self.scene.reflection(surface, point).brdf];
-        let job = self.job([out], &scalar);
+        let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, job, Brdf, &of),
-            None => job.run_scalar(),
+            Some(of) => run_with_terms!(self, run, Brdf, &of),
+            None => run.run_scalar(),
         }
     }
 
@@ -150,46 +152,52 @@ impl Batch {
             let reflection = self.scene.reflection(surface, point);
             [reflection.dolp, reflection.brdf, reflection.specular]
         };
-        let job = self.job([&mut out.dolp, &mut out.brdf, &mut out.specular], &scalar);
+        let columns = [&mut out.dolp, &mut out.brdf, &mut out.specular].map(|column| self.resized(column));
+        let run = self.kernel_run(columns, &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, job, Both, &of),
-            None => job.run_scalar(),
+            Some(of) => run_with_terms!(self, run, Both, &of),
+            None => run.run_scalar(),
         }
     }
 
-    /// DoLP of each point and its derivatives by the nine parameters, as [`Pbrdf::reflection_and_gradient`] has them.
+    /// DoLP of each point and its derivatives by the parameters, as [`Pbrdf::reflection_and_gradient`] has them.
     pub fn dolp_gradients(&self, surface: &Pbrdf, out: &mut DolpGradients) {
         let wanted = GradientRequest { by: ParameterSet::ALL, brdf: false, dolp: true };
         let scalar = |point: usize| {
             let (reflection, gradient) = self.scene.reflection_and_gradient(surface, point, wanted);
-            std::array::from_fn(|column| if column == 0 { reflection.dolp } else { gradient.dolp[column - 1] })
+            let mut columns = [reflection.dolp; COLUMNS];
+            columns[1..].copy_from_slice(&gradient.dolp.0);
+            columns
         };
-        let DolpGradients { dolp, by: [n, k, sigma, ks, kd, kv, q, c, sigma_v] } = out;
-        let job = self.job([dolp, n, k, sigma, ks, kd, kv, q, c, sigma_v], &scalar);
+        let mut columns = std::iter::once(&mut out.dolp).chain(&mut out.by.0).map(|column| self.resized(column));
+        let columns = std::array::from_fn(|_| columns.next().unwrap_or_default());
+        let run = self.kernel_run(columns, &scalar);
         match Coefficients::new(surface) {
-            Some(of) => run_with_terms!(self, job, DolpGradient, &of),
-            None => job.run_scalar(),
+            Some(of) => run_with_terms!(self, run, DolpGradient, &of),
+            None => run.run_scalar(),
         }
     }
 
-    /// All points, with columns of their number.
-    fn job<'a, const OUT: usize>(
-        &'a self,
-        columns: [&'a mut Vec<f64>; OUT],
-        scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
-    ) -> Run<'a, OUT> {
-        let columns = columns.map(|column| {
-            column.resize(self.len(), 0.0);
-            column.as_mut_slice()
-        });
-        Run { blocks: &self.blocks, columns, first: 0, scalar }
+    /// A column with a number for each point.
+    fn resized<'a>(&self, column: &'a mut Vec<f64>) -> &'a mut [f64] {
+        column.resize(self.len(), 0.0);
+        column.as_mut_slice()
     }
 
-    fn run<const OUT: usize>(&self, job: Run<'_, OUT>, kernel: &impl Kernel<OUT>) {
+    /// A run over all points.
+    fn kernel_run<'a, const OUT: usize>(
+        &'a self,
+        columns: [&'a mut [f64]; OUT],
+        scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
+    ) -> KernelRun<'a, OUT> {
+        KernelRun { blocks: &self.blocks, columns, first: 0, scalar }
+    }
+
+    fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
         if self.single_threaded {
-            job.run(kernel, self.instructions);
+            run.run(kernel, self.instructions);
         } else {
-            job.run_parallel(kernel, self.instructions);
+            run.run_parallel(kernel, self.instructions);
         }
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::optics::Facet;
 
-/// Points in a [`Block`]: the widest vector, of AVX-512.
+/// Points in a [`PointBlock`]: the widest vector, of AVX-512.
 pub(crate) const LANES: usize = 8;
 
 /// Eight points, side by side. One cache line a column.
 #[derive(Debug, Clone, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Block {
+pub(crate) struct PointBlock {
     pub sin_beta_sq: [f64; LANES],
     pub cos_beta_sq: [f64; LANES],
     pub cos_beta: [f64; LANES],
@@ -23,8 +23,8 @@ pub(crate) struct Block {
     pub half_theta_r_sq: [f64; LANES],
 }
 
-impl Block {
-    /// Up to eight points; places that are left over repeat the first one.
+impl PointBlock {
+    /// Up to block points; places that are left over repeat the first one.
     fn new(facets: &[Facet]) -> Self {
         let column = |of: fn(&Facet) -> f64| std::array::from_fn(|lane| facets.get(lane).or(facets.first()).map_or(0.0, of));
         Self {
@@ -46,6 +46,6 @@ fn over(facet: &Facet, g_over_cosines: f64) -> f64 {
 }
 
 /// All points in blocks.
-pub(crate) fn blocks(facets: &[Facet]) -> Vec<Block> {
-    facets.chunks(LANES).map(Block::new).collect()
+pub(crate) fn blocks(facets: &[Facet]) -> Vec<PointBlock> {
+    facets.chunks(LANES).map(PointBlock::new).collect()
 }

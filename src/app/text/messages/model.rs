@@ -27,10 +27,10 @@ impl Localized for GeometryError {
 
 impl Localized for Domain {
     fn localized(&self) -> String {
+        let (low, high) = self.ends();
         match self {
-            Self::From(low) => tr!("a finite number ≥ {}", low),
-            Self::Above(low) => tr!("a finite number > {}", low),
-            Self::Finite => tr!("a finite number"),
+            Self::Between(..) => tr!("a number from {0} to {1}", low, high),
+            Self::ZeroOrBetween(..) => tr!("0 or a number from {0} to {1}", low, high),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized;
-use pbrdf::selftest::{BenchmarkMethod, GRADIENT_BAR, Machine, Note, StabilityCase, StabilityOutcome, VALUE_BAR};
+use pbrdf::selftest::{BenchmarkMethod, DARK_BAR, GRADIENT_BAR, Machine, Note, StabilityCase, StabilityOutcome, VALUE_BAR};
 use tr::tr;
 
 impl Localized for Machine {
@@ -90,9 +90,10 @@ impl Localized for Note {
     fn localized(&self) -> String {
         match self {
             Self::StabilityEvaluations => tr!(
-                "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {0}; error of the nine derivatives by the smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {1}; both limits times sin²β/|N² − sin²β| where that is above 1, near the critical angle. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. condition: the largest |∂ln f/∂ln p| of BRDF and DoLP.",
+                "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {0}; error of the nine derivatives by the smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {1}; both limits times sin²β/|N² − sin²β| where that is above 1, near the critical angle, and {2} for DoLP of lobes that are all darker than e^−120. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. condition: the largest |∂ln f/∂ln p| of BRDF and DoLP.",
                 format!("{VALUE_BAR:.0e}"),
-                format!("{GRADIENT_BAR:.0e}")
+                format!("{GRADIENT_BAR:.0e}"),
+                format!("{DARK_BAR:.0e}")
             ),
             Self::StabilityFits => tr!(
                 "Fits: condition is the largest over the smallest singular value of the Jacobian scaled by max(|p|, 1e-3); a fit passes if it does what its name asks for: reach the exact minimum, name what the data leave open, mark a bound, keep the truth within four standard errors, or end with a typed reason."

@@ -22,12 +22,12 @@ const WIDEST: f64 = 6.0;
 
 /// V-grooves at one angle of incidence.
 #[derive(Debug, Clone)]
-pub(crate) struct Grooves {
+pub(crate) struct VGrooves {
     tan_theta: f64,
     edges: Vec<f64>,
 }
 
-impl Grooves {
+impl VGrooves {
     /// Seen under an angle of incidence below 90°.
     pub(crate) fn at(theta_i: Degrees) -> Self {
         let tan = |tilt: Degrees| {
@@ -130,12 +130,12 @@ fn sin_less_phi_cos(phi: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Degrees, Grooves, PI};
+    use super::{Degrees, PI, VGrooves};
 
     #[test]
     fn what_is_lost_agrees_with_the_masking_of_equation_six() {
         for theta in [0.0, 20.0, 45.0, 60.0, 85.0] {
-            let grooves = Grooves::at(Degrees(theta));
+            let grooves = VGrooves::at(Degrees(theta));
             let t = Degrees(theta).sin() / Degrees(theta).cos();
             for s in [0.05, 0.3, 0.7, 0.99, 1.0, 1.4, 2.5, 30.0] {
                 let steps = 20_000;
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn nothing_is_lost_below_the_first_edge_and_all_above_the_last() {
         for theta in [0.0, 30.0, 45.0, 70.0, 89.0] {
-            let grooves = Grooves::at(Degrees(theta));
+            let grooves = VGrooves::at(Degrees(theta));
             let edges = grooves.edges();
             let (first, last) = (edges[0], edges[edges.len() - 1]);
             assert_eq!(grooves.lost(0.999 * first), 0.0, "{theta}");

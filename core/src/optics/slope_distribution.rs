@@ -70,7 +70,7 @@ impl SlopeDistribution {
         }
     }
 
-    /// `∂P/∂q ÷ (P/h)` from ln(1 + w), which exists where w overflows: Gauss 0, Cauchy 1 − (q − 1) ln(1 + w).
+    /// `∂P/∂q ÷ (P/h)` from ln(1 + w): Gauss 0, Cauchy 1 − (q − 1) ln(1 + w).
     #[must_use]
     pub fn q_slope(self, ln_1p_w: f64, q: f64) -> f64 {
         match self {
@@ -136,9 +136,9 @@ impl SlopeDistribution {
     }
 }
 
-/// `w = tan²α / 2σ²`, divided twice so that neither a tiny nor a huge σ is squared.
+/// `w = tan²α / 2σ²`.
 pub(crate) fn reduced_slope_sq(tan_alpha_sq: f64, sigma: f64) -> f64 {
-    (0.5 * (tan_alpha_sq / sigma / sigma)).min(f64::MAX)
+    0.5 * (tan_alpha_sq / sigma / sigma)
 }
 
 #[cfg(test)]
