@@ -32,7 +32,7 @@
 //! Floors of a house; imports run downwards only.
 //!
 //! 1. [`optics`]: angles, geometry, Fresnel, facets, Stokes and Mueller, tabulated metals
-//! 2. [`model`]: the parameters, the lobes, the pBRDF, its gradient, prepared scenes, the ladder of models
+//! 2. [`model`]: the parameters, the lobes, the pBRDF, its gradient, prepared geometries, batches, presets, audit
 //! 3. [`measurement`]: tables read, written, simulated; foreign files imported, tensors exported
 //! 4. [`fit`]: choices, bounds, residuals, solver and its coordinates, starts, uncertainty, profiles, bootstrap
 //! 5. `selftest` (a feature): error against run time, stability, cost

@@ -108,7 +108,7 @@ struct Field<'a> {
 impl<'a> Field<'a> {
     fn new(problem: &'a Problem, height: Height) -> Self {
         let is_minimised = height == Height::Minimised || problem.minimises_delta_e();
-        let batch = is_minimised.then(|| Batch::from_scene(problem.geometries().clone()).single_threaded());
+        let batch = is_minimised.then(|| Batch::from_set(problem.geometries().clone()).single_threaded());
         Self { problem, batch }
     }
 

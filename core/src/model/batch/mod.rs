@@ -28,7 +28,7 @@ use prepared::{PointBlock, blocks};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
     /// For the scalar form.
-    scene: GeometrySet,
+    set: GeometrySet,
     blocks: Vec<PointBlock>,
     instructions: Instructions,
     single_threaded: bool,
@@ -87,13 +87,13 @@ impl Batch {
     /// From geometries that are prepared already.
     #[must_use]
     pub fn from_facets(facets: Vec<Facet>) -> Self {
-        Self::from_scene(GeometrySet::from_facets(facets))
+        Self::from_set(GeometrySet::from_facets(facets))
     }
 
-    /// From a scene, and all that is prepared in it.
+    /// From a set, and all that is prepared in it.
     #[must_use]
-    pub fn from_scene(scene: GeometrySet) -> Self {
-        Self { blocks: blocks(scene.facets()), scene, ..Self::default() }
+    pub fn from_set(set: GeometrySet) -> Self {
+        Self { blocks: blocks(set.facets()), set, ..Self::default() }
     }
 
     /// With other instructions than the widest that the processor has.
@@ -111,24 +111,24 @@ impl Batch {
     /// How many points.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.scene.len()
+        self.set.len()
     }
 
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.scene.is_empty()
+        self.set.is_empty()
     }
 
     /// The prepared geometries.
     #[must_use]
     pub fn facets(&self) -> &[Facet] {
-        self.scene.facets()
+        self.set.facets()
     }
 
     /// DoLP of each point, as [`Pbrdf::dolp`] has it; `out` takes as many numbers as there are points.
     pub fn dolp(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
-        let scalar = |point: usize| [self.scene.dolp(surface, point)];
+        let scalar = |point: usize| [self.set.dolp(surface, point)];
         let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
             Some(of) => run_with_terms!(self, run, Dolp, &of),
@@ -138,7 +138,7 @@ impl Batch {
 
     /// BRDF of each point in sr⁻¹, as [`Pbrdf::reflection`] has it; `out` takes as many numbers as there are points.
     pub fn brdf(&self, surface: &Pbrdf, out: &mut Vec<f64>) {
-        let scalar = |point: usize| [self.scene.reflection(surface, point).brdf];
+        let scalar = |point: usize| [self.set.reflection(surface, point).brdf];
         let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
             Some(of) => run_with_terms!(self, run, Brdf, &of),
@@ -149,7 +149,7 @@ impl Batch {
     /// DoLP, BRDF and its specular part of each point, as [`Pbrdf::reflection`] has them.
     pub fn radiances(&self, surface: &Pbrdf, out: &mut Radiances) {
         let scalar = |point: usize| {
-            let reflection = self.scene.reflection(surface, point);
+            let reflection = self.set.reflection(surface, point);
             [reflection.dolp, reflection.brdf, reflection.specular]
         };
         let columns = [&mut out.dolp, &mut out.brdf, &mut out.specular].map(|column| self.resized(column));
@@ -164,7 +164,7 @@ impl Batch {
     pub fn dolp_gradients(&self, surface: &Pbrdf, out: &mut DolpGradients) {
         let wanted = GradientRequest { by: ParameterSet::ALL, brdf: false, dolp: true };
         let scalar = |point: usize| {
-            let (reflection, gradient) = self.scene.reflection_and_gradient(surface, point, wanted);
+            let (reflection, gradient) = self.set.reflection_and_gradient(surface, point, wanted);
             let mut columns = [reflection.dolp; COLUMNS];
             columns[1..].copy_from_slice(&gradient.dolp.0);
             columns
