@@ -78,12 +78,14 @@ fn import_offers_a_guess_for_a_foreign_table_and_applies_only_what_is_chosen() {
     assert!(out.contains("\n45,20,90,1.25") && out.contains("# comment: by JL\n"), "{out}");
     let angles = folder.file("angles.csv", "inc,view\n30,20\n");
     let nothing = folder.file("nothing.csv", "a,b\n1,2\n");
+    let command = format!("; to import it, use pbrdf-explorer import {file} --columns theta_i=1,theta_r=2,dolp=3:percent -o ");
     for (arguments, expected) in [
         (vec!["import", &file, "--columns", "theta_i=AOI,theta_r=2,dolp=3"], "lab.csv: line 1: there is no column \"AOI\""),
         (vec!["import", &file, "--columns", "theta=1"], "\"theta\" is no field"),
         (vec!["import", &single, "--columns", "theta_r=1,dolp=2", "--theta-i", "40,45"], "--theta-i has to be one angle"),
         (vec!["import", &angles], "no column for DoLP or BRDF was found, the columns are inc, view"),
         (vec!["fit", &angles], "neither dolp nor brdf is in the header; at least one is needed; the columns are inc, view"),
+        (vec!["fit", &file], command.as_str()),
         (vec!["import", &nothing], "nothing.csv: this is neither Woollam ellipsometry text nor a tensor file"),
         (vec!["import", "no/such.dat"], "there is no such file"),
     ] {

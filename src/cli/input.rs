@@ -57,24 +57,34 @@ pub fn notice_ignored_columns(path: &Path, measurement: &Measurement) {
 fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
     let is_cancelled = matches!(error.kind, ReadErrorKind::Cancelled);
     if !is_cancelled && recognise(bytes).is_some() {
-        Failure::input(path, format_args!("{error}; {}", import_command(path, "")))
+        Failure::input(path, format_args!("{error}; to import it, use {}", import_command(path, "")))
     } else if error.hint() == Some(Hint::Import) {
-        let guess = Table::foreign(bytes).map(|table| Mapping::guess(table.header(), table.metadata())).unwrap_or_default();
-        let is_whole = guess.has_quantity()
-            && [Field::ThetaI, Field::ThetaR].iter().all(|&angle| guess.find(angle).is_some() || guess.constant(angle).is_some());
-        let options = if is_whole { columns_options(&guess) } else { "--columns theta_i=1,theta_r=2,dolp=3".to_owned() };
-        Failure::input(path, format_args!("{error}; {}", import_command(path, &options)))
+        let hint = table_import(path, bytes).map(|command| format!("; {command}"));
+        Failure::input(path, format_args!("{error}{}", hint.unwrap_or_default()))
     } else {
         read_failure(path, error)
     }
 }
 
-/// The command that imports a file.
+/// How to import a foreign table: by a guess that lacks nothing, else by an example. None where the
+/// table has too few columns for two angles and a quantity.
+fn table_import(path: &Path, bytes: &[u8]) -> Option<String> {
+    let table = Table::foreign(bytes).ok()?;
+    let guess = Mapping::guess(table.header(), table.metadata());
+    let is_known = |angle: Field| guess.find(angle).is_some() || guess.constant(angle).is_some();
+    if guess.has_quantity() && is_known(Field::ThetaI) && is_known(Field::ThetaR) {
+        Some(format!("to import it, use {}", import_command(path, &format!(" {}", columns_options(&guess)))))
+    } else {
+        let example = || format!("to import it, name its columns as in {}", import_command(path, " --columns theta_i=1,theta_r=2,dolp=3"));
+        (table.header().len() >= 3).then(example)
+    }
+}
+
+/// The command that imports a file with those options.
 fn import_command(path: &Path, options: &str) -> String {
-    let space = if options.is_empty() { "" } else { " " };
     let output = path.with_extension("imported.csv");
     let word = |path: &Path| quoted(&path.display().to_string());
-    format!("to import it, use pbrdf-explorer import {}{space}{options} -o {}", word(path), word(&output))
+    format!("pbrdf-explorer import {}{options} -o {}", word(path), word(&output))
 }
 
 /// The options of `import` for that mapping.

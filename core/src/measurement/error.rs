@@ -232,11 +232,15 @@ impl ReadError {
     }
 }
 
+/// Above this value a DoLP is percent rather than noise around 1.
+const PERCENT_FROM: f64 = 2.0;
+
 /// What helps where a cell is not what was expected.
 fn cell_hint(found: &str, expected: Expected) -> Option<Hint> {
     if expected.may_be_empty() && NOT_MEASURED.contains(&found.to_lowercase().as_str()) {
         Some(Hint::LeaveEmpty)
-    } else if expected == Expected::Dolp && found.replace(',', ".").parse().is_ok_and(|value: f64| value > 1.0 && value <= 100.0) {
+    } else if expected == Expected::Dolp && found.replace(',', ".").parse().is_ok_and(|value: f64| (PERCENT_FROM..=100.0).contains(&value))
+    {
         Some(Hint::NameDolpPercent)
     } else if found.contains(',') && found.contains('.') {
         Some(Hint::OneDecimalMark)

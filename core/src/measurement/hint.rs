@@ -21,7 +21,7 @@ impl std::fmt::Display for Hint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Import => "a file of another form becomes a measurement by the command import",
-            Self::NameDolpPercent => "if the column holds percent, name it dolp_percent",
+            Self::NameDolpPercent => "if the column holds percent, name it dolp_percent, or map it as dolp=COLUMN:percent",
             Self::LeaveEmpty => "leave the cell empty where nothing was measured",
             Self::SaveAsUtf8 => "save the file as CSV in UTF-8",
             Self::OneDecimalMark => "write numbers with one decimal mark and without thousands separators",
