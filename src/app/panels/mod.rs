@@ -7,4 +7,4 @@ mod tooltip_right;
 
 pub use fit::{delta_e_text, fit_ui};
 pub use parameters::{parameters_ui, significant};
-pub use stepping::{Step, step_with_arrows};
+pub use stepping::{SliderStep, step_with_arrows};

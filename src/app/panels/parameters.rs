@@ -1,6 +1,6 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
-use crate::app::panels::stepping::{Step, step_with_arrows};
+use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
@@ -152,7 +152,7 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
             let before = *angle;
             let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
             let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help);
-            step_with_arrows(ui, &slider, before, angle, &range, Step::Fixed(0.5));
+            step_with_arrows(ui, &slider, before, angle, &range, SliderStep::Fixed(0.5));
             if is_double_clicked(ui, &[&label, &slider]) {
                 *angle = default;
             }
@@ -215,7 +215,7 @@ fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeIn
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
     let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help.as_str());
-    let step = if parameter.is_logarithmic() { Step::OfSize } else { Step::over(&range) };
+    let step = if parameter.is_logarithmic() { SliderStep::OfSize } else { SliderStep::over(&range) };
     step_with_arrows(ui, &slider, before, value, &range, step);
     if is_double_clicked(ui, &[&label, &slider]) {
         *value = parameter.default_value();

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 /// How far an arrow key goes.
 #[derive(Debug, Clone, Copy)]
-pub enum Step {
+pub enum SliderStep {
     Fixed(f64),
     /// A tenth of the power of ten that the value begins with.
     OfSize,
@@ -23,7 +23,7 @@ struct Trail {
     before: Vec<(f64, bool, f64)>,
 }
 
-impl Step {
+impl SliderStep {
     /// The step of a slider over that range, a hundredth of it or less.
     pub fn over(range: &RangeInclusive<f64>) -> Self {
         Self::Fixed(libm::exp10(libm::floor(libm::log10((range.end() - range.start()) / 100.0))))
@@ -40,7 +40,7 @@ impl Step {
 
 /// Gives the slider the focus when it is clicked or dragged, and lets arrow keys step its value from where it was `before` the slider
 /// was drawn; with Shift or Ctrl by a tenth of a step.
-pub fn step_with_arrows(ui: &Ui, slider: &Response, before: f64, value: &mut f64, range: &RangeInclusive<f64>, step: Step) {
+pub fn step_with_arrows(ui: &Ui, slider: &Response, before: f64, value: &mut f64, range: &RangeInclusive<f64>, step: SliderStep) {
     if slider.is_pointer_button_down_on() {
         slider.request_focus();
     }
@@ -66,7 +66,7 @@ pub fn step_with_arrows(ui: &Ui, slider: &Response, before: f64, value: &mut f64
 }
 
 impl Trail {
-    fn go(&mut self, sign: f64, is_fine: bool, range: &RangeInclusive<f64>, step: Step) {
+    fn go(&mut self, sign: f64, is_fine: bool, range: &RangeInclusive<f64>, step: SliderStep) {
         if let Some(&(back, fine, to)) = self.before.last()
             && (fine, to) == (is_fine, -sign)
         {
@@ -89,22 +89,22 @@ impl Trail {
 
 #[cfg(test)]
 mod tests {
-    use super::{Step, Trail};
+    use super::{SliderStep, Trail};
 
     #[test]
     fn steps_come_back_exactly_and_go_over_powers_of_ten() {
         let mut trail = Trail { at: 2.071_234_567_89, ..Trail::default() };
         for sign in [1.0, 1.0, -1.0, -1.0, -1.0, 1.0] {
-            trail.go(sign, false, &(0.0..=10.0), Step::OfSize);
+            trail.go(sign, false, &(0.0..=10.0), SliderStep::OfSize);
         }
         assert_eq!(trail.at, 2.071_234_567_89);
-        trail.go(1.0, true, &(0.0..=10.0), Step::OfSize);
+        trail.go(1.0, true, &(0.0..=10.0), SliderStep::OfSize);
         assert!((trail.at - 2.081_234_568).abs() < 1e-12, "{}", trail.at);
         for (from, sign, to) in
             [(1.0, -1.0, 0.99), (1.0, 1.0, 1.1), (10.0, 1.0, 10.0), (0.0, -1.0, 0.0), (0.0, 1.0, 1e-4), (25.0, 1.0, 25.0)]
         {
             let mut trail = Trail { at: from, ..Trail::default() };
-            trail.go(sign, false, &(0.0..=10.0), Step::OfSize);
+            trail.go(sign, false, &(0.0..=10.0), SliderStep::OfSize);
             assert_eq!(trail.at, to, "{from} {sign}");
         }
     }

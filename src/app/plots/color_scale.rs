@@ -1,7 +1,7 @@
 //! Colours of values in a map, and the bar beside it that tells which is which.
 
-use crate::app::plots::Range;
 use crate::app::plots::axis::{decimal, marks};
+use crate::app::plots::range::Range;
 use crate::app::plots::theme;
 use crate::figure::{ColorMap, Rgb};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};

@@ -1,10 +1,12 @@
 //! A figure on the screen: the pane paints the same description that the exporter writes.
 
 use crate::app::jobs::memo::Memo;
+use crate::app::plots::axes::{Axes, plot};
 use crate::app::plots::axis::axis;
+use crate::app::plots::key_line::{KeyEntry, key_line_ui};
 use crate::app::plots::plot_axis::PlotAxis;
 use crate::app::plots::plot_item::{PlotItem, coordinates};
-use crate::app::plots::{Axes, KeyEntry, Range, key_line_ui, plot};
+use crate::app::plots::range::Range;
 use crate::figure::{Figure, Panel};
 use egui::Ui;
 use egui_plot::{AxisHints, HoverPosition, PlotResponse, PlotUi};

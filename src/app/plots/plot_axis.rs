@@ -1,7 +1,7 @@
 //! An axis of a figure on the screen: where values lie along it, its ends and its marks.
 
-use crate::app::plots::Range;
 use crate::app::plots::axis::{decades, decimal, logarithmic, marks};
+use crate::app::plots::range::Range;
 use crate::figure::{Axis, Scale};
 use egui_plot::{GridInput, GridMark};
 

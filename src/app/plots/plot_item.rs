@@ -2,7 +2,8 @@
 
 use crate::app::plots::error_bars::{ErrorBar, ErrorBars};
 use crate::app::plots::plot_axis::{PlotAxis, coordinate};
-use crate::app::plots::{Polyline, curve, split_at_gaps, theme};
+use crate::app::plots::polyline::{curve, split_at_gaps};
+use crate::app::plots::theme;
 use crate::figure::{Dash, Drawn, Point, Rgb, Scale, Series, Symbol};
 use egui::{Align2, Color32, RichText};
 use egui_plot::{FilledArea, HLine, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine};
@@ -202,9 +203,4 @@ fn bands(points: &[[f64; 3]], x: &PlotAxis, y: &PlotAxis) -> Vec<[Vec<f64>; 3]> 
     }
     pieces.retain(|[at, ..]| !at.is_empty());
     pieces
-}
-
-/// The points of a curve without its gaps.
-pub fn finite(points: &Polyline) -> impl Iterator<Item = [f64; 2]> {
-    points.iter().copied().filter(|point| point.iter().all(|coordinate| coordinate.is_finite()))
 }

@@ -29,7 +29,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct AuditView {
     job: AsyncMemo<Key, Audit>,
-    curves: Memo<Key, Curves>,
+    curves: Memo<Key, ReflectanceCurves>,
     range: AutoRange,
     /// The stamp of the curves, the axis, the language.
     plot: FigurePlot<(u64, Option<Range>, Language)>,
@@ -38,7 +38,7 @@ pub struct AuditView {
 type Key = (Parameters, Model);
 
 /// Reflectance against θi.
-struct Curves {
+struct ReflectanceCurves {
     total: Polyline,
     /// The part of it above 1.
     above: Polyline,
@@ -51,7 +51,7 @@ struct Curves {
     above_from: Option<f64>,
 }
 
-impl Curves {
+impl ReflectanceCurves {
     fn new(audit: &Audit, model: Model) -> Self {
         let along = |value: fn(&Reflectance) -> f64, is_there: bool| -> Polyline {
             audit.reflectance.iter().filter(|_| is_there).map(|at| [at.theta_i, value(at)]).collect()
@@ -70,7 +70,7 @@ impl Curves {
     }
 }
 
-impl Curves {
+impl ReflectanceCurves {
     fn describe(&self, title: String, range: &AutoRange) -> Figure {
         let mut series = vec![Series::level("", 1.0).colored(MUTED)];
         let terms = [(Term::Specular, &self.specular), (Term::Diffuse, &self.diffuse), (Term::Volume, &self.volume)];
@@ -121,7 +121,7 @@ impl View for AuditView {
         };
         self.job.refresh(&cx.jobs.spawner, &key, move |_| Audit::new(&surface));
         let (Some(key), Some(audit)) = (self.job.key(), self.job.get()) else { return };
-        self.curves.refresh(*key, |(_, model)| Curves::new(audit, *model));
+        self.curves.refresh(*key, |(_, model)| ReflectanceCurves::new(audit, *model));
         let Some(curves) = self.curves.get() else { return };
         // The line at 1 is always in sight; what grows without end at grazing incidence is cut.
         self.range.follow(Range { low: 0.0, high: nice_ceiling(curves.top.clamp(1.0, HIGHEST)) }, cx.interacting);
@@ -289,13 +289,13 @@ fn reflectance_ui(panel: Option<&mut PanelPlot>, above_from: Option<f64>, height
 
 #[cfg(test)]
 mod tests {
-    use super::{Audit, Curves, Parameters, Pbrdf, above_one, finite};
+    use super::{Audit, Parameters, Pbrdf, ReflectanceCurves, above_one, finite};
     use pbrdf::model::Model;
     use pbrdf::optics::SlopeDistribution;
 
-    fn curves(parameters: Parameters) -> Curves {
+    fn curves(parameters: Parameters) -> ReflectanceCurves {
         let model = Model::full(SlopeDistribution::Cauchy);
-        Curves::new(&Audit::new(&Pbrdf::new(model, parameters).expect("in range")), model)
+        ReflectanceCurves::new(&Audit::new(&Pbrdf::new(model, parameters).expect("in range")), model)
     }
 
     #[test]

@@ -12,7 +12,7 @@ use tr::tr;
 
 pub use crate::report::directions;
 
-/// Curves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
+/// ModelCurves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
 pub const MOST_SERIES: usize = 12;
 pub const MOST_POINTS: usize = 20_000;
 
@@ -95,7 +95,7 @@ impl Term {
 
 /// The model along one series.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Curves {
+pub struct ModelCurves {
     pub dolp: Polyline,
     pub limit: Polyline,
     pub total: Polyline,
@@ -148,9 +148,9 @@ impl CurveKey {
 #[derive(Debug, Clone, Default)]
 pub struct CurveSet {
     /// Along each series.
-    pub series: Vec<Curves>,
+    pub series: Vec<ModelCurves>,
     /// At the sliders' own θi and Δφ.
-    pub own: Curves,
+    pub own: ModelCurves,
     /// The series that has the sliders' own θi and Δφ.
     pub own_is_series: Option<usize>,
 }
@@ -159,19 +159,19 @@ impl CurveSet {
     /// Without curves where the values mean no surface.
     pub fn new(key: &CurveKey, document: &Document) -> Self {
         let Ok(surface) = Pbrdf::new(key.model, key.parameters) else {
-            return Self { series: drawn(document).map(|_| Curves::default()).collect(), ..Self::default() };
+            return Self { series: drawn(document).map(|_| ModelCurves::default()).collect(), ..Self::default() };
         };
         let plane = key.dphi.rem_euclid(360.0);
         let own = IncidenceSeries { theta_i: key.theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-        let curves = |series: &IncidenceSeries| Curves::new(&surface, series, key.backscatter, key.times_cosine);
-        let series: Vec<Curves> = drawn(document).map(curves).collect();
+        let curves = |series: &IncidenceSeries| ModelCurves::new(&surface, series, key.backscatter, key.times_cosine);
+        let series: Vec<ModelCurves> = drawn(document).map(curves).collect();
         let own_is_series = drawn(document).position(|series| series.theta_i == own.theta_i && series.plane == own.plane);
         let own = own_is_series.map_or_else(|| curves(&own), |index| series[index].clone());
         Self { series, own, own_is_series }
     }
 
     /// Those of every series, and the sliders' own.
-    pub fn all(&self) -> impl Iterator<Item = &Curves> {
+    pub fn all(&self) -> impl Iterator<Item = &ModelCurves> {
         self.series.iter().chain([&self.own])
     }
 }
@@ -232,7 +232,7 @@ pub fn drawn(document: &Document) -> impl Iterator<Item = &IncidenceSeries> {
     document.series.iter().take(MOST_SERIES)
 }
 
-impl Curves {
+impl ModelCurves {
     pub fn new(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool, times_cosine: bool) -> Self {
         let angles = directions(series.theta_i, backscatter);
         let at: Vec<(f64, Reflection, f64)> = angles

@@ -8,7 +8,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{CurveKey, CurveSet, Curves, MarkSet, axis_values, drawn};
+use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn};
 use crate::app::views::facets::{another, sigma_of_equal_median};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
 use crate::app::views::residuals::ResidualStrip;
@@ -70,7 +70,7 @@ impl DolpView {
         self.ghost.get().map_or(0, Vec::len)
     }
 
-    /// Curves of other surfaces than the sliders', and the band.
+    /// ModelCurves of other surfaces than the sliders', and the band.
     fn refresh_others(&mut self, cx: &Cx<'_>, backscatter: bool) {
         let (settings, document) = (&*cx.settings, cx.document);
         let key_of = |parameters, model| (parameters, model, document.generation, backscatter);
@@ -128,13 +128,13 @@ impl DolpView {
         Figure { title: cx.document.title(), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
     }
 
-    fn push_limit(&self, series: &mut Vec<Series>, curves: &Curves, names: &Names, color: Rgb, settings: &Settings) {
+    fn push_limit(&self, series: &mut Vec<Series>, curves: &ModelCurves, names: &Names, color: Rgb, settings: &Settings) {
         if settings.show_limit && self.shows(Line::Limit) && !curves.limit.is_empty() {
             series.push(Series::dashed(&names.limit, curves.limit.clone(), Dash::Dashed).colored(color));
         }
     }
 
-    fn push_share(&self, series: &mut Vec<Series>, curves: &Curves, names: &Names, color: Rgb, settings: &Settings) {
+    fn push_share(&self, series: &mut Vec<Series>, curves: &ModelCurves, names: &Names, color: Rgb, settings: &Settings) {
         if settings.shown.share && self.shows(Line::Share) && !curves.share.is_empty() {
             series.push(Series::stroke(&names.share, curves.share.clone(), 0.6, Dash::Solid).colored(color).faded(SHARE));
         }
@@ -250,7 +250,7 @@ impl DolpView {
 fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Polyline> {
     let Some(&(parameters, model, _, backscatter)) = key else { return Vec::new() };
     let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
-    drawn(document).map(|series| Curves::new(&surface, series, backscatter, false).dolp).collect()
+    drawn(document).map(|series| ModelCurves::new(&surface, series, backscatter, false).dolp).collect()
 }
 
 /// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.

@@ -16,7 +16,7 @@ use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::settings::{LandscapeAxes, Settings};
 use crate::figure::Figure;
 use axes::{axis_over, first, tidy, value, whole};
-use drawn::Drawn;
+use drawn::LandscapeImage;
 use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
 use egui_plot::PlotPoint;
 use map::map_ui;
@@ -37,7 +37,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 /// What the pane keeps.
 #[derive(Default)]
 pub struct LandscapeView {
-    job: AsyncMemo<Key, Option<Drawn>>,
+    job: AsyncMemo<Key, Option<LandscapeImage>>,
     textured: Memo<Key, ()>,
     texture: Option<TextureHandle>,
     marks: Memo<MarksKey, Marks>,
@@ -113,7 +113,7 @@ impl View for LandscapeView {
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
         self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
         let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
-        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Drawn::new(settings, &measurement, &made_from, stopped));
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| LandscapeImage::new(settings, &measurement, &made_from, stopped));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {

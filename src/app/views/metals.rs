@@ -1,7 +1,7 @@
 //! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::{Step, step_with_arrows};
+use crate::app::panels::{SliderStep, step_with_arrows};
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice_ceiling, theme};
 use crate::app::shell::commands::Command;
@@ -205,7 +205,7 @@ fn wavelength_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         let before = *wavelength_nm;
         let slider = Slider::new(wavelength_nm, range.clone()).show_value(false).step_by(1.0).clamping(SliderClamping::Never);
         let slider = ui.add(slider).labelled_by(label.id).on_hover_text(help.as_str());
-        step_with_arrows(ui, &slider, before, wavelength_nm, &range, Step::Fixed(1.0));
+        step_with_arrows(ui, &slider, before, wavelength_nm, &range, SliderStep::Fixed(1.0));
         let value = DragValue::new(wavelength_nm).range(range).clamp_existing_to_range(false).speed(1.0).max_decimals(3);
         ui.add(value.suffix(" nm")).labelled_by(label.id);
         if let Some(measured) = measured.filter(|measured| measured != wavelength_nm)

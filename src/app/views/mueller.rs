@@ -28,7 +28,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 /// What the pane keeps.
 #[derive(Default)]
 pub struct MuellerView {
-    curves: Memo<CurveKey, Curves>,
+    curves: Memo<CurveKey, ElementCurves>,
     /// θr that the numbers belong to, in degrees, negative on the backscatter side; the mirror direction until the user chooses another.
     cursor: Option<f64>,
     matrix: Memo<(SurfaceKey, f64), Option<Mueller>>,
@@ -41,9 +41,9 @@ type CurveKey = (SurfaceKey, bool);
 
 /// m_ij/m00 against θr, row by row; broken where there is no light.
 #[derive(Default)]
-struct Curves([Polyline; 16]);
+struct ElementCurves([Polyline; 16]);
 
-impl Curves {
+impl ElementCurves {
     fn new(&((parameters, model, theta_i, plane), backscatter): &CurveKey) -> Self {
         let mut curves = Self::default();
         let Ok(surface) = Pbrdf::new(model, parameters) else { return curves };
@@ -103,7 +103,7 @@ impl View for MuellerView {
         let settings = &*cx.settings;
         let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
         let backscatter = settings.show_backscatter || cx.document.has_backscatter();
-        self.curves.refresh((surface, backscatter), Curves::new);
+        self.curves.refresh((surface, backscatter), ElementCurves::new);
         let theta_r = self.theta_r(settings.theta_i, backscatter);
         self.matrix.refresh((surface, theta_r), |((parameters, model, theta_i, plane), theta_r)| {
             let geometry = in_plane(*theta_i, *plane).geometry(*theta_r)?;
@@ -240,7 +240,7 @@ impl Multiples {
         Some(((self.x.low + share * (self.x.high - self.x.low)) / STEP).round() * STEP)
     }
 
-    fn draw(&self, painter: &Painter, curves: &Curves, theta_r: f64, style: Style) {
+    fn draw(&self, painter: &Painter, curves: &ElementCurves, theta_r: f64, style: Style) {
         let font = FontId::proportional(LETTERS);
         let grid = Stroke::new(1.0, theme::grid(style.dark));
         for (element, curve) in curves.0.iter().enumerate() {
@@ -360,7 +360,7 @@ fn spoken(matrix: &Mueller, theta_r: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Curves, Multiples, Range, number};
+    use super::{ElementCurves, Multiples, Range, number};
     use egui::{Rect, pos2};
     use pbrdf::model::{Model, Parameters};
     use pbrdf::optics::SlopeDistribution;
@@ -381,8 +381,8 @@ mod tests {
     fn a_curve_is_broken_where_there_is_no_light() {
         let dark = Parameters { ks: 0.0, kd: 0.0, kv: 0.0, ..Parameters::default() };
         let model = Model::full(SlopeDistribution::Gauss);
-        assert!(Curves::new(&((dark, model, 40.0, 180.0), true)).0.iter().flatten().all(|[_, value]| value.is_nan()));
-        let lit = Curves::new(&((Parameters::default(), model, 40.0, 180.0), true));
+        assert!(ElementCurves::new(&((dark, model, 40.0, 180.0), true)).0.iter().flatten().all(|[_, value]| value.is_nan()));
+        let lit = ElementCurves::new(&((Parameters::default(), model, 40.0, 180.0), true));
         assert!(lit.0.iter().all(|curve| curve.len() > 300 && curve.iter().all(|[_, value]| value.is_finite())));
     }
 

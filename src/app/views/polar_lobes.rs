@@ -9,7 +9,7 @@ use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{Curves, DECADES, axis_values};
+use crate::app::views::curves::{DECADES, ModelCurves, axis_values};
 use crate::app::work::document::IncidenceSeries;
 use crate::figure::{Axis, Dash, Figure, Panel, Series};
 use egui::{Key, Ui};
@@ -29,7 +29,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 /// What the pane keeps.
 #[derive(Default)]
 pub struct PolarLobesView {
-    curves: Memo<CurveKey, Curves>,
+    curves: Memo<CurveKey, ModelCurves>,
     range: AutoRange,
     /// Of the curves by their stamp; the radius, whether it is logarithmic and whether lobes are filled; the language.
     plot: FigurePlot<(u64, Option<Range>, [bool; 2], Language)>,
@@ -112,7 +112,7 @@ fn protractor(rings: &[(f64, String)]) -> Vec<Series> {
 }
 
 /// The figure, of lobes in a plane at that θi.
-fn describe(curves: &Curves, radius: Radius, (theta_i, plane): (f64, f64), filled: bool, title: String) -> Figure {
+fn describe(curves: &ModelCurves, radius: Radius, (theta_i, plane): (f64, f64), filled: bool, title: String) -> Figure {
     let rings = radius.rings();
     let mut series = protractor(&rings);
     if plane == 180.0 {
@@ -161,9 +161,9 @@ impl View for PolarLobesView {
         let log = settings.shown.polar_log;
         let key = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
         self.curves.refresh(key, |&(parameters, model, theta_i, plane)| {
-            let Ok(surface) = Pbrdf::new(model, parameters) else { return Curves::default() };
+            let Ok(surface) = Pbrdf::new(model, parameters) else { return ModelCurves::default() };
             let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-            Curves::new(&surface, &series, true, false)
+            ModelCurves::new(&surface, &series, true, false)
         });
         let Some(curves) = self.curves.get() else { return };
         let place = |value: f64| if log { libm::log10(value) } else { value };

@@ -152,9 +152,9 @@ impl View for ResidualsAgainstAngleView {
         }
         #[expect(clippy::cast_precision_loss, reason = "one or two panels")]
         let height = ui.available_height() / count as f32 - ui.spacing().item_spacing.y;
-        for (i, panel) in self.plot.panels().iter_mut().enumerate() {
+        for (panel, id) in self.plot.panels().iter_mut().zip(["first_residuals", "second_residuals"]) {
             let hover = |name: &str, x: f64, y: f64| tr!("{0}\nθr = {1}°\nresidual = {2}", name, format!("{x:.2}"), format!("{y:.3e}"));
-            panel.ui(&PanelStyle::new(&format!("residuals against angle {i}"), height.max(60.0), &hover), ui);
+            panel.ui(&PanelStyle::new(id, height.max(60.0), &hover), ui);
         }
     }
 

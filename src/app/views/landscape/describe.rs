@@ -4,7 +4,7 @@ use crate::app::plots::Range;
 use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
 use crate::app::views::context::Cx;
 use crate::app::views::landscape::axes::{coordinate, value};
-use crate::app::views::landscape::drawn::Drawn;
+use crate::app::views::landscape::drawn::LandscapeImage;
 use crate::app::views::landscape::marks::metal_name;
 use crate::app::views::landscape::{Key, LandscapeView};
 use crate::app::work::settings::Settings;
@@ -48,7 +48,7 @@ fn axis(nodes: Nodes) -> Axis {
 }
 
 /// The nodes are in the middle of cells; those at the ends stand half outside the axes.
-fn heat_map(drawn: &Drawn, key: &Key) -> HeatMap {
+fn heat_map(drawn: &LandscapeImage, key: &Key) -> HeatMap {
     let edges = |nodes: Nodes| -> Vec<f64> {
         let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
         #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]

@@ -16,7 +16,7 @@ use pbrdf::model::ParameterSet;
 use std::sync::Arc;
 
 /// A landscape as it is drawn.
-pub struct Drawn {
+pub struct LandscapeImage {
     pub landscape: Landscape,
     pub image: Arc<ColorImage>,
     pub scale: ColorScale,
@@ -30,7 +30,7 @@ const DECADES: f64 = 6.0;
 /// Lines of equal height at most; from 5 to 1 there are so many more.
 const LINES: usize = 12;
 
-impl Drawn {
+impl LandscapeImage {
     /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
     pub fn new(mut settings: Settings, measurement: &Measurement, key: &Key, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);

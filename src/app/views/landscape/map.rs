@@ -4,7 +4,7 @@ use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{BAR_ROOM, line, plot};
 use crate::app::views::landscape::LandscapeView;
 use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
-use crate::app::views::landscape::drawn::Drawn;
+use crate::app::views::landscape::drawn::LandscapeImage;
 use crate::app::views::landscape::legend::legend_ui;
 use crate::app::views::landscape::marks::{marks_in, sliders_in};
 use crate::app::work::settings::Settings;
@@ -60,7 +60,7 @@ pub fn map_ui(view: &mut LandscapeView, settings: &Settings, height: f32, ui: &m
     response
 }
 
-fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a Drawn, texture: &TextureHandle, with_contours: bool) {
+fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a LandscapeImage, texture: &TextureHandle, with_contours: bool) {
     let ends = |axis: Axis| [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
     let ([left, right], [bottom, top]) = (ends(drawn.landscape.across), ends(drawn.landscape.up));
     let center = PlotPoint::new(f64::midpoint(left, right), f64::midpoint(bottom, top));
