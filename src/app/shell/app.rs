@@ -213,13 +213,16 @@ impl App {
         self.refresh_import();
         self.panes.activate_tabs();
         let on_screen = self.panes.on_screen();
-        let (mut cx, views, _) = self.split();
+        let mut draft = self.work.settings.clone();
+        let (mut cx, views, _) = self.split(&mut draft);
         views.refresh(&on_screen, &mut cx);
     }
 
     /// What panes get to see, the panes, and where they lie.
-    fn split(&mut self) -> (Cx<'_>, &mut Views, &mut Dock) {
-        let Workspace { settings, document, shown_fit, fit_history, model_comparison, diagnostics, .. } = &mut self.work;
+    ///
+    /// They write to the draft of the settings; [`App::apply_draft`] turns its differences into edits.
+    fn split<'a>(&'a mut self, settings: &'a mut Settings) -> (Cx<'a>, &'a mut Views, &'a mut Dock) {
+        let Workspace { document, shown_fit, fit_history, model_comparison, diagnostics, .. } = &mut self.work;
         let cx = Cx {
             settings,
             document,
@@ -236,9 +239,15 @@ impl App {
         (cx, &mut self.views, &mut self.panes)
     }
 
+    /// Makes the work what the draft says.
+    fn apply_draft(&mut self, draft: &Settings) {
+        Edit::between(&self.work.settings, draft).into_iter().for_each(|edit| self.work.apply(edit));
+    }
+
     /// The figure of a pane, for files and the clipboard.
     pub fn figure(&mut self, pane: PaneId) -> Option<Figure> {
-        let (cx, views, _) = self.split();
+        let mut draft = self.work.settings.clone();
+        let (cx, views, _) = self.split(&mut draft);
         views.figure(pane, &cx)
     }
 
@@ -506,17 +515,26 @@ impl App {
     }
 
     fn parameters_ui(&mut self, ui: &mut egui::Ui) {
-        let Self { work, lessons, .. } = self;
-        let mut refusals = Vec::new();
-        panels::parameters_ui(&mut work.settings, &mut refusals, &|parameter| lessons.range(parameter), ui);
+        let (mut draft, mut refusals) = (self.work.settings.clone(), Vec::new());
+        panels::parameters_ui(&mut draft, &mut refusals, &|parameter| self.lessons.range(parameter), ui);
+        self.apply_draft(&draft);
         refusals.into_iter().for_each(|sentence| self.say(sentence));
     }
 
     fn fit_ui(&mut self, ui: &mut egui::Ui) {
         let mut shown = self.show_predicted_errors;
-        let (mut cx, ..) = self.split();
+        let mut draft = self.work.settings.clone();
+        let (mut cx, ..) = self.split(&mut draft);
         panels::fit_ui(&mut cx, &mut shown, ui);
+        self.apply_draft(&draft);
         self.show_predicted_errors = shown;
+    }
+
+    fn panes_ui(&mut self, ui: &mut egui::Ui) {
+        let mut draft = self.work.settings.clone();
+        let (mut cx, views, dock) = self.split(&mut draft);
+        panes_ui(dock, views, &mut cx, ui);
+        self.apply_draft(&draft);
     }
 
     /// One frame.
@@ -531,10 +549,7 @@ impl App {
         egui::CentralPanel::default().frame(egui::Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
             lesson_panel(self, ui);
             let room = ui.available_rect_before_wrap();
-            {
-                let (mut cx, views, dock) = self.split();
-                panes_ui(dock, views, &mut cx, ui);
-            }
+            self.panes_ui(ui);
             notices_ui(self, ui, room);
         });
         palette_ui(self, ui);

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 /// What a pane may look at, and where it leaves what it wants to have done.
 pub struct Cx<'a> {
+    /// A draft of the settings: its differences become edits of the work after the frame.
     pub settings: &'a mut Settings,
     pub document: &'a Document,
     /// The fit that is shown.
