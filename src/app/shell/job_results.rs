@@ -48,7 +48,7 @@ pub(crate) fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.fits.refit, |app, report| app.work.apply(Edit::Refit(report)), fit_panicked);
     poll(app, |jobs| &mut jobs.fits.compare, |app, fits| app.work.apply(Edit::SetModelComparison(fits)),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
-    poll(app, |jobs| &mut jobs.fits.profile, profiled, || tr!("The profile ended unexpectedly; nothing was lost."));
+    poll(app, |jobs| &mut jobs.fits.profile, |app, profile| profiled(app, &profile), || tr!("The profile ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.bootstrap, bootstrapped, || tr!("The bootstrap ended unexpectedly; nothing was lost."));
     poll_benchmarks(app);
 }
@@ -113,8 +113,8 @@ fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: Fini
     app.jobs.fits.abandon_scan();
 }
 
-fn profiled(app: &mut App, profile: Profile) {
-    let curve = app.work.shown_fit.as_ref().map(|fit| ProfileCurve::new(&profile, &fit.problem, &fit.report));
+fn profiled(app: &mut App, profile: &Profile) {
+    let curve = app.work.shown_fit.as_ref().map(|fit| ProfileCurve::new(profile, &fit.problem, &fit.report));
     app.work.apply(Edit::SetProfile(curve));
 }
 

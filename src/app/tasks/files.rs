@@ -1,6 +1,6 @@
 //! Jobs that read and write files, and wait for file dialogs.
 
-use crate::app::jobs::job::JobContext;
+use crate::app::jobs::job::{Job, JobContext};
 #[cfg(test)]
 use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
@@ -210,7 +210,7 @@ impl FileJobs {
 
     /// The fraction that is read of a measurement, while one is being read.
     pub fn reading_fraction(&self) -> Option<f64> {
-        let fractions = [self.load.job().map(|job| job.progress()), self.import.job().map(|job| job.progress())];
+        let fractions = [self.load.job().map(Job::progress), self.import.job().map(Job::progress)];
         fractions.into_iter().flatten().next().map(|fraction| fraction.unwrap_or(0.0))
     }
 
