@@ -46,5 +46,6 @@ pub mod fit;
 pub mod measurement;
 pub mod model;
 pub mod optics;
+pub mod rounding;
 #[cfg(feature = "selftest")]
 pub mod selftest;

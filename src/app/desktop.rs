@@ -2,9 +2,9 @@
 
 use crate::app::platform;
 use crate::app::shell::app::App;
-use crate::app::shell::help::TITLE;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
+use crate::app::text::help::TITLE;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;

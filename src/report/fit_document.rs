@@ -8,6 +8,7 @@ use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitR
 use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
+use pbrdf::rounding::{significant, trimmed, with_error};
 
 /// Where measured data come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -35,37 +36,6 @@ pub struct FitDocument<'a> {
     pub date: &'a str,
     /// Its language.
     pub words: &'a dyn Wording,
-}
-
-/// So many significant digits.
-fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let digits_less_one = digits.saturating_sub(1);
-    let text = format!("{value:.digits_less_one$e}");
-    let exponent: i32 = text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
-    if !(-4..6).contains(&exponent) {
-        return text;
-    }
-    let decimals = usize::try_from(i32::try_from(digits_less_one).unwrap_or(0) - exponent).unwrap_or(0);
-    format!("{value:.decimals$}")
-}
-
-/// A value to the second digit of its standard error, and the error; to six digits without.
-fn with_error(value: f64, error: Option<f64>) -> (String, Option<String>) {
-    let Some(error) = error.filter(|error| *error > 0.0 && error.is_finite()) else {
-        return (idle_zeros_off(&significant(value, 6)), None);
-    };
-    #[expect(clippy::cast_possible_truncation, reason = "an exponent of f64")]
-    let exponent = |x: f64| if x == 0.0 { -400 } else { libm::log10(x.abs()).floor() as i32 };
-    let digits = usize::try_from(exponent(value) - exponent(error) + 2).unwrap_or(0).clamp(2, 17);
-    (significant(value, digits), Some(significant(error, 2)))
-}
-
-/// Without zeros at the end of a decimal fraction.
-fn idle_zeros_off(text: &str) -> String {
-    if text.contains('.') && !text.contains('e') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
 }
 
 impl FitDocument<'_> {
@@ -198,7 +168,7 @@ impl FitDocument<'_> {
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };
-            let start = idle_zeros_off(&significant(start, 6));
+            let start = trimmed(start, 6);
             vec![parameter.symbol().to_owned(), self.text(parameter.name()), value, error, start, bounds, parameter.unit().to_owned()]
         };
         let table = Block::Table { head, rows: self.report.estimates.iter().map(row).collect() };
@@ -398,27 +368,5 @@ fn name_of(check: Check) -> &'static str {
         Check::FresnelLimit => "DoLP above the Fresnel limit, largest",
         Check::Admissibility => "eigenvalue of the coherency matrix over m00, smallest",
         Check::Normalisation => "projected area of the facets, distance from 1",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{significant, with_error};
-
-    #[test]
-    fn numbers_have_the_digits_that_mean_something() {
-        assert_eq!(significant(2.071_234, 3), "2.07");
-        assert_eq!(significant(1.5e-7, 3), "1.50e-7");
-        assert_eq!(significant(1234.6, 2), "1235");
-        assert_eq!(significant(-0.0, 3), "-0");
-        let pair = |value, error| {
-            let (value, error) = with_error(value, error);
-            (value, error.unwrap_or_default())
-        };
-        assert_eq!(pair(2.071_234, Some(0.012_3)), ("2.071".to_owned(), "0.012".to_owned()));
-        assert_eq!(pair(0.3, Some(12.0)), ("0.30".to_owned(), "12".to_owned()));
-        assert_eq!(pair(2.071_234_5, None), ("2.07123".to_owned(), String::new()));
-        assert_eq!([pair(1.0, None).0, pair(100.0, None).0, pair(1e-7, None).0], ["1", "100", "1.00000e-7"]);
-        assert_eq!(pair(0.0, Some(0.1)), ("0".to_owned(), "0.10".to_owned()));
     }
 }

@@ -6,5 +6,5 @@ mod stepping;
 mod tooltip_right;
 
 pub use fit::{delta_e_text, fit_ui};
-pub use parameters::{parameters_ui, significant};
+pub use parameters::parameters_ui;
 pub use stepping::{SliderStep, step_with_arrows};

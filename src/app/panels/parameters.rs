@@ -5,6 +5,7 @@ use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
+use crate::app::text::numbers::significant;
 use crate::app::work::settings::Settings;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
@@ -353,24 +354,9 @@ fn number_from_text(text: &str, unit: &str) -> Option<f64> {
     number.ok().filter(|number: &f64| number.is_finite())
 }
 
-/// Five significant digits, without trailing zeros.
-pub fn significant(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e5).contains(&size) {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 8")]
-        let decimals = (4.0 - libm::log10(size).floor()).clamp(0.0, 8.0) as usize;
-        let text = format!("{value:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    } else {
-        format!("{value:.4e}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{number_from_text, significant};
+    use super::number_from_text;
 
     #[test]
     fn numbers_are_read_as_people_type_them() {
@@ -386,15 +372,6 @@ mod tests {
             ("", None),
         ] {
             assert_eq!(number_from_text(text, "rad"), expected, "{text:?}");
-        }
-    }
-
-    #[test]
-    fn numbers_are_shown_with_five_digits() {
-        for (value, expected) in
-            [(0.0, "0"), (1.0, "1"), (0.1, "0.1"), (1.234_567, "1.2346"), (-0.5, "-0.5"), (1e-6, "1.0000e-6"), (12345.6, "12346")]
-        {
-            assert_eq!(significant(value), expected);
         }
     }
 }

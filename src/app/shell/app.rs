@@ -10,7 +10,6 @@ use crate::app::shell::commands::Command;
 use crate::app::shell::docking::{Dock, panes_ui};
 use crate::app::shell::file_dialogs::request_for;
 use crate::app::shell::frame_times::FrameTimes;
-use crate::app::shell::help::Help;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::import_ui::import_ui;
@@ -29,8 +28,8 @@ use crate::app::storage::autosave::AutosaveKey;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::{export, settings_file};
 use crate::app::tasks::jobs::Jobs;
+use crate::app::text::help::Help;
 use crate::app::text::i18n;
-use crate::app::text::i18n::phrase;
 use crate::app::text::messages::Localized as _;
 use crate::app::views::derived::Derived;
 use crate::app::views::{Cx, Views};
@@ -146,7 +145,7 @@ impl App {
         let example = &EXAMPLES[0];
         match pbrdf::measurement::Measurement::read(example.text.as_bytes()) {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
-            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", phrase(&error))),
+            Err(error) => self.say(tr!("The bundled example cannot be read: {}.", error.localized())),
         }
         self.commands.extend(file.map(Command::OpenMeasurement));
     }

@@ -1,9 +1,9 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
 
 use crate::app::shell::app::App;
-use crate::app::shell::help::Help;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::BenchmarkId;
+use crate::app::text::help::Help;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;

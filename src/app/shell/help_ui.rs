@@ -2,7 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
-use crate::app::shell::help::{DOI, FIRST_STEPS, Help, PAPER, TITLE, WORDS};
+use crate::app::text::glossary::{Entry, GLOSSARY};
+use crate::app::text::help::{DOI, FIRST_STEPS, Help, PAPER, TITLE};
 use crate::app::text::i18n::translated;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 use std::path::Path;
@@ -11,6 +12,7 @@ use tr::tr;
 /// Width of a page, and of the words on it; the height beyond which it scrolls.
 const WIDTH: f32 = 620.0;
 const WORD_WIDTH: f32 = 130.0;
+const MEANING_WIDTH: f32 = WIDTH - WORD_WIDTH - 30.0;
 const HEIGHT: f32 = 480.0;
 
 pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
@@ -47,10 +49,11 @@ fn first_steps_ui(ui: &mut Ui) {
 }
 
 fn words_ui(ui: &mut Ui) {
-    let meaning = WIDTH - WORD_WIDTH - 30.0;
     Grid::new("words").num_columns(2).striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
-        for (word, text) in WORDS {
-            for (text, width) in [(RichText::new(translated(word)).strong(), WORD_WIDTH), (RichText::new(translated(text)), meaning)] {
+        for Entry { word, meaning } in GLOSSARY {
+            for (text, width) in
+                [(RichText::new(translated(word)).strong(), WORD_WIDTH), (RichText::new(translated(meaning)), MEANING_WIDTH)]
+            {
                 ui.vertical(|ui| {
                     ui.set_width(width);
                     ui.add(Label::new(text).wrap());

@@ -2,7 +2,8 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::shell::app::App;
-use crate::app::storage::import::{Origin, note_text, with_notes};
+use crate::app::storage::import::{Origin, with_notes};
+use crate::app::text::messages::Localized;
 use crate::app::work::design::Span;
 use crate::app::work::document::Document;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};
@@ -93,7 +94,7 @@ impl App {
             self.typed.served(path);
             self.window.remember(path);
         }
-        let about = imported.notes.iter().map(note_text).collect::<Vec<_>>().join(" ");
+        let about = imported.notes.iter().map(Localized::localized).collect::<Vec<_>>().join(" ");
         if !about.is_empty() {
             self.say(format!("{name}: {about}"));
         }

@@ -4,9 +4,9 @@ use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::import_dialog::{ImportDialog, Slices};
-use crate::app::storage::import::note_text;
-use crate::app::text::glossary::short;
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::{Localized as _, advised};
+use crate::app::text::numbers::{short, significant};
 use crate::app::work::design::Span;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample};
@@ -165,7 +165,7 @@ fn columns_ui(mapping: &mut Mapping, table: &TableSample, ui: &mut Ui) {
     let text = if angles && mapping.has_quantity() {
         tr!("The columns are taken as follows: change what is not so.")
     } else {
-        tr!("Which column is what? The header is not the program's own: {}.", phrase(&table.reason))
+        tr!("Which column is what? The header is not the program's own: {}.", table.reason.localized())
     };
     // Both texts take the same height.
     let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body) + 4.0;
@@ -259,13 +259,13 @@ fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
     match import.preview.get() {
         None => return false,
         Some(Err(reason)) => {
-            ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", phrase(reason))).color(warning)).wrap());
+            ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", advised(reason, reason.hint()))).color(warning)).wrap());
             return false;
         }
         Some(Ok(imported)) => rows_ui(imported, import.file.preview_is_whole(), ui),
     }
     if let Some(reason) = &import.error {
-        ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", phrase(reason))).color(warning)).wrap());
+        ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", advised(reason, reason.hint()))).color(warning)).wrap());
     }
     true
 }
@@ -281,15 +281,15 @@ fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
         for row in rows.iter().take(SHOWN) {
             let geometry = row.geometry;
             for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
-                ui.monospace(format!("{}°", crate::app::panels::significant(angle)));
+                ui.monospace(format!("{}°", significant(angle)));
             }
             for quantity in [row.dolp, row.brdf] {
-                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| crate::app::panels::significant(quantity.value)));
+                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| significant(quantity.value)));
             }
             ui.end_row();
         }
     });
     for note in &imported.notes {
-        ui.add(Label::new(RichText::new(note_text(note)).weak()).wrap());
+        ui.add(Label::new(RichText::new(note.localized()).weak()).wrap());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::app::platform;
 use crate::app::storage::settings_file;
-use crate::app::text::i18n::phrase;
+use crate::app::text::messages::Localized as _;
 use crate::app::work::lesson::{Lesson, Step};
 use pbrdf::model::Parameter;
 use std::ops::RangeInclusive;
@@ -43,7 +43,7 @@ impl Lessons {
         let mut all: Vec<Lesson> = BUNDLED.iter().filter_map(|text| Lesson::from_text(text).ok()).collect();
         let mut faults = Vec::new();
         for path in own.map(text_files).unwrap_or_default() {
-            match std::fs::read_to_string(&path).map_err(|error| phrase(&error)).and_then(|text| lesson(&text)) {
+            match std::fs::read_to_string(&path).map_err(|error| error.localized()).and_then(|text| lesson(&text)) {
                 Ok(lesson) => all.push(lesson),
                 Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
@@ -72,7 +72,7 @@ pub fn own_folder() -> Option<std::path::PathBuf> {
 }
 
 fn lesson(text: &str) -> Result<Lesson, String> {
-    Lesson::from_text(text).map_err(|error| phrase(&error))
+    Lesson::from_text(text).map_err(|error| error.localized())
 }
 
 /// The text files of a folder that are small enough, in the order of their names.

@@ -7,7 +7,6 @@ pub mod commands;
 pub mod docking;
 pub mod file_dialogs;
 pub mod frame_times;
-pub mod help;
 pub mod help_ui;
 pub mod import_dialog;
 pub mod import_ui;

@@ -8,7 +8,7 @@ use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::RestoredFit;
 use crate::app::storage::session_file::{OpenedSession, save_session};
-use crate::app::text::i18n::{phrase, translated};
+use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::views::Views;
 use crate::app::work::document::Document;
@@ -110,10 +110,11 @@ impl App {
             Ok(opened) => {
                 self.notices.dismiss_load_errors();
                 self.typed.served(path);
-                let left_out: Vec<String> = opened.session.left_out.iter().map(phrase).collect();
+                let left_out = opened.session.left_out.iter();
+                let left_out: Vec<String> = left_out.map(|(number, error)| tr!("fit {0}: {1}", number, error.localized())).collect();
                 self.show_session(*opened);
                 if !left_out.is_empty() {
-                    self.say(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out.join("; ")));
+                    self.say(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out.join(&tr!("; "))));
                 }
                 self.work.session_file = (!is_working).then(|| path.to_owned());
                 if is_working {

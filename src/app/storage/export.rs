@@ -185,7 +185,7 @@ fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &F
         measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
         shown: fits.iter().position(|fit| shown.is_some_and(|shown| Arc::ptr_eq(fit, shown))),
         fits: fits.into_iter().map(|fit| SavedFit::new(fit)).collect(),
-        left_out: Vec::new(),
+        left_out: std::sync::Arc::default(),
     }
 }
 

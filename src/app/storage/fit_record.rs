@@ -1,6 +1,7 @@
 //! How a fit came about, as a session tells it: where its starts ended and the way of the winning one. Data and solution do not tell that
 //! again.
 
+use crate::app::text::messages::Localized;
 use crate::app::work::fit_history::FitEntry;
 use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse};
 use pbrdf::model::{Parameter, Parameters};
@@ -8,6 +9,7 @@ use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::value::to_raw_value;
 use std::ops::RangeInclusive;
+use tr::tr;
 
 /// Steps of a way that are kept: a longer one is thinned.
 const MOST_STEPS: usize = 120;
@@ -72,6 +74,30 @@ pub fn on_one_line<T: Serialize, S: Serializer>(value: &T, serializer: S) -> Res
     to_raw_value(value).map_err(S::Error::custom)?.serialize(serializer)
 }
 
+/// Why the record of a fit cannot be that of the fit it stands at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FitRecordError {
+    /// A place has not one value for each free parameter.
+    Place,
+    /// The numbers of starts add up to more than can be counted.
+    Starts,
+    /// A scale of the loss is out of range.
+    LossScale,
+    /// A time or a ΔE is negative.
+    Negative,
+}
+
+impl Localized for FitRecordError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Place => tr!("account: a place has not one value for each free parameter"),
+            Self::Starts => tr!("account.minima: more starts than can be counted"),
+            Self::LossScale => tr!("account: a scale of the loss is out of range"),
+            Self::Negative => tr!("account: a time or a ΔE is negative"),
+        }
+    }
+}
+
 impl FitRecord {
     /// What is known of a fit; none where nothing is.
     pub fn new(fit: &FitEntry) -> Option<Self> {
@@ -118,17 +144,17 @@ impl FitRecord {
     }
 
     /// Why it can be the account of no fit with so many free parameters.
-    pub fn fault(&self, free: usize) -> Option<&'static str> {
+    pub fn fault(&self, free: usize) -> Option<FitRecordError> {
         let places = || self.minima.iter().map(|ending| &ending.at).chain(self.way.iter().map(|step| &step.at));
         let is_size = |value: f64| value >= 0.0;
         if places().any(|at| at.len() != free) {
-            Some("account: a place has not one value for each free parameter")
+            Some(FitRecordError::Place)
         } else if self.minima.iter().try_fold(0_usize, |sum, ending| sum.checked_add(ending.reached)).is_none() {
-            Some("account.minima: more starts than can be counted")
+            Some(FitRecordError::Starts)
         } else if !self.loss_scales.iter().flatten().all(is_loss_scale) {
-            Some("account: a scale of the loss is out of range")
+            Some(FitRecordError::LossScale)
         } else if !is_size(self.elapsed_ms) || !self.way.iter().all(|step| is_size(step.elapsed_ms) && step.delta_e.is_none_or(is_size)) {
-            Some("account: a time or a ΔE is negative")
+            Some(FitRecordError::Negative)
         } else {
             None
         }

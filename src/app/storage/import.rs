@@ -1,14 +1,12 @@
 //! Reads a file into a measurement, or into a foreign file that has questions.
 
-use crate::app::text::i18n::phrase;
 use crate::files::export;
-use pbrdf::measurement::formats::{self, ForeignFile, ImportError, ImportNote, ImportOptions, Imported, Opened};
+use pbrdf::measurement::formats::{self, ForeignFile, ImportError, ImportOptions, Imported, Opened};
 use pbrdf::measurement::{Progress, ReadError, ReadErrorKind};
 use sha2::{Digest as _, Sha256};
 use std::io::Read;
 use std::path::PathBuf;
 use std::sync::Arc;
-use tr::tr;
 
 /// Where a measurement comes from.
 #[derive(Debug, Clone)]
@@ -87,25 +85,4 @@ pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Loaded, ImportErro
 pub fn with_notes(file: &dyn ForeignFile, mut imported: Imported) -> Imported {
     imported.notes.extend(file.notes());
     imported
-}
-
-/// A notice in the language of the window.
-pub fn note_text(note: &ImportNote) -> String {
-    match note {
-        ImportNote::IgnoredColumns { .. } => format!("{}.", phrase(note)),
-        ImportNote::IgnoredRows { name, count } => tr!("Ignored {0} rows of {1}.", count, name),
-        ImportNote::DepolarisationNotApplied { .. } => tr!("Depolarisation (dpolE) is named in the metadata, not applied to DoLP."),
-        ImportNote::NearestWavelength { wanted_nm, taken_nm } => {
-            let taken: Vec<String> = taken_nm.iter().map(f64::to_string).collect();
-            tr!("There is no {0} nm at every angle; the nearest was taken, {1} nm.", wanted_nm, taken.join(", "))
-        }
-        ImportNote::NoWavelengthNear { theta_i } => tr!("Left out θi = {}°, which has no wavelength near the one asked for.", theta_i),
-        ImportNote::AssumedGrids { names } => {
-            tr!("The file gives no angles for {}; they are taken to be even over their whole range.", names.join(", "))
-        }
-        ImportNote::NoValue { count } => tr!("Left out {} directions without a value.", count),
-        ImportNote::Transmission { count } => tr!("Left out {} rows of transmission.", count),
-        ImportNote::BrdfBelowZero { count } => tr!("Left out {} rows where the BRDF is below 0.", count),
-        ImportNote::DolpAboveOne { count } => tr!("Left out the DoLP of {} directions where it is above 1.", count),
-    }
 }

@@ -5,19 +5,21 @@
 //! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
 
 use crate::app::storage::earlier_keys::{EarlierFile, EarlierKeys};
-use crate::app::storage::fit_record::{FitRecord, on_one_line};
+use crate::app::storage::fit_record::{FitRecord, FitRecordError, on_one_line};
+use crate::app::text::messages::Localized;
 use crate::app::work::document::{Mask, masked_rows};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
-use crate::app::work::settings::{Settings, can_be_set};
+use crate::app::work::settings::{Settings, SettingsError, can_be_set};
 use crate::files::export::program;
-use pbrdf::fit::{Bounds, Course, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
+use pbrdf::fit::{Bounds, BoundsError, Course, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
 use pbrdf::measurement::{Measurement, ReadError};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::sync::Arc;
+use tr::tr;
 
 const FORMAT: &str = "pbrdf-session";
 /// Files of a later version are refused: they may mean something else.
@@ -91,7 +93,7 @@ pub struct RestoredFit {
 }
 
 /// A session.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Session {
     pub settings: Settings,
     pub layout: Layout,
@@ -104,34 +106,87 @@ pub struct Session {
     pub fits: Vec<SavedFit>,
     /// Which of them is shown.
     pub shown: Option<usize>,
-    /// Why fits of its file are not among them; none of it is written.
-    pub left_out: Vec<String>,
+    /// The fits of its file that are not among them, by number from 1; none of it is written.
+    pub left_out: Arc<[(usize, SavedFitError)]>,
 }
 
 /// Why a file is no session.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub enum SessionError {
-    #[error("this is no session: expected JSON with \"format\": \"{FORMAT}\"")]
+    /// It is no JSON, or JSON of something else.
+    Json(JsonError),
+    /// It does not say that it is a session.
     Format,
-    #[error("the session is of version {found}; this program reads version {VERSION}")]
+    /// It is of a version that this program does not read.
     Version { found: u32 },
-    #[error("line {line}, column {column}{at}: {reason}")]
-    Json { line: usize, column: usize, at: String, reason: String },
-    #[error("settings.{0}")]
-    Settings(String),
-    #[error("measurement.table: {0}")]
-    Measurement(#[from] ReadError),
-    #[error("fits, number {number}: {reason}")]
-    Fit { number: usize, reason: String },
+    /// A setting means nothing.
+    Settings(SettingsError),
+    /// Its table cannot be read.
+    Measurement(ReadError),
 }
 
-impl SessionError {
-    fn json(path: &str, error: &serde_json::Error) -> Self {
-        let text = error.to_string();
-        // The place stands at the end of serde's sentence; here it comes first.
-        let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason).to_owned();
-        let at = if path.is_empty() || path == "." || path == "?" { String::new() } else { format!(", {path}") };
-        Self::Json { line: error.line(), column: error.column(), at, reason }
+/// A place in JSON, and what is wrong there.
+#[derive(Debug)]
+pub struct JsonError {
+    path: String,
+    error: serde_json::Error,
+}
+
+/// Why a fit of a session is left out.
+#[derive(Debug)]
+pub enum SavedFitError {
+    Json(JsonError),
+    Bounds(BoundsError),
+    Record(FitRecordError),
+    /// Its masked rows are not in their order, or not all in the table.
+    Mask,
+    Parameters(ParameterError),
+    Problem(ProblemError),
+}
+
+impl From<serde_path_to_error::Error<serde_json::Error>> for JsonError {
+    fn from(error: serde_path_to_error::Error<serde_json::Error>) -> Self {
+        Self { path: error.path().to_string(), error: error.into_inner() }
+    }
+}
+
+impl From<serde_json::Error> for JsonError {
+    fn from(error: serde_json::Error) -> Self {
+        Self { path: String::new(), error }
+    }
+}
+
+impl Localized for JsonError {
+    fn localized(&self) -> String {
+        match self.path.as_str() {
+            "" | "." | "?" => self.error.localized(),
+            path => tr!("{0}: {1}", path, self.error.localized()),
+        }
+    }
+}
+
+impl Localized for SessionError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Json(error) => error.localized(),
+            Self::Format => tr!("this is no session: expected JSON with \"format\": \"{}\"", FORMAT),
+            Self::Version { found } => tr!("the session is of version {0}; this program reads version {1}", found, VERSION),
+            Self::Settings(error) => format!("settings.{}", error.localized()),
+            Self::Measurement(error) => tr!("{0}: {1}", "measurement.table", error.localized()),
+        }
+    }
+}
+
+impl Localized for SavedFitError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Json(error) => error.localized(),
+            Self::Bounds(error) => error.localized(),
+            Self::Record(error) => error.localized(),
+            Self::Mask => tr!("masked: the rows are not in their order, or not all in the table"),
+            Self::Parameters(error) => error.localized(),
+            Self::Problem(error) => error.localized(),
+        }
     }
 }
 
@@ -157,12 +212,9 @@ impl SavedFit {
     }
 
     /// A fit of a file, if it can be one of this measurement.
-    fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, String> {
-        let earlier = EarlierKeys::deserialize(&value).map_err(|error| error.to_string());
-        let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| match error.path().to_string().as_str() {
-            "." => error.inner().to_string(),
-            place => format!("{place}: {}", error.inner()),
-        })?;
+    fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, SavedFitError> {
+        let earlier = EarlierKeys::deserialize(&value).map_err(|error| SavedFitError::Json(error.into()));
+        let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| SavedFitError::Json(error.into()))?;
         earlier?.apply(&mut recipe.model);
         // Earlier releases took weights of any size.
         for parameters in [&mut recipe.start, &mut recipe.parameters, &mut recipe.before] {
@@ -191,24 +243,24 @@ impl SavedFit {
         masked
     }
 
-    fn problem(&self, measurement: &Measurement) -> Result<Problem, String> {
+    fn problem(&self, measurement: &Measurement) -> Result<Problem, SavedFitError> {
         let mut bounds = Bounds::default();
         for &(parameter, low, high) in &self.bounds {
-            bounds.set(parameter, low, high).map_err(|error| error.to_string())?;
+            bounds.set(parameter, low, high).map_err(SavedFitError::Bounds)?;
         }
         if let Some(fault) = self.account.as_ref().and_then(|account| account.fault(self.free.len())) {
-            return Err(fault.to_owned());
+            return Err(SavedFitError::Record(fault));
         }
         if self.mask().is_some_and(|mask| !is_mask(mask, measurement.rows.len())) {
-            return Err("masked: the rows are not in their order, or not all in the table".to_owned());
+            return Err(SavedFitError::Mask);
         }
         let places = self.account.iter().flat_map(|account| account.places(self.start, &self.free));
         for parameters in [self.start, self.parameters, self.before].into_iter().chain(places) {
-            can_be_set(&parameters, self.model.parameters()).map_err(|error| error.to_string())?;
+            can_be_set(&parameters, self.model.parameters()).map_err(SavedFitError::Parameters)?;
         }
         let free: ParameterSet = self.free.iter().copied().collect();
         let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.choices);
-        problem.map_err(|error: ProblemError| error.to_string())
+        problem.map_err(SavedFitError::Problem)
     }
 
     /// The fit again. None where the data of the session are no longer such that there is one.
@@ -267,7 +319,7 @@ impl Session {
 
     /// Reads it, and checks that every value means something; a fit that does not is left out.
     pub fn read(text: &str) -> Result<Self, SessionError> {
-        let header: Header = serde_json::from_str(text).map_err(|error| SessionError::json("", &error))?;
+        let header: Header = serde_json::from_str(text).map_err(|error| SessionError::Json(error.into()))?;
         match (header.format.as_deref(), header.version) {
             (Some(FORMAT), Some(VERSION)) => {}
             (Some(FORMAT), Some(found)) => return Err(SessionError::Version { found }),
@@ -275,8 +327,8 @@ impl Session {
         }
         let mut json = serde_json::Deserializer::from_str(text);
         let mut contents: Contents<serde_json::Value> =
-            serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::json(&error.path().to_string(), error.inner()))?;
-        let earlier: EarlierFile = serde_json::from_str(text).map_err(|error| SessionError::json("settings", &error))?;
+            serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::Json(error.into()))?;
+        let earlier: EarlierFile = serde_json::from_str(text).map_err(|error| SessionError::Json(error.into()))?;
         earlier.apply(&mut contents.settings);
         if let Some(fault) = contents.settings.fault() {
             return Err(SessionError::Settings(fault));
@@ -284,7 +336,7 @@ impl Session {
         let (name, sha256, measurement) = match contents.measurement {
             Some(Data { name, sha256, table }) => {
                 let text = table.join("\n");
-                (name, sha256, Some(Measurement::read(text.as_bytes())?))
+                (name, sha256, Some(Measurement::read(text.as_bytes()).map_err(SessionError::Measurement)?))
             }
             None => (String::new(), None, None),
         };
@@ -297,9 +349,9 @@ impl Session {
                     shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
                     fits.push(recipe);
                 }
-                Err(reason) => left_out.push(SessionError::Fit { number: index + 1, reason }.to_string()),
+                Err(error) => left_out.push((index + 1, error)),
             }
         }
-        Ok(Self { settings, layout, name, sha256, measurement, fits, shown, left_out })
+        Ok(Self { settings, layout, name, sha256, measurement, fits, shown, left_out: left_out.into() })
     }
 }

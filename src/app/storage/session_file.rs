@@ -1,7 +1,6 @@
 //! Sessions on disk.
 
 use crate::app::storage::session::{RestoredFit, SavedFit, Session};
-use crate::app::text::i18n::phrase;
 use crate::app::text::messages::Localized as _;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
@@ -22,10 +21,10 @@ impl OpenedSession {
     /// The file cannot be read or is no session; a sentence.
     pub fn read(path: &Path) -> Result<Self, String> {
         let mut text = String::new();
-        let sentence = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", path.display(), phrase(reason));
-        let mut file = open_file(path).map_err(|reason| sentence(&reason.localized()))?;
-        file.read_to_string(&mut text).map_err(|error| sentence(&tr!("the file cannot be read: {}", error.localized())))?;
-        let session = Session::read(&text).map_err(|error| sentence(&error))?;
+        let sentence = |reason: String| tr!("{0}: {1}.", path.display(), reason);
+        let mut file = open_file(path).map_err(|reason| sentence(reason.localized()))?;
+        file.read_to_string(&mut text).map_err(|error| sentence(tr!("the file cannot be read: {}", error.localized())))?;
+        let session = Session::read(&text).map_err(|error| sentence(error.localized()))?;
         Ok(Self::new(session))
     }
 

@@ -12,8 +12,7 @@ use crate::app::storage::session::Session;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::tasks::file_request::{FileReply, FileRequest};
 use crate::app::tasks::start_error::start_error;
-use crate::app::text::i18n::phrase;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::messages::{Localized as _, advised};
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
 use pbrdf::measurement::Measurement;
@@ -136,10 +135,10 @@ impl FileJobs {
             let mut sha256 = None;
             let result = source().and_then(|(at, source, length)| {
                 let mut source = Hashing::new(source);
-                let sentence = |reason: &dyn std::fmt::Display| tr!("{0}: {1}.", at.display(), phrase(reason));
-                let bytes = import::bytes_of(&mut source, length, &mut progress).map_err(|error| sentence(&error))?;
+                let sentence = |reason: String| tr!("{0}: {1}.", at.display(), reason);
+                let bytes = import::bytes_of(&mut source, length, &mut progress).map_err(|error| sentence(error.localized()))?;
                 sha256 = Some(source.finish());
-                import::read(bytes, &mut progress).map_err(|reason| sentence(&reason))
+                import::read(bytes, &mut progress).map_err(|error| sentence(advised(&error, error.hint())))
             });
             let sha256 = sha256.filter(|_| path.is_some());
             LoadedFile { origin: Origin { name, path, sha256 }, result }

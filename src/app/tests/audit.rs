@@ -29,7 +29,7 @@ fn every_finding_has_its_number_verdict_and_reason() {
     assert_eq!(harness.query_all_by_label("✗ fail").count(), audit.findings.len() - passed);
     let volume = audit.finding(Check::VolumeReciprocity).expect("the model has a volume lobe");
     assert!(!volume.pass);
-    harness.get_by_label(&crate::app::text::glossary::short(volume.value));
+    harness.get_by_label(&crate::app::text::numbers::short(volume.value));
     let reflectance = audit.finding(Check::Reflectance).expect("always there");
     harness.get_by_label(&format!("{:.4}", reflectance.value));
 }

@@ -10,7 +10,7 @@ fn lessons() -> Vec<(String, Lesson)> {
         .map(|entry| {
             let path = entry.expect("an entry").path();
             let text = std::fs::read_to_string(&path).expect("a text file");
-            let lesson = Lesson::from_text(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            let lesson = Lesson::from_text(&text).unwrap_or_else(|error| panic!("{}: {error:?}", path.display()));
             (path.display().to_string(), lesson)
         })
         .collect();

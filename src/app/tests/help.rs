@@ -1,8 +1,9 @@
 //! The pages of help.
 
 use crate::app::shell::commands::Command;
-use crate::app::shell::help::{DOI, Help, WORDS};
 use crate::app::tests::{explorer, harness};
+use crate::app::text::glossary::{Entry, GLOSSARY};
+use crate::app::text::help::{DOI, Help};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
@@ -54,10 +55,10 @@ fn about_names_version_licence_paper_and_where_things_are_kept() {
 
 #[test]
 fn every_word_is_told_once() {
-    for (i, (word, meaning)) in WORDS.iter().enumerate() {
-        assert!(meaning.ends_with('.') && WORDS[..i].iter().all(|(other, _)| other != word), "{word}");
+    for (i, Entry { word, meaning }) in GLOSSARY.iter().enumerate() {
+        assert!(meaning.ends_with('.') && GLOSSARY[..i].iter().all(|other| other.word != *word), "{word}");
     }
-    let all: String = WORDS.iter().map(|(word, _)| format!("{word} ")).collect();
+    let all: String = GLOSSARY.iter().map(|entry| format!("{} ", entry.word)).collect();
     for asked in
         ["DoLP", "ΔE", "θi", "θr", "Δφ", "open", "undetermined", "at bound", "limit", "mask", "ghost", "cases", "Fresnel limit", "lobes"]
     {

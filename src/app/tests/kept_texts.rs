@@ -8,8 +8,7 @@ use crate::app::text::i18n::{Language, translated};
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
-use pbrdf::measurement::formats::Question;
-use pbrdf::measurement::{Mapping, Measurement, Quantity, Row};
+use pbrdf::measurement::{Measurement, Quantity, Row};
 use pbrdf::optics::Geometry;
 
 type Window = Harness<'static, Option<App>>;
@@ -46,55 +45,12 @@ fn what_a_pointer_reads_on_the_landscape() {
 }
 
 #[test]
-fn why_a_model_was_skipped() {
-    let mut harness = harness();
-    let mut measurement = (*explorer(&mut harness).work.document.measurement).clone();
-    measurement.rows.iter_mut().for_each(|row| row.brdf = row.dolp.take());
-    explorer(&mut harness).take("lobes".to_owned(), measurement);
-    explorer(&mut harness).work.settings.starts = Starts::One;
-    explorer(&mut harness).panes.show(PaneId::Models);
-    order(&mut harness, Command::CompareModels);
-    assert_eq!(is_there_in_both(&mut harness, "the model predicts DoLP only"), [true, false]);
-}
-
-#[test]
 fn why_nothing_is_predicted() {
     let mut harness = harness();
     explorer(&mut harness).panes.show(PaneId::Planner);
     explorer(&mut harness).work.settings.plan.theta_r.clear();
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
-}
-
-#[test]
-fn what_a_plan_leaves_open() {
-    let mut harness = harness();
-    explorer(&mut harness).panes.show(PaneId::Planner);
-    wait(&mut harness);
-    assert_eq!(is_there_in_both(&mut harness, "a standard error above half of the value"), [true, false]);
-}
-
-#[test]
-fn why_a_file_is_foreign_and_why_it_cannot_be_opened_yet() {
-    let folder = tempfile::tempdir().expect("a folder for temporary files");
-    let path = folder.path().join("foreign.csv");
-    std::fs::write(&path, "a,b,c\n30,20,0.1\n30,40,0.2\n").expect("a writable folder");
-    let open = || {
-        let mut harness = harness();
-        order(&mut harness, Command::OpenMeasurement(path.clone()));
-        let import = explorer(&mut harness).import.as_mut().expect("a question");
-        import.options.columns = Mapping::default();
-        wait(&mut harness);
-        harness
-    };
-    let mut harness = open();
-    let Question::Columns(sample) = &explorer(&mut harness).import.as_ref().expect("a question").questions[0] else { panic!("a table") };
-    let why = sample.reason.to_string();
-    assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
-    let mut harness = open();
-    let preview = explorer(&mut harness).import.as_ref().expect("a question").preview.get().expect("an answer");
-    let why = preview.as_ref().expect_err("no columns").to_string();
-    assert_eq!(is_there_in_both(&mut harness, &why), [true, false]);
 }
 
 #[test]

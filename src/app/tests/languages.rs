@@ -2,9 +2,9 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::{Command, items};
-use crate::app::shell::help::{DOI, Help, PAPER};
 use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::help::{DOI, Help, PAPER};
 use crate::app::text::i18n::{Language, MISSED};
 use crate::app::work::pane_id::PaneId;
 use egui::Key;
@@ -111,7 +111,7 @@ const SAME: &[&str] = &[
 ];
 
 /// Whether something in it is English: an entry of the literature, which has its year, is not translated.
-fn is_english(text: &str) -> bool {
+pub(crate) fn is_english(text: &str) -> bool {
     let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit));
     // One that is cut before its year begins with initials, or stands in a bracket that does not close.
     let is_cut = text.ends_with('…') && (text.as_bytes().get(1) == Some(&b'.') || text.contains('（'));
@@ -261,12 +261,8 @@ fn what_stays_open_is_said_in_the_language_of_the_window() {
 #[test]
 fn the_fonts_have_every_letter() {
     let harness = chinese();
-    let texts = [
-        include_str!("../../../assets/locales/zh_CN.po"),
-        include_str!("../../../assets/locales/zh_CN.core.po"),
-        include_str!("../shell/commands.rs"),
-        include_str!("../shell/docking.rs"),
-    ];
+    let texts =
+        [include_str!("../../../assets/locales/zh_CN.po"), include_str!("../shell/commands.rs"), include_str!("../shell/docking.rs")];
     let font = egui::FontId::proportional(14.0);
     let lacking: BTreeSet<char> = harness.ctx.fonts_mut(|fonts| {
         texts.iter().flat_map(|text| text.chars()).filter(|letter| !letter.is_ascii_control() && !fonts.has_glyph(&font, *letter)).collect()

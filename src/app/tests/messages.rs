@@ -3,183 +3,44 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
-use crate::app::storage::session::{Session, SessionError};
+use crate::app::storage::fit_record::FitRecordError;
+use crate::app::storage::session::{SavedFitError, Session};
 use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult};
-use crate::app::tests::sources::literals_after;
+use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, MISSED, phrase, translated};
-use crate::app::text::messages::{Localized, short_method};
+use crate::app::text::i18n::{Language, MISSED, translated};
+use crate::app::text::messages::{Localized, advised, short_method};
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
+use crate::app::work::settings::SettingsError;
 use crate::figure::PngError;
 use crate::files::export::{expect_ending, picture_kind, report_kind};
 use crate::files::open_file::{OpenError, open_file};
 use pbrdf::fit::{
     BoundsError, DesignError, DistributionComparison, ProblemError, StopReason, Undetermined, UndeterminedDirection, UndeterminedReason,
 };
-use pbrdf::measurement::{
-    ColumnChoice, ColumnPlace, Ellipsometry, Expected, Field, MappedColumn, Mapping, MappingError, Measurement, ReadError, ReadErrorKind,
-    Tensor, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape, TensorType, Unit, WavelengthError, unwatched,
+use pbrdf::measurement::formats::{
+    ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape, TensorType,
 };
-use pbrdf::model::{Check, FINISHES, Finding, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
+use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Field, Hint, Measurement, ReadError, ReadErrorKind, WavelengthError};
+use pbrdf::model::{Check, Domain, FINISHES, Finding, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
 use pbrdf::optics::{GeometryError, metals};
 use pbrdf::selftest::{BenchmarkMethod, Cost, Host, Machine, Stability, StabilityOutcome};
-use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
-
-/// Words that are the same in Chinese: keys of files and options, names of quantities, units, formats, people and methods.
-const SAME: &[&str] = &[
-    "AICc",
-    "AOI",
-    "AVX2",
-    "Angstroms",
-    "BRDF",
-    "Beckmann",
-    "DoLP",
-    "GGX",
-    "Germer",
-    "Header",
-    "Hyde",
-    "JSON",
-    "Lambert",
-    "Levenberg",
-    "Marquardt",
-    "Minnaert",
-    "NUL",
-    "Priest",
-    "Sparrow",
-    "Thilak",
-    "Torrance",
-    "UTF",
-    "Unicode",
-    "Wang",
-    "Zhu",
-    "about",
-    "account",
-    "aoi",
-    "benches",
-    "bounds",
-    "brdf",
-    "brdf_sigma",
-    "callgrind",
-    "condition",
-    "cos",
-    "cost",
-    "csv",
-    "degrees",
-    "delta",
-    "depolarisation",
-    "dolp",
-    "dolp_percent",
-    "dolp_sigma",
-    "dphi",
-    "dpi",
-    "dpolE",
-    "elapsed_ms",
-    "example",
-    "field=column",
-    "fraction",
-    "high",
-    "html",
-    "inf",
-    "log",
-    "masked",
-    "max",
-    "measurement",
-    "minima",
-    "model",
-    "move",
-    "name=low",
-    "name=value",
-    "nan",
-    "null",
-    "metal",
-    "panes",
-    "parameters",
-    "percent",
-    "phi_d",
-    "plan",
-    "png",
-    "program",
-    "psi",
-    "rad",
-    "radians",
-    "range",
-    "set",
-    "settings",
-    "sigma",
-    "sin",
-    "sigma_psi",
-    "sigma_v",
-    "soft",
-    "source",
-    "step",
-    "svg",
-    "table",
-    "tensor_file",
-    "textbook_error",
-    "theta_d",
-    "theta_i",
-    "theta_r",
-    "title",
-    "ulp",
-    "valgrind",
-    "watch",
-    "wavelength",
-    "wavelength_nm",
-    "why",
-    "wvls",
-    "yes",
-];
-
-/// What is left of English in a text: words outside quotes that are no names and longer than symbols.
-pub(crate) fn english(text: &str) -> Vec<String> {
-    let mut rest = String::new();
-    for (i, part) in text.split(['"', '`']).enumerate() {
-        if i % 2 == 0 {
-            rest.push_str(part);
-        }
-        rest.push(' ');
-    }
-    let words = rest.split(|letter: char| !(letter.is_ascii_alphanumeric() || "_=".contains(letter)));
-    let is_english = |word: &&str| {
-        let letters = word.chars().filter(char::is_ascii_alphabetic).count();
-        letters > 2 && !SAME.contains(word) && !word.starts_with("1e") && word.chars().all(|c| c.is_ascii_alphabetic() || c == '_')
-    };
-    words.filter(is_english).map(str::to_owned).collect()
-}
 
 fn chinese() {
     i18n::install();
     i18n::set(Language::Chinese);
 }
 
-/// Texts of the core that stay in English, wholly or in part.
-fn untranslated(texts: impl IntoIterator<Item = String>) -> Vec<String> {
+/// The catalogue has every text that the window says of the messages.
+fn assert_localized<M: Localized>(messages: impl IntoIterator<Item = M>) {
     chinese();
-    let left = |text: String| {
-        let said = phrase(&text);
-        let words = english(&said);
-        (!words.is_empty()).then(|| format!("{text}\n  {said}\n  {words:?}"))
-    };
-    texts.into_iter().filter_map(left).collect()
-}
-
-fn says<E: Display>(errors: impl IntoIterator<Item = E>) -> Vec<String> {
-    errors.into_iter().map(|error| error.to_string()).collect()
-}
-
-/// What the window says of the messages in Chinese: nothing in English, and no text that the catalogue lacks.
-fn assert_localized<M: Localized + std::fmt::Debug>(messages: impl IntoIterator<Item = M>) {
-    chinese();
-    for message in messages {
-        let text = message.localized();
-        assert!(english(&text).is_empty(), "{message:?}: {text}");
-    }
+    messages.into_iter().for_each(|message| _ = message.localized());
     assert_found();
 }
 
@@ -226,58 +87,66 @@ fn errors_of_tables_are_said_in_chinese() {
     };
     let column = |name: &str| Some(ColumnPlace { number: 2, name: name.to_owned() });
     let at = |line| move |kind| ReadError { line, column: None, kind };
-    let mut texts = says(kinds().into_iter().map(at(None)));
-    texts.extend(says(kinds().into_iter().map(at(Some(3)))));
-    texts.extend(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column(""), kind }.to_string()));
-    texts.extend(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column("dolp"), kind }.to_string()));
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
-}
-
-/// Tables and other files that are each damaged in a way of their own.
-fn damaged_files() -> Vec<String> {
-    let mut texts = Vec::new();
-    for cells in
-        ["x,0,0.5,1,0", "90,0,0.5,1,0", "10,95,0.5,1,0", "10,0,2,1,0", "10,0,0.5,-1,0", "10,0,0.5,1,2", ",0,0.5,1,0", "10,nan,0.5,1,0"]
-    {
-        let table = format!("theta_i,theta_r,dolp,brdf,masked\n{cells}\n");
-        texts.push(Measurement::read(table.as_bytes()).expect_err(cells).to_string());
-    }
-    for cells in ["10,0,inf,50,1", "10,0,180,120,1", "10,0,180,50,0", "10,0,180,50,x"] {
-        let table = format!("theta_i,theta_r,dphi,dolp_percent,dolp_sigma\n{cells}\n");
-        texts.push(Measurement::read(table.as_bytes()).expect_err(cells).to_string());
-    }
-    let column = |field, number, unit| MappedColumn { field, column: ColumnChoice::Number(number), unit };
-    let mapping =
-        Mapping { columns: vec![column(Field::ThetaI, 1, Unit::Native), column(Field::ThetaR, 9, Unit::Native)], ..Mapping::default() };
-    texts.push(mapping.read_table(&b"a,b,c\n1,2,3\n"[..], &mut unwatched).expect_err("no ninth column").to_string());
-    for rows in [
-        "nm\n0 55 43 160",
-        "nm\n650 95 43 160",
-        "nm\n650 55 99 160",
-        "nm\n650 55 43 x",
-        "nm\n650 55 43 160 -1 1",
-        "nm\ndpolE 650 55 x",
-        "nm\n650 55 43",
-        "nm\ndpolE 650 55",
-        "nm\n?",
-        "sample\n1 2 3 4",
-        " ",
-        "nm\n",
-    ] {
-        texts.push(Ellipsometry::read(rows.as_bytes()).expect_err(rows).to_string());
-    }
-    texts
+    assert_localized(kinds().into_iter().map(at(None)));
+    assert_localized(kinds().into_iter().map(at(Some(3))));
+    assert_localized(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column(""), kind }));
+    assert_localized(kinds().into_iter().map(|kind| ReadError { line: Some(3), column: column("dolp"), kind }));
 }
 
 #[test]
-fn what_is_expected_of_damaged_files_is_said_in_chinese() {
-    let left = untranslated(damaged_files());
-    assert!(left.is_empty(), "{}", left.join("\n"));
+fn what_is_expected_and_what_helps_is_said_in_chinese() {
+    use Expected as E;
+    assert_localized([
+        E::FiniteNumber,
+        E::Parameter(Domain::Between(0.0, 1.0)),
+        E::Parameter(Domain::ZeroOrBetween(0.5, 1.0)),
+        E::Index,
+        E::Distribution,
+        E::Angle,
+        E::ModelThetaI,
+        E::ModelThetaR,
+        E::ThetaI,
+        E::ThetaR,
+        E::Dphi,
+        E::Dolp,
+        E::DolpPercent,
+        E::Brdf,
+        E::Sigma,
+        E::Mask,
+        E::Wavelength,
+        E::Psi,
+        E::Delta,
+        E::SigmaOrZero,
+        E::Depolarisation,
+        E::WoollamRow,
+        E::WavelengthUnit,
+        E::PolarAngle,
+        E::Line("1 2 3"),
+    ]);
+    use Hint as H;
+    assert_localized([H::Import, H::NameDolpPercent, H::LeaveEmpty, H::SaveAsUtf8, H::OneDecimalMark, H::SeparateBySemicolons]);
+    let error = Measurement::read(&b"theta_i,theta_r,dolp\n10,0,50\n"[..]).expect_err("percent");
+    assert_eq!(
+        advised(&error, error.hint()),
+        "第 2 行第 3 列（dolp）：读到 50，应为0 至 1 的 DoLP（若此列为百分数，请命名为 dolp_percent）"
+    );
+    assert_localized([
+        ImportNote::IgnoredColumns { names: vec![String::new()] },
+        ImportNote::IgnoredColumns { names: vec!["a".to_owned(), "b".to_owned()] },
+        ImportNote::IgnoredRows { name: "a".to_owned(), count: 2 },
+        ImportNote::DepolarisationNotApplied { count: 2 },
+        ImportNote::NearestWavelength { wanted_nm: 650.0, taken_nm: vec![649.5] },
+        ImportNote::NoWavelengthNear { theta_i: 30.0 },
+        ImportNote::AssumedGrids { names: vec!["theta_h"] },
+        ImportNote::NoValue { count: 1 },
+        ImportNote::Transmission { count: 1 },
+        ImportNote::BrdfBelowZero { count: 1 },
+        ImportNote::DolpAboveOne { count: 1 },
+    ]);
 }
 
 #[test]
-fn errors_of_tensors_mappings_and_wavelengths_are_said_in_chinese() {
+fn errors_of_tensors_and_wavelengths_are_said_in_chinese() {
     use TensorErrorKind as E;
     let kinds = || {
         vec![
@@ -297,30 +166,22 @@ fn errors_of_tensors_mappings_and_wavelengths_are_said_in_chinese() {
             E::Grid { index: 3, found: 0.0, expected: TensorAxis::Wavelengths },
         ]
     };
-    let mut texts = Vec::new();
     for (byte, field) in [(None, None), (Some(12), None), (None, Some("wvls")), (Some(12), Some("wvls"))] {
-        texts.extend(kinds().into_iter().map(|kind| TensorError { byte, field: field.map(str::to_owned), kind }.to_string()));
+        assert_localized(kinds().into_iter().map(|kind| TensorError { byte, field: field.map(str::to_owned), kind }));
     }
-    texts.push(Tensor::from_bytes(b"tensor_file\0\x01\0\xff\0\0\0".to_vec()).expect_err("too many fields").to_string());
-    texts.extend(says([MappingError::Form("x".to_owned()), MappingError::Field("x".to_owned()), MappingError::Repeated(Field::Dolp)]));
-    texts.extend(
-        ["theta_i=1:percent", "brdf=1:percent", "dolp=1:radians"].map(|text| Mapping::from_text(text).expect_err(text).to_string()),
-    );
     let many: Vec<f64> = (400..=420).map(f64::from).collect();
     for available_nm in [Vec::new(), vec![450.0, 650.0], many] {
-        texts.push(WavelengthError::NotChosen { count: available_nm.len(), available_nm: available_nm.clone() }.to_string());
-        texts.push(WavelengthError::Outside { wanted_nm: 900.0, available_nm }.to_string());
+        let not_chosen = WavelengthError::NotChosen { count: available_nm.len(), available_nm: available_nm.clone() };
+        assert_localized([not_chosen, WavelengthError::Outside { wanted_nm: 900.0, available_nm }]);
     }
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
+    assert_localized([ImportError::NoValue { notes: Vec::new() }]);
 }
 
 #[test]
 fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
-    let mut texts = Vec::new();
     for text in ["hello", "m=3", "n=abc", "k=-2", "q=1", "c=inf", "sigma=0", "n=1, n=2"] {
         assert_localized([assignments_from_text(text).expect_err(text)]);
-        texts.push(Lesson::from_text(&format!("title: a\nstep: b\nset: {text}")).expect_err(text).to_string());
+        assert_localized(Lesson::from_text(&format!("title: a\nstep: b\nset: {text}")).err());
     }
     let (n, low, high) = (Parameter::N, 0.5, 1.5);
     assert_localized([ParameterError::NoIndex, ParameterError::Outside { parameter: n, value: -1.0 }]);
@@ -355,14 +216,12 @@ fn errors_of_parameters_problems_and_lessons_are_said_in_chinese() {
         "title: a",
         "step: a",
     ] {
-        texts.push(Lesson::from_text(text).expect_err(text).to_string());
+        assert_localized(Lesson::from_text(text).err());
     }
     for range in ["k", "k=3..0", "m=0..1", "k=a..b"] {
-        texts.push(Lesson::from_text(&format!("title: a\nstep: b\nrange: {range}")).expect_err(range).to_string());
+        assert_localized(Lesson::from_text(&format!("title: a\nstep: b\nrange: {range}")).err());
     }
-    texts.push(LessonError { line: 1, kind: LessonErrorKind::NoStep }.to_string());
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
+    assert_localized([LessonError { line: 1, kind: LessonErrorKind::NoStep }]);
 }
 
 #[test]
@@ -386,7 +245,6 @@ fn errors_of_files_and_pictures_are_said_in_chinese() {
 #[test]
 fn damaged_sessions_are_refused_in_chinese() {
     let head = "\"format\":\"pbrdf-session\",\"version\":";
-    let mut texts = Vec::new();
     for text in [
         String::new(),
         "{".to_owned(),
@@ -408,15 +266,16 @@ fn damaged_sessions_are_refused_in_chinese() {
         format!("{{{head}1,\"program\":null}}"),
         format!("{{{head}1,\"settings\":{{\"theta_i\":\"x\"}}}}"),
     ] {
-        texts.push(Session::read(&text).expect_err(&text).to_string());
+        assert_localized(Session::read(&text).err());
     }
-    texts.push(SessionError::Settings("parameters: n = -1 is not allowed: expected a number from 0 to 1e10".to_owned()).to_string());
-    texts.push(SessionError::Settings("theta_i, dphi: theta_i = 95 is outside 0 ≤ θi < 90 degrees".to_owned()).to_string());
-    let faults = literals_after(include_str!("../storage/fit_record.rs"), "Some(");
-    texts.extend(faults.into_iter().filter(|fault| fault.starts_with("account")));
-    texts.push(SessionError::Fit { number: 2, reason: ProblemError::NothingToPredict.to_string() }.to_string());
-    let left = untranslated(texts);
-    assert!(left.is_empty(), "{}", left.join("\n"));
+    assert_localized([
+        SettingsError::Parameters(ParameterError::NoIndex),
+        SettingsError::Angles(GeometryError::ThetaI(95.0)),
+        SettingsError::OutOfRange("plan"),
+    ]);
+    assert_localized([SavedFitError::Mask, SavedFitError::Problem(ProblemError::NothingToPredict)]);
+    use FitRecordError as R;
+    assert_localized([R::Place, R::Starts, R::LossScale, R::Negative]);
 }
 
 #[test]
@@ -636,5 +495,5 @@ fn english_in(html: &str, document: &Document) -> Vec<String> {
             || text.starts_with("pbrdf-explorer")
     };
     let texts = texts_of(html).into_iter().map(|text| text.replace(&document.name, "")).filter(|text| !quoted(text));
-    texts.filter(|text| !english(text).is_empty()).collect()
+    texts.filter(|text| is_english(text)).collect()
 }

@@ -246,7 +246,7 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
     assert_eq!(good["shown"], 1);
     let cases = [
-        ("/fits/0", "7", "number 1: invalid type"),
+        ("/fits/0", "7", "fit 1: a value is not as expected: invalid type"),
         ("/fits/0/account/minima/0/reached", "-1", "account.minima[0].reached: "),
         ("/fits/0/account/minima/0/reached", "18446744073709551615", "account.minima: more starts"),
         ("/fits/0/account/minima/0/at", "[0.5]", "account: a place"),
@@ -378,7 +378,7 @@ fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
         child.kill().expect("a running process");
         child.wait().expect("its end");
         let text = std::fs::read_to_string(&path).expect("a file");
-        let session = Session::read(&text).unwrap_or_else(|error| panic!("kill {kill}: {error}"));
+        let session = Session::read(&text).unwrap_or_else(|error| panic!("kill {kill}: {error:?}"));
         match session.settings.parameters.n {
             2.0 => seen[0] += 1,
             3.0 => seen[1] += 1,

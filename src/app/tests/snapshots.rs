@@ -7,7 +7,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::commands::Command;
 use crate::app::shell::job_results::benchmark_finished;
 use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
-use crate::app::tests::messages::english;
+use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
 use crate::app::work::pane_id::PaneId;
@@ -158,7 +158,7 @@ fn every_exported_plot_is_in_chinese_where_the_window_is() {
         // Who measured a metal stays.
         let sources = || metals().expect("the bundled table").iter().flat_map(|metal| &metal.sources);
         let words = words.map(|word| sources().fold(word.to_owned(), |word, source| word.replace(&source.name, "")));
-        left.extend(words.filter(|word| !english(word).is_empty()).map(|word| format!("{pane:?}: {word}")));
+        left.extend(words.filter(|word| is_english(word)).map(|word| format!("{pane:?}: {word}")));
     }
     assert!(left.is_empty(), "{}", left.join("\n"));
 }

@@ -1,39 +1,99 @@
-//! What more than one panel says: errors of parameters, and what words mean.
+//! The words of the window and what they mean, in the help and where the pointer rests.
 
-use pbrdf::fit::{EstimateStatus, relative_error_base};
-use pbrdf::model::Parameter;
+use crate::app::text::i18n::translated;
+use pbrdf::fit::EstimateStatus;
 use tr::tr;
 
-/// An error in percent of the size of what it belongs to.
-pub fn percent(parameter: Parameter, value: f64, error: f64) -> String {
-    let percent = 100.0 * error / relative_error_base(parameter, value);
-    if percent.is_finite() && percent < 1e4 { format!("{percent:.*} %", usize::from(percent < 10.0)) } else { "—".to_owned() }
+/// A word of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    pub word: &'static str,
+    /// What it means, in whole sentences.
+    pub meaning: &'static str,
 }
+
+impl Entry {
+    /// The meaning in the language of the window.
+    pub fn help(self) -> String {
+        translated(self.meaning)
+    }
+}
+
+pub const DELTA_E: Entry = Entry {
+    word: "ΔE",
+    meaning: "ΔE = Σ (X − Xm)² / Σ Xm², Eq. (18): the squared distance between model X and measurement Xm over that of the measurement from 0; with DoLP and BRDF measured, the sum of both. 0 is a perfect fit.",
+};
+pub const OPEN: Entry = Entry {
+    word: "open, undetermined",
+    meaning: "The data leave it open: quite other values, together with other parameters, fit as well, so that it has no standard error.",
+};
+pub const AT_BOUND: Entry = Entry {
+    word: "at bound",
+    meaning: "It rests on the end of its range: a better value may lie outside. There it has no standard error, and those of the others hold only with it kept there.",
+};
+pub const BADLY_DETERMINED: Entry =
+    Entry { word: "badly determined", meaning: "The data determine it, but with a standard error above half of the value." };
+pub const MASK: Entry =
+    Entry { word: "mask", meaning: "Masked rows stay in the file and are shown, but count in no fit and no statistic." };
+pub const AICC: Entry = Entry {
+    word: "AICc",
+    meaning: "Akaike's criterion, corrected for few data: the smaller, the better a model is worth its parameters on the same data. A difference below 2 means little, one above 10 decides.",
+};
+
+/// All words, in the order of the help.
+pub const GLOSSARY: [Entry; 15] = [
+    Entry {
+        word: "DoLP",
+        meaning: "Degree of linear polarisation of what is reflected when the light that falls in is not polarised: 0 is none, 1 is all, Eq. (17).",
+    },
+    DELTA_E,
+    Entry {
+        word: "θi, θr, Δφ",
+        meaning: "Angles of incidence and of view, from the surface normal, and the azimuth between them; Δφ = 180° is the side of the mirror direction, a negative θr the side that the light comes from.",
+    },
+    OPEN,
+    AT_BOUND,
+    BADLY_DETERMINED,
+    Entry { word: "limit", meaning: "What a number of a report or of the audit has to keep in order to pass." },
+    MASK,
+    Entry { word: "ghost", meaning: "The faint dotted curve of the last fit, which stays in view while the sliders move on." },
+    Entry { word: "cases", meaning: "The stiff and extreme cases on which the program tests its own values and fits." },
+    Entry {
+        word: "Fresnel limit",
+        meaning: "DoLP of the bare mirror facets with this n and k: the dashed curve. The other lobes can only lower DoLP below it.",
+    },
+    Entry {
+        word: "lobes",
+        meaning: "The parts that the reflected light is made of: the specular lobe around the mirror direction, which polarises, and the diffuse and the volume lobe, which do not.",
+    },
+    Entry {
+        word: "facets", meaning: "The small mirrors that the rough surface is thought to be made of; σ is the scale of their slopes."
+    },
+    Entry { word: "landscape", meaning: "ΔE, or whatever else is minimised, over two parameters: a fit looks for its lowest place." },
+    AICC,
+];
 
 /// What ΔE is.
 pub fn delta_e_help() -> String {
-    tr!("ΔE = Σ (X − Xm)² / Σ Xm², Eq. (18): the squared distance between model X and measurement Xm over that of the measurement from 0; \
-         with DoLP and BRDF measured, the sum of both. 0 is a perfect fit.")
+    DELTA_E.help()
 }
 
-/// What the standing of an estimate means.
+/// What the status of an estimate means.
 pub fn standing_help(standing: EstimateStatus) -> String {
     match standing {
         EstimateStatus::Fixed => tr!("The fit left it as it was."),
-        EstimateStatus::AtBound(_) => {
-            tr!("It rests on the end of its range: a better value may lie outside. There it has no standard error.")
-        }
+        EstimateStatus::AtBound(_) => AT_BOUND.help(),
         EstimateStatus::Determined(_) => tr!("One standard error, linearised at the solution"),
         EstimateStatus::NoDegreesOfFreedom => {
             tr!("As many values as free parameters (no degree of freedom): nothing is left over to tell an error from.")
         }
-        EstimateStatus::Undetermined => open_help(),
+        EstimateStatus::Undetermined => OPEN.help(),
     }
 }
 
 /// What it means that data leave a parameter open.
 pub fn open_help() -> String {
-    tr!("The data leave it open: quite other values, together with other parameters, fit as well, so that it has no standard error.")
+    OPEN.help()
 }
 
 /// Headings of a list of minima.
@@ -45,15 +105,12 @@ pub fn minima_headings_ui(ui: &mut egui::Ui) {
 
 /// What AICc is.
 pub fn aicc_help() -> String {
-    tr!(
-        "Akaike's criterion, corrected for few data: the smaller, the better a model is worth its parameters on the same data. A difference \
-         below 2 means little, one above 10 decides."
-    )
+    AICC.help()
 }
 
 /// What a mask is.
 pub fn mask_help() -> String {
-    tr!("Masked rows stay in the file and are shown, but count in no fit and no statistic.")
+    MASK.help()
 }
 
 /// That there are fewer measured values than free parameters, if so.
@@ -65,40 +122,4 @@ pub fn too_few(values: usize, free: usize) -> Option<String> {
             free
         )
     })
-}
-
-/// Three significant digits, enough for an error.
-pub fn short(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-4..1e4).contains(&value.abs()) {
-        return format!("{value:.2e}");
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of decimals from 0 to 6")]
-    let decimals = (2.0 - libm::log10(value.abs()).floor()).clamp(0.0, 6.0) as usize;
-    format!("{value:.decimals$}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{percent, short};
-    use pbrdf::fit::is_poorly_determined;
-    use pbrdf::model::Parameter;
-
-    #[test]
-    fn errors_are_judged_by_the_size_of_what_they_belong_to() {
-        assert!(is_poorly_determined(Parameter::N, 2.0, 1.5) && !is_poorly_determined(Parameter::N, 2.0, 0.5));
-        // q counts from 1.
-        assert!(is_poorly_determined(Parameter::Q, 1.2, 0.15));
-        assert_eq!(percent(Parameter::N, 2.0, 0.05), "2.5 %");
-        assert_eq!(percent(Parameter::Kd, 0.0, 0.05), "—");
-    }
-
-    #[test]
-    fn errors_are_shown_with_three_digits() {
-        for (value, expected) in [(0.0, "0"), (2.3561, "2.36"), (-0.001_234, "-0.00123"), (1234.5, "1234"), (1e-7, "1.00e-7")] {
-            assert_eq!(short(value), expected);
-        }
-    }
 }

@@ -3,13 +3,12 @@
 //! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
 //! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
 //! `tr!("{} rows", count)`. A text that comes out of a table goes through [`translated`]: `translated(parameter.help())`.
-//! A sentence that the core made, an error say, goes through [`phrase`]; its forms stand in `zh_CN.core.po`, with named holes.
+//! A message of the core, an error say, has its texts in [`crate::app::text::messages`].
 //! Names of parameters, models and files are the same in all languages.
 
-use crate::app::text::phrases::Phrases;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 use tr::{Translator, tr};
@@ -57,13 +56,10 @@ impl Language {
 }
 
 const CHINESE: &str = include_str!("../../../assets/locales/zh_CN.po");
-/// What the core says.
-const CORE: &str = include_str!("../../../assets/locales/zh_CN.core.po");
 
-/// Texts in Chinese under those in English.
+/// Texts in Chinese by those in English.
 struct Catalogue {
     chinese: HashMap<String, String>,
-    phrases: Phrases,
 }
 
 /// The catalogue, once it is made known.
@@ -76,8 +72,8 @@ fn entries(po: &str) -> Option<impl Iterator<Item = (String, String)>> {
 }
 
 impl Catalogue {
-    fn from_po(window: &str, core: &str) -> Option<Self> {
-        Some(Self { chinese: entries(window)?.collect(), phrases: Phrases::new(entries(core)?) })
+    fn from_po(po: &str) -> Option<Self> {
+        Some(Self { chinese: entries(po)?.collect() })
     }
 }
 
@@ -120,55 +116,11 @@ pub fn label(text: &str) -> String {
     }
 }
 
-/// A sentence of the core in the language of the window, in English where that does not know it. It is looked for among all forms of
-/// sentences, once: labels ask for the same in every frame.
-pub fn phrase(text: &(impl std::fmt::Display + ?Sized)) -> String {
-    let text = text.to_string();
-    match (current(), CATALOGUE.get()) {
-        (Language::Chinese, Some(catalogue)) => {
-            let word = |word: &str| catalogue.chinese.get(word).map(String::as_str);
-            SAID.with_borrow_mut(|said| {
-                if let Some(known) = said.get(&text) {
-                    return known.clone();
-                }
-                if said.len() >= MOST_SAID {
-                    said.clear();
-                }
-                let translation = catalogue.phrases.translate(&text, &word).unwrap_or_else(|| text.clone());
-                said.entry(text).or_insert(translation).clone()
-            })
-        }
-        _ => text,
-    }
-}
-
-/// Sentences that are remembered at most: some panes full of them.
-const MOST_SAID: usize = 4096;
-
-thread_local! {
-    /// Sentences that were asked for, in Chinese.
-    static SAID: RefCell<HashMap<String, String>> = RefCell::default();
-}
-
-/// Whether there is an entry for sentences of that form.
-#[cfg(test)]
-pub fn has_phrase(form: &str) -> bool {
-    install();
-    CATALOGUE.get().is_some_and(|catalogue| catalogue.phrases.has(form))
-}
-
-/// Sentences of the core whose translation lacks a part.
-#[cfg(test)]
-pub fn torn_phrases() -> Vec<String> {
-    install();
-    CATALOGUE.get().map_or_else(Vec::new, |catalogue| catalogue.phrases.torn())
-}
-
 /// Makes the catalogue known.
 pub fn install() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
-        if let Some(catalogue) = Catalogue::from_po(CHINESE, CORE) {
+        if let Some(catalogue) = Catalogue::from_po(CHINESE) {
             let catalogue: &'static Catalogue = CATALOGUE.get_or_init(|| catalogue);
             tr::set_translator!(catalogue);
         }
@@ -228,9 +180,9 @@ mod switch {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHINESE, CORE, Catalogue, Language, MOST_SAID, SAID, install, phrase, set};
+    use super::{CHINESE, Catalogue, Language, install, set};
     use crate::app::tests::sources::{literals_after, sources};
-    use std::collections::{BTreeSet, HashMap};
+    use std::collections::BTreeSet;
     use tr::tr;
 
     #[test]
@@ -244,92 +196,19 @@ mod tests {
     }
 
     #[test]
-    fn sentences_are_remembered_and_not_without_end() {
-        install();
-        set(Language::Chinese);
-        for number in 0..=MOST_SAID {
-            assert_eq!(phrase(&format!("line {number}: ?")), format!("第 {number} 行：?"));
-        }
-        assert_eq!(SAID.with_borrow(HashMap::len), 1);
-        for (language, said) in [(Language::English, "line 7: ?"), (Language::Chinese, "第 7 行：?"), (Language::Chinese, "第 7 行：?")]
-        {
-            set(language);
-            assert_eq!(phrase("line 7: ?"), said);
-        }
-        assert_eq!(SAID.with_borrow(HashMap::len), 2);
-    }
-
-    #[test]
     fn every_text_of_the_window_is_translated() {
-        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
+        let catalogue = Catalogue::from_po(CHINESE).expect("the catalogue is well-formed");
         let of = |source: &str| TEXTS.iter().flat_map(|words| literals_after(source, words)).collect::<Vec<_>>();
         let texts: BTreeSet<String> = of_window().iter().flat_map(|(_, source)| of(source)).filter(|text| !text.is_empty()).collect();
         let missing: Vec<String> = texts.into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
     }
 
-    #[test]
-    fn no_control_has_a_bare_text() {
-        let mut bare = Vec::new();
-        for (name, source) in of_window() {
-            for call in CALLS {
-                for (at, _) in source.match_indices(call) {
-                    let text = source[at + call.len()..].split('"').next().unwrap_or_default();
-                    // Symbols and names are the same in all languages.
-                    if text.split(|letter: char| !letter.is_ascii_alphabetic()).any(|word| word.len() > 3) {
-                        bare.push(format!("{name}: {call}{text}"));
-                    }
-                }
-            }
-        }
-        assert!(bare.is_empty(), "without tr!: {bare:#?}");
-    }
-
-    /// What shows a text: a literal right behind it is not translated.
-    const CALLS: [&str; 17] = [
-        ".label(\"",
-        ".weak(\"",
-        ".strong(\"",
-        ".heading(\"",
-        ".small(\"",
-        ".button(\"",
-        ".small_button(\"",
-        ".menu_button(\"",
-        ".hint_text(\"",
-        ".on_hover_text(\"",
-        ".on_disabled_hover_text(\"",
-        "Button::new(\"",
-        "RichText::new(\"",
-        "CollapsingHeader::new(\"",
-        ".collapsing(\"",
-        ".say(\"",
-        ".info(\"",
-    ];
-
     /// The sources of the window, without this file.
     fn of_window() -> Vec<(String, String)> {
-        sources("src/app").into_iter().filter(|(path, _)| !path.ends_with("language.rs")).collect()
+        sources("src/app").into_iter().filter(|(path, _)| !path.ends_with("i18n.rs")).collect()
     }
 
     /// Behind what stands a text of the window: in the program, or in a table out of which it goes through `translated`.
-    const TEXTS: [&str; 5] = ["tr!(", "translated(", "text: ", "help: ", "tooltip: "];
-
-    /// Behind what a text may stand that goes out through `phrase`.
-    const PHRASES: [&str; 4] = ["format!(", "Some(", "Err(", "Ok("];
-
-    #[test]
-    fn no_sentence_is_put_together_without_a_translation() {
-        let catalogue = Catalogue::from_po(CHINESE, CORE).expect("the catalogue is well-formed");
-        let is_word = |word: &str| word.len() > 2 && word.chars().all(|letter| letter.is_ascii_alphabetic());
-        // Two words beside each other are no symbol and no key.
-        let is_sentence = |text: &String| text.split(' ').zip(text.split(' ').skip(1)).any(|(one, other)| is_word(one) && is_word(other));
-        let is_known = |text: &String| catalogue.phrases.has(text) || catalogue.chinese.contains_key(text);
-        let mut missing = Vec::new();
-        // What main says has no window around it.
-        for (path, source) in of_window().into_iter().filter(|(path, _)| path != "src/app/mod.rs") {
-            let said = PHRASES.iter().flat_map(|words| literals_after(&source, words));
-            missing.extend(said.filter(|text| is_sentence(text) && !is_known(text)).map(|text| format!("{path}: {text}")));
-        }
-        assert!(missing.is_empty(), "without tr!, and not in assets/locales/zh_CN.core.po: {missing:#?}");
-    }
+    const TEXTS: [&str; 7] = ["tr!(", "translated(", "text: ", "help: ", "tooltip: ", "word: ", "meaning: "];
 }

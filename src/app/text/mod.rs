@@ -1,6 +1,7 @@
 //! Texts: two languages, the glossary, numbers.
 
 pub mod glossary;
+pub mod help;
 pub mod i18n;
 pub mod messages;
-pub mod phrases;
+pub mod numbers;

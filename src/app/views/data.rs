@@ -1,10 +1,10 @@
 //! The measurement row by row, with what the model gives there; masks by row and by series.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::significant;
 use crate::app::shell::commands::Command;
-use crate::app::text::glossary::{mask_help, short};
+use crate::app::text::glossary::mask_help;
 use crate::app::text::i18n::translated;
+use crate::app::text::numbers::{short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::settings::Settings;

@@ -1,11 +1,11 @@
 //! The facets behind the specular lobe: densities of their tilt α for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6).
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::significant;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, Range, finite, key_line_ui, nice_ceiling, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
+use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
 use crate::app::work::document::IncidenceSeries;

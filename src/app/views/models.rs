@@ -1,12 +1,12 @@
 //! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
 
 use crate::app::jobs::job::Job;
-use crate::app::panels::significant;
 use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
+use crate::app::text::numbers::{short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
@@ -171,7 +171,7 @@ fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     let standing = match estimate.status() {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(_) => tr!("at bound"),
-        EstimateStatus::Determined(error) => format!("± {}", glossary::short(error)),
+        EstimateStatus::Determined(error) => format!("± {}", short(error)),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
         EstimateStatus::Undetermined => tr!("open"),
     };

@@ -3,9 +3,9 @@
 //! Between the meridian bases [E_s, E_p] of the incident and the reflected ray.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::significant;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{ColorScale, Polyline, Range, ink_on, theme};
+use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
 use crate::app::work::document::IncidenceSeries;

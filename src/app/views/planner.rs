@@ -1,12 +1,12 @@
 //! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::significant;
 use crate::app::plots::theme;
-use crate::app::text::glossary::{open_help, percent, short};
+use crate::app::text::glossary::open_help;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::text::messages::Localized as _;
+use crate::app::text::numbers::{percent, short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
 use crate::app::work::document::Document;

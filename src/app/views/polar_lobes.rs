@@ -3,11 +3,11 @@
 //! The plane is the sliders' own: θr to the right is the forward side, to the left the backscatter side.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::panels::significant;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice_ceiling};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
+use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{DECADES, ModelCurves, axis_values};
 use crate::app::work::document::IncidenceSeries;

@@ -23,9 +23,12 @@
 //! | `panes` | step | names of the views to bring to the front |
 //! | `move`, `watch`, `why` | step | what to do, what to look at, and the reason |
 
+use crate::app::text::i18n::translated;
+use crate::app::text::messages::{Localized, quoted};
 use pbrdf::model::{AssignmentError, Parameter, Preset, assignment_from_text, assignments_from_text};
 use pbrdf::optics;
 use pbrdf::optics::{Geometry, Metal};
+use tr::tr;
 
 /// A text in one language or more.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -115,8 +118,7 @@ pub struct Lesson {
 }
 
 /// Why a text is no lesson, and where.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("line {line}: {kind}")]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LessonError {
     /// Line of the file, from 1.
     pub line: usize,
@@ -125,13 +127,11 @@ pub struct LessonError {
 }
 
 /// What is wrong with a line of a lesson.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum LessonErrorKind {
     /// Neither `key: text` nor an indented line.
-    #[error("expected key: text, or an indented line that goes on with the text before, found {0:?}")]
     Form(String),
     /// A key that means nothing here.
-    #[error("{found:?} is not a key; expected one of {expected}")]
     Key {
         /// The key.
         found: String,
@@ -139,25 +139,18 @@ pub enum LessonErrorKind {
         expected: &'static str,
     },
     /// A key given twice in one step.
-    #[error("{0:?} is given twice")]
     Twice(String),
     /// A key without a text.
-    #[error("{0:?} has no text")]
     Empty(String),
     /// A language where there is nothing to translate.
-    #[error("{0:?} is not in a language of its own")]
     Language(String),
     /// No such model.
-    #[error("{0:?} is no model")]
     Model(String),
     /// No such parameter, or a value that it cannot have.
-    #[error(transparent)]
-    Set(#[from] AssignmentError),
+    Set(AssignmentError),
     /// No `name=low..high`.
-    #[error("expected name=low..high, such as k=0..3, found {0:?}")]
     Range(String),
     /// Ends in the wrong order.
-    #[error("a slider from {low} to {high}: the first must be below the second")]
     Order {
         /// The lower end.
         low: f64,
@@ -165,7 +158,6 @@ pub enum LessonErrorKind {
         high: f64,
     },
     /// Not an angle in its range.
-    #[error("{found:?} is no angle: expected {expected}")]
     Angle {
         /// What stands there.
         found: String,
@@ -173,20 +165,53 @@ pub enum LessonErrorKind {
         expected: &'static str,
     },
     /// No such metal.
-    #[error("{0:?} is no tabulated metal")]
     Metal(String),
     /// Not a wavelength.
-    #[error("{0:?} is no wavelength: expected a positive number of nanometres")]
     Wavelength(String),
     /// Neither yes nor no.
-    #[error("expected yes or no, found {0:?}")]
     YesOrNo(String),
     /// A lesson needs a title.
-    #[error("the lesson has no title")]
     NoTitle,
     /// A lesson needs a step.
-    #[error("the lesson has no step")]
     NoStep,
+}
+
+impl From<AssignmentError> for LessonErrorKind {
+    fn from(error: AssignmentError) -> Self {
+        Self::Set(error)
+    }
+}
+
+impl Localized for LessonError {
+    fn localized(&self) -> String {
+        tr!("line {0}: {1}", self.line, self.kind.localized())
+    }
+}
+
+impl Localized for LessonErrorKind {
+    fn localized(&self) -> String {
+        match self {
+            Self::Form(found) => {
+                tr!("expected key: text, or an indented line that goes on with the text before, found {}", quoted(found))
+            }
+            Self::Key { found, expected } => tr!("{0} is not a key; expected one of {1}", quoted(found), expected),
+            Self::Twice(found) => tr!("{} is given twice", quoted(found)),
+            Self::Empty(found) => tr!("{} has no text", quoted(found)),
+            Self::Language(found) => tr!("{} is not in a language of its own", quoted(found)),
+            Self::Model(found) => tr!("{} is no model", quoted(found)),
+            Self::Set(error) => error.localized(),
+            Self::Range(found) => tr!("expected name=low..high, such as k=0..3, found {}", quoted(found)),
+            Self::Order { low, high } => tr!("a slider from {0} to {1}: the first must be below the second", low, high),
+            Self::Angle { found, expected } => tr!("{0} is no angle: expected {1}", quoted(found), translated(expected)),
+            Self::Metal(found) => tr!("{} is no tabulated metal", quoted(found)),
+            Self::Wavelength(found) => {
+                tr!("{} is no wavelength: expected a positive number of nanometres", quoted(found))
+            }
+            Self::YesOrNo(found) => tr!("expected yes or no, found {}", quoted(found)),
+            Self::NoTitle => tr!("the lesson has no title"),
+            Self::NoStep => tr!("the lesson has no step"),
+        }
+    }
 }
 
 const HEAD_KEYS: &str = "title, about, step";
@@ -346,6 +371,7 @@ fn entries(text: &str) -> Result<Vec<Entry>, LessonError> {
 #[cfg(test)]
 mod tests {
     use super::{Data, Lesson, LessonErrorKind};
+    use crate::app::text::messages::Localized as _;
     use pbrdf::model::Parameter;
 
     const SMALL: &str = "# a comment\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n\nstep: Glass\nmodel: fresnel\nset: n=1.5, k=0\nrange: k=0..3, sigma = 0.05 .. 0.5\n\
@@ -401,7 +427,7 @@ mod tests {
         ] {
             let error = Lesson::from_text(text).expect_err(text);
             assert_eq!(error.line, line, "{text:?}");
-            assert!(error.to_string().contains(expected), "{text:?}: {error}");
+            assert!(error.localized().contains(expected), "{text:?}: {error:?}");
         }
         assert_eq!(Lesson::from_text("").map_err(|error| error.kind), Err(LessonErrorKind::NoTitle));
     }

@@ -1,14 +1,14 @@
 //! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
 use crate::app::text::i18n::Language;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::messages::Localized;
 use crate::app::work::design::Plan;
 use crate::app::work::document::Document;
 use crate::app::work::layout::Layout;
 use pbrdf::fit::{Bounds, BoundsError, FitOptions, Starts};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
-use pbrdf::optics::{Geometry, Metal, SlopeDistribution};
+use pbrdf::optics::{Geometry, GeometryError, Metal, SlopeDistribution};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use tr::tr;
@@ -213,6 +213,28 @@ pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), Par
     }
 }
 
+/// A value of the settings that means nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SettingsError {
+    Parameters(ParameterError),
+    Bounds(BoundsError),
+    Angles(GeometryError),
+    /// The value of that key.
+    OutOfRange(&'static str),
+}
+
+/// The key first, as it stands in the file.
+impl Localized for SettingsError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Parameters(error) => tr!("{0}: {1}", "parameters", error.localized()),
+            Self::Bounds(error) => tr!("{0}: {1}", "bounds", error.localized()),
+            Self::Angles(error) => tr!("{0}: {1}", "theta_i, dphi", error.localized()),
+            Self::OutOfRange(key) => tr!("{0}: {1}", key, tr!("a value is outside its range")),
+        }
+    }
+}
+
 impl Settings {
     /// The defaults for data with or without a BRDF.
     pub fn for_measurement(measurement: &Measurement) -> Self {
@@ -242,27 +264,22 @@ impl Settings {
         self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
     }
 
-    /// The key of a value that means nothing, and why: a file can be well-formed and still hold nonsense.
-    pub fn fault(&self) -> Option<String> {
-        if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
-            return Some(format!("parameters: {}", error.localized()));
-        }
-        for &(parameter, low, high) in &self.bounds {
-            if let Err(error) = Bounds::default().set(parameter, low, high) {
-                return Some(format!("bounds: {}", error.localized()));
-            }
-        }
-        if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
-            return Some(format!("theta_i, dphi: {}", error.localized()));
-        }
+    /// What means nothing, if anything does: a file can be well-formed and still hold nonsense.
+    pub fn fault(&self) -> Option<SettingsError> {
+        let bounds = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high).err();
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        let outside = |key| Some(format!("{key}: {}", tr!("a value is outside its range")));
-        if !self.plan.is_sound() {
-            outside("plan")
+        if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
+            Some(SettingsError::Parameters(error))
+        } else if let Some(error) = self.bounds.iter().find_map(bounds) {
+            Some(SettingsError::Bounds(error))
+        } else if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
+            Some(SettingsError::Angles(error))
+        } else if !self.plan.is_sound() {
+            Some(SettingsError::OutOfRange("plan"))
         } else if !is_positive(self.tabulated.wavelength_nm) {
-            outside("tabulated.wavelength_nm")
+            Some(SettingsError::OutOfRange("tabulated.wavelength_nm"))
         } else if !self.choices.loss_scale.is_none_or(is_positive) {
-            outside("choices.loss_scale")
+            Some(SettingsError::OutOfRange("choices.loss_scale"))
         } else {
             None
         }
@@ -361,7 +378,7 @@ pub struct SettingsFile {
 impl SettingsFile {
     /// The key of a value that means nothing, and why.
     pub fn fault(&self) -> Option<String> {
-        let size = || (!self.window.is_sound()).then(|| format!("window.size: {}", tr!("a value is outside its range")));
-        self.settings.fault().map(|fault| format!("settings.{fault}")).or_else(size)
+        let size = || (!self.window.is_sound()).then(|| SettingsError::OutOfRange("window.size").localized());
+        self.settings.fault().map(|fault| format!("settings.{}", fault.localized())).or_else(size)
     }
 }

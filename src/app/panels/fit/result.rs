@@ -1,12 +1,12 @@
 //! What a fit came to: values, standard errors, minima, correlations, and what stays open.
 
 use crate::app::panels::delta_e_text;
-use crate::app::panels::parameters::significant;
 use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
+use crate::app::text::numbers::{short, significant};
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::settings::Settings;
@@ -102,7 +102,7 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
-                ui.label(glossary::short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
+                ui.label(short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
             }
             ui.end_row();
         }
@@ -216,7 +216,7 @@ fn error_text(estimate: &Estimate) -> String {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(Edge::Lower) => tr!("at lower bound"),
         EstimateStatus::AtBound(Edge::Upper) => tr!("at upper bound"),
-        EstimateStatus::Determined(error) => format!("{} {}", glossary::short(error), estimate.parameter.unit()).trim_end().to_owned(),
+        EstimateStatus::Determined(error) => format!("{} {}", short(error), estimate.parameter.unit()).trim_end().to_owned(),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
         EstimateStatus::Undetermined => tr!("open"),
     }

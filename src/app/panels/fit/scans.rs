@@ -1,11 +1,11 @@
 //! The honest interval of one parameter, and the bootstrap, on demand.
 
-use crate::app::panels::parameters::significant;
 use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
 use crate::app::plots::theme;
 use crate::app::shell::commands::Command;
+use crate::app::text::numbers::significant;
 use crate::app::work::diagnostics::{Diagnostics, ProfileCurve};
 use crate::app::work::fit_history::FitEntry;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};

@@ -5,11 +5,14 @@
 
 mod files;
 mod fit;
+mod measurement;
 mod model;
 mod report;
 mod selftest;
 mod system;
 
+pub use measurement::advised;
+pub use model::quoted;
 pub use report::WindowWording;
 pub use selftest::short_method;
 
