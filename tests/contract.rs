@@ -3,7 +3,7 @@
 //! `INSTA_UPDATE=always cargo test --test contract` rewrites the snapshots. With `PBRDF_EXPLORER` set to the path of
 //! another build, that program answers instead; the snapshots are those of release 0.1.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
-#![cfg(feature = "gui")]
+#![cfg(all(feature = "cli", feature = "gui"))]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
