@@ -8,9 +8,10 @@ use crate::app::text::i18n::{Language, translated};
 use crate::app::text::messages::Localized as _;
 use crate::app::text::numbers::{percent, short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::design::{Plan, Prediction, STEEPEST, Span};
+use crate::app::work::design::{Plan, STEEPEST, Span};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::free_in_plan;
+use crate::app::work::predicted_errors::PredictedErrors;
 use crate::app::work::settings::Settings;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Undetermined, is_poorly_determined};
@@ -34,7 +35,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct PlannerView {
     /// Of the open measurement's angles, and of the planned ones.
-    pub predictions: Memo<Key, [Result<Prediction, String>; 2]>,
+    pub predictions: Memo<Key, [Result<PredictedErrors, String>; 2]>,
 }
 
 /// Width from which errors stand in percent too.
@@ -48,8 +49,9 @@ impl View for PlannerView {
         let free = free_in_plan(settings, document.measurement.has_brdf());
         let Settings { parameters, model, ref plan, .. } = *settings;
         let key = (parameters, model, free, plan.clone(), document.generation, i18n::current());
-        self.predictions
-            .refresh(key, |_| [Prediction::of_measurement(settings, free, &document.measurement), Prediction::of_plan(settings, free)]);
+        self.predictions.refresh(key, |_| {
+            [PredictedErrors::of_measurement(settings, free, &document.measurement), PredictedErrors::of_plan(settings, free)]
+        });
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -235,12 +237,13 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
 fn error_row_ui(
     settings: &Settings,
     parameter: Parameter,
-    [now, planned]: [&Result<Prediction, String>; 2],
+    [now, planned]: [&Result<PredictedErrors, String>; 2],
     with_percent: bool,
     ui: &mut Ui,
 ) {
     let value = settings.parameters[parameter];
-    let error = |prediction: &Result<Prediction, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
+    let error =
+        |prediction: &Result<PredictedErrors, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
     ui.label(parameter.symbol()).on_hover_text(translated(parameter.name()));
     ui.monospace(significant(value));
     for prediction in [now, planned] {
@@ -259,7 +262,7 @@ fn error_row_ui(
 }
 
 /// What stays open, in words.
-fn open_ui(parameters: &Parameters, prediction: &Prediction, angles: &str, ui: &mut Ui) {
+fn open_ui(parameters: &Parameters, prediction: &PredictedErrors, angles: &str, ui: &mut Ui) {
     let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
     let loose =
         loose.filter(|(parameter, error)| is_poorly_determined(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);

@@ -1,14 +1,9 @@
-//! Angles that might be measured, and what they would determine.
+//! Angles that might be measured.
 
-use crate::app::text::messages::Localized as _;
-use crate::app::work::settings::Settings;
-use pbrdf::fit;
-use pbrdf::fit::{NoiseModel, UndeterminedDirection};
-use pbrdf::measurement::{Columns, Measurement};
-use pbrdf::model::{Parameter, ParameterSet};
+use pbrdf::fit::NoiseModel;
+use pbrdf::measurement::Columns;
 use pbrdf::optics::Geometry;
 use serde::{Deserialize, Serialize};
-use tr::tr;
 
 /// Angles from one to another in steps, in degrees; a single one where both ends are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -99,12 +94,12 @@ impl Plan {
         self.columns != Columns::Dolp
     }
 
-    fn noise(&self) -> NoiseModel {
+    pub fn noise(&self) -> NoiseModel {
         let if_measured = |noise, other| (self.columns != other).then_some(noise);
         NoiseModel { dolp: if_measured(self.noise, Columns::Brdf), brdf: if_measured(self.brdf_noise, Columns::Dolp) }
     }
 
-    fn geometries(&self) -> Vec<Geometry> {
+    pub fn geometries(&self) -> Vec<Geometry> {
         let theta_i = || self.theta_i.iter().flat_map(|span| span.angles());
         let theta_r = || self.theta_r.iter().flat_map(|span| span.angles());
         // A negative θr is the other side of the same plane.
@@ -113,83 +108,14 @@ impl Plan {
     }
 }
 
-/// What angles would determine.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Prediction {
-    /// Standard error of each free parameter; none where it would stay open.
-    pub errors: Vec<(Parameter, Option<f64>)>,
-    /// What would stay open, in words.
-    pub open: Vec<UndeterminedDirection>,
-}
-
-impl Prediction {
-    /// Of the planned angles, at the sliders.
-    pub fn of_plan(settings: &Settings, free: ParameterSet) -> Result<Self, String> {
-        let (incidences, views) = settings.plan.counts();
-        if incidences * views > MOST_PLANNED {
-            return Err(tr!("{0} × {1} angles are more than the {2} points that can be planned at once.", incidences, views, MOST_PLANNED));
-        }
-        Self::new(settings, free, settings.plan.geometries())
-    }
-
-    /// Of the angles of the open measurement, as if they were measured with the planned noise and columns.
-    pub fn of_measurement(settings: &Settings, free: ParameterSet, measurement: &Measurement) -> Result<Self, String> {
-        let used = measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
-        if used.clone().count() > MOST_PLANNED {
-            return Err(tr!("The open measurement has more than {} rows.", MOST_PLANNED));
-        }
-        Self::new(settings, free, used.collect())
-    }
-
-    fn new(settings: &Settings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
-        if geometries.is_empty() {
-            return Err(tr!("There is no angle: add one of incidence and one of view."));
-        }
-        let plan = fit::Design { model: settings.model, parameters: settings.parameters, geometries, noise: settings.plan.noise(), free };
-        let fit::DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
-        Ok(Self { errors, open: undetermined })
-    }
-
-    /// Standard error of a parameter.
-    pub fn error_of(&self, parameter: Parameter) -> Option<f64> {
-        self.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error)
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Plan, Prediction, Span};
-    use crate::app::work::settings::Settings;
-    use pbrdf::model::{Parameter, ParameterSet};
+    use super::Span;
 
     #[test]
     fn spans_count_both_ends() {
         assert_eq!(Span::new(20.0, 60.0, 5.0).count(), 9);
         assert_eq!(Span::new(0.0, 0.3, 0.1).angles().count(), 4);
         assert_eq!(Span::new(30.0, 30.0, 5.0).count(), 1);
-    }
-
-    #[test]
-    fn more_angles_and_less_noise_determine_more() {
-        let free = ParameterSet::ALL.without(Parameter::Ks);
-        let n_error = |plan: Plan| {
-            let settings = Settings { plan, ..Settings::default() };
-            Prediction::of_plan(&settings, free).expect("a prediction").error_of(Parameter::N).expect("n is determined")
-        };
-        let dense = n_error(Plan::default());
-        let quiet = n_error(Plan { noise: 0.0025, ..Plan::default() });
-        // Errors are proportional to the noise.
-        assert!((dense / quiet - 2.0).abs() < 1e-9, "{dense} {quiet}");
-        let few = Plan { theta_i: vec![Span::new(30.0, 50.0, 10.0)], theta_r: vec![Span::new(20.0, 60.0, 5.0)], ..Plan::default() };
-        assert!(n_error(few) > 5.0 * dense);
-    }
-
-    #[test]
-    fn a_plan_without_angles_is_a_sentence() {
-        let settings = Settings { plan: Plan { theta_r: Vec::new(), ..Plan::default() }, ..Settings::default() };
-        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("no angle")));
-        let spans = vec![Span::new(0.0, 80.0, 0.1)];
-        let settings = Settings { plan: Plan { theta_i: spans.clone(), theta_r: spans, ..Plan::default() }, ..Settings::default() };
-        assert!(Prediction::of_plan(&settings, ParameterSet::ALL).is_err_and(|sentence| sentence.contains("more than")));
     }
 }

@@ -13,5 +13,6 @@ mod lesson_setup;
 pub mod model_fit;
 pub mod pane_id;
 pub mod parameter_text;
+pub mod predicted_errors;
 pub mod settings;
 pub mod workspace;
