@@ -6,7 +6,7 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use pbrdf::fit::{Axis, Bounds, FitOptions, Landscape, Problem};
+use pbrdf::fit::{Bounds, FitOptions, Landscape, LandscapeAxis, Problem};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Batch, Diffuse, DolpGradients, Hemisphere, Instructions, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances};
 use pbrdf::optics::{Geometry, SlopeDistribution};
@@ -96,7 +96,7 @@ fn landscape_over_two_parameters(bencher: Bencher) {
     let measurement = simulation.run().expect("valid angles");
     let (start, choices) = (Parameters::default(), FitOptions::default());
     let problem = Problem::new(&measurement, surface.model(), start, ParameterSet::ALL, Bounds::default(), choices).expect("a problem");
-    let axis = |parameter, low, high| Axis { parameter, low, high, count: 256, logarithmic: false };
+    let axis = |parameter, low, high| LandscapeAxis { parameter, low, high, count: 256, logarithmic: false };
     let (across, up) = (axis(Parameter::N, 0.5, 6.0), axis(Parameter::K, 0.5, 8.0));
     bencher.bench_local(|| Landscape::new(black_box(&problem), across, up, &|| false));
 }

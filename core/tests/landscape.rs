@@ -1,7 +1,7 @@
 //! The objective over two parameters: the same numbers as the problem's own, for every choice.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{Axis, Bounds, BrdfResiduals, FitOptions, Landscape, Loss, Problem, Weights};
+use pbrdf::fit::{Bounds, BrdfResiduals, FitOptions, Landscape, LandscapeAxis, Loss, Problem, Weights};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::Cauchy;
@@ -39,9 +39,9 @@ fn problem_of(model: Model, measurement: &Measurement, choices: FitOptions) -> P
     Problem::new(measurement, model, TRUTH, free, Bounds::default(), choices).expect("a valid problem")
 }
 
-fn axes() -> (Axis, Axis) {
-    let across = Axis { parameter: Parameter::N, low: 0.5, high: 6.0, count: 23, logarithmic: true };
-    let up = Axis { parameter: Parameter::K, low: 0.0, high: 8.0, count: 17, logarithmic: false };
+fn axes() -> (LandscapeAxis, LandscapeAxis) {
+    let across = LandscapeAxis { parameter: Parameter::N, low: 0.5, high: 6.0, count: 23, logarithmic: true };
+    let up = LandscapeAxis { parameter: Parameter::K, low: 0.0, high: 8.0, count: 17, logarithmic: false };
     (across, up)
 }
 
@@ -121,8 +121,8 @@ fn masked_rows_shape_nothing() {
 #[test]
 fn the_lowest_node_is_the_truth() {
     let problem = problem(&noisy(Columns::Dolp, 0.0), FitOptions::default());
-    let across = Axis { parameter: Parameter::Kd, low: 0.0, high: 0.24, count: 13, logarithmic: false };
-    let up = Axis { parameter: Parameter::Kv, low: 0.0, high: 0.5, count: 11, logarithmic: false };
+    let across = LandscapeAxis { parameter: Parameter::Kd, low: 0.0, high: 0.24, count: 13, logarithmic: false };
+    let up = LandscapeAxis { parameter: Parameter::Kv, low: 0.0, high: 0.5, count: 11, logarithmic: false };
     let landscape = Landscape::new(&problem, across, up, &|| false).expect("not cancelled");
     assert_eq!(landscape.lowest(), Some((6, 5)));
 }
@@ -131,7 +131,7 @@ fn the_lowest_node_is_the_truth() {
 fn nodes_outside_the_domain_have_no_value_and_a_cancelled_landscape_is_none() {
     let problem = problem(&measurement(Columns::Dolp), FitOptions::default());
     let (across, _) = axes();
-    let up = Axis { parameter: Parameter::Sigma, low: -0.5, high: 0.5, count: 3, logarithmic: false };
+    let up = LandscapeAxis { parameter: Parameter::Sigma, low: -0.5, high: 0.5, count: 3, logarithmic: false };
     let landscape = Landscape::new(&problem, across, up, &|| false).expect("not cancelled");
     assert!(landscape.objective[..2 * across.count].iter().all(|objective| objective.is_nan()));
     assert!(landscape.objective[2 * across.count..].iter().all(|objective| objective.is_finite()));

@@ -75,7 +75,7 @@ fn verdicts(results: &[ModelResult]) -> Vec<String> {
     PAIRS.iter().filter_map(verdict).collect()
 }
 
-/// Two tables: how good each model is, and what it says of each parameter, beside the truth of a simulation.
+/// Two tables: goodness of fit of each model, and its parameters beside the true ones of a simulation.
 fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]) -> io::Result<()> {
     writeln!(
         out,

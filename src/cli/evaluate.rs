@@ -80,7 +80,7 @@ fn evaluate(arguments: &EvaluateArguments, surface: &Pbrdf, geometry: Geometry, 
     writeln!(line)
 }
 
-/// All rows; nothing is written before the last one is known to be right.
+/// Reads and checks all rows; output begins after the last one.
 fn read(bytes: &[u8]) -> Result<Vec<(Pbrdf, Geometry)>, ReadError> {
     let table = Table::new(bytes)?;
     let layout = Layout::new(&table)?;

@@ -1,4 +1,4 @@
-//! Why a command has no answer: a sentence for a person and an exit code for a program.
+//! The failure of a command: a sentence and an exit code.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -41,7 +41,7 @@ impl Failure {
 
     /// Prints the sentence.
     pub fn report(self) -> ExitCode {
-        // Nothing can be done about a stderr that is closed.
+        // A closed stderr cannot be reported.
         let _ = writeln!(std::io::stderr(), "{}", self.message);
         ExitCode::from(self.code)
     }

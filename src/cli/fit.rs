@@ -6,7 +6,7 @@ use crate::cli::problem::{problem, starts};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::files::export;
-use crate::report::{English, FITTED_COLUMNS, FitDocument, Source, fit_json, fitted_cells};
+use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, fit_json, fitted_cells};
 use pbrdf::fit::{
     BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, fit, profile,
 };
@@ -70,7 +70,7 @@ fn write_documents(
 ) -> Result<(), Failure> {
     let name =
         arguments.input.file_name().map_or_else(|| arguments.input.display().to_string(), |name| name.to_string_lossy().into_owned());
-    let source = Source { name, sha256: Some(export::sha256(bytes)) };
+    let source = DataSource { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
     let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
     if let Some(path) = &arguments.report {

@@ -1,13 +1,13 @@
-//! Ctrl-C: the first asks for the best so far, the second ends the program at once.
+//! Ctrl-C: the first one asks for the best result so far, the second one ends the program.
 
 use crate::cli::failure::INTERRUPTED;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C asks instead of killing.
+/// Installs the handler of Ctrl-C.
 pub fn watch() {
-    // Without a handler Ctrl-C kills, which is the old behaviour and no reason to stop.
+    // Without the handler Ctrl-C ends the program, which is acceptable.
     let _ = ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INTERRUPTED));

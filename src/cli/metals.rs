@@ -36,7 +36,7 @@ fn unknown(name: &str, all: &[Metal]) -> Failure {
     Failure::usage(format!("{name:?} is not among the tabulated metals; expected one of {}.", keys.join(", ")))
 }
 
-/// A wavelength that no source of a metal speaks of has no answer.
+/// Refuses a wavelength outside the tables of all sources of a metal.
 fn refuse_outside(metal: &Metal, wavelength: f64) -> Result<(), Failure> {
     if metal.sources.iter().any(|source| source.index_at(wavelength).is_ok()) {
         return Ok(());

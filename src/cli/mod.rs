@@ -1,7 +1,7 @@
 //! The command line: the core without a window.
 //!
-//! Exit codes: 0 an answer; 2 bad usage, bad input, no display; 1 output that could not be written; 130 interrupted.
-//! Errors are plain sentences on stderr; progress goes there too.
+//! Exit codes: 0 an answer; 2 bad usage, bad input, no display; 1 output that could not be written;
+//! 130 interrupted. Errors and progress go to stderr.
 
 mod arguments;
 mod compare;

@@ -1,4 +1,4 @@
-//! Where answers and progress go.
+//! Output of answers, notices and progress.
 
 use crate::cli::failure::{Failure, INTERRUPTED};
 use crate::cli::interrupt;
@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Writes a file in one move, or stdout without a path: what was there before stays until the new file is whole.
+/// Writes a file atomically, or stdout without a path.
 pub fn write(path: Option<&Path>, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     match path {
         Some(path) => write_file(path, body).map_err(|error| Failure::output(path.display(), &error)),
@@ -19,7 +19,7 @@ pub fn write(path: Option<&Path>, body: impl FnOnce(&mut dyn Write) -> io::Resul
     }
 }
 
-/// A line on stderr for whoever waits: from 0.2 s on, several times a second on a terminal and every other second elsewhere.
+/// Progress on stderr from 0.2 s on: every 0.2 s on a terminal, every 2 s elsewhere.
 pub struct Progress {
     what: &'static str,
     begun: Instant,
@@ -28,12 +28,12 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Begins to wait for that.
+    /// Starts the clock; `what` names the task.
     pub fn new(what: &'static str) -> Self {
         Self { what, begun: Instant::now(), last: None, is_terminal: io::stderr().is_terminal() }
     }
 
-    /// Says how far it is, if it is time to.
+    /// Prints the progress if the pause is over.
     pub fn tell(&mut self, how_far: impl FnOnce() -> String) {
         let pause = Duration::from_millis(if self.is_terminal { 200 } else { 2000 });
         let waited = self.last.map_or(self.begun.elapsed() >= Duration::from_millis(200), |last| last.elapsed() >= pause);
@@ -44,14 +44,14 @@ impl Progress {
         }
     }
 
-    /// Says how far a task of known length is.
+    /// Prints a fraction from 0 to 1 as percent.
     pub fn tell_fraction(&mut self, done: f64) {
         self.tell(|| format!("{:.0} %", 100.0 * done));
     }
 
     fn print(&self, text: std::fmt::Arguments<'_>) {
         let mut stderr = io::stderr();
-        // Progress that nobody can see is no reason to stop.
+        // A closed stderr is no reason to stop.
         let _ = stderr.write_fmt(text).and_then(|()| stderr.flush());
     }
 }
@@ -77,6 +77,6 @@ pub fn exit_code() -> ExitCode {
 
 /// A line on stderr that is no error.
 pub fn notice(text: impl std::fmt::Display) {
-    // A notice that nobody can see is no reason to stop.
+    // A closed stderr is no reason to stop.
     let _ = writeln!(io::stderr(), "{text}");
 }

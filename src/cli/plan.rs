@@ -1,4 +1,4 @@
-//! `plan`: what a choice of angles would determine, before anything is measured.
+//! `plan`: predicted standard errors for a choice of angles.
 
 use crate::cli::arguments::PlanArguments;
 use crate::cli::failure::Failure;

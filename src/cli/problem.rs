@@ -77,7 +77,7 @@ pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Meas
     }
     for parameter in free {
         if !given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {
-            // A default that the given bounds exclude is nobody's wish.
+            // The user gave bounds but no start; the default start is outside of them.
             start[parameter] = bounds.at(parameter, 0.5);
             output::notice(format_args!("{} starts at {}, in the middle of its bounds.", parameter.key(), start[parameter]));
         }

@@ -1,4 +1,4 @@
-//! `report`: what the program says about itself, as a table, as JSON, and as files in a folder.
+//! `report`: benchmarks as a table, as JSON, and as files in a folder.
 
 use crate::cli::arguments::{ReportArguments, ReportSubject};
 use crate::cli::failure::Failure;
@@ -41,7 +41,7 @@ impl Answer {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
     if let Some(folder) = &arguments.output {
-        // Before minutes of work, not after.
+        // Fails before minutes of work.
         prepare(folder)?;
     }
     let begun = Instant::now();
@@ -72,7 +72,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, Failure> {
     Ok(output::exit_code())
 }
 
-/// Makes the folder, and makes sure that files can be written into it.
+/// Creates the folder and checks that it is writable.
 fn prepare(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder)
         .and_then(|()| tempfile::tempfile_in(folder).map(drop))

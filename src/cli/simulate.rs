@@ -1,4 +1,4 @@
-//! `simulate`: a measurement that says of itself that it is none.
+//! `simulate`: a simulated measurement, marked as such in its metadata.
 
 use crate::cli::arguments::{AngleArguments, SimulateArguments, SurfaceArguments};
 use crate::cli::failure::Failure;
@@ -53,7 +53,7 @@ pub fn surface(surface: &SurfaceArguments, columns: Columns) -> Result<Pbrdf, Fa
     Pbrdf::new(preset.model, parameters).map_err(|error| Failure::usage(format!("{error}.")))
 }
 
-/// The command as it was given, but for where the result went, so that the same command gives the same bytes anywhere.
+/// The command without its output path, so that the same command gives the same bytes in any folder.
 fn command_without_output(arguments: impl Iterator<Item = String>) -> String {
     let mut words = vec!["pbrdf-explorer".to_owned()];
     let mut skip_next = false;

@@ -1,4 +1,4 @@
-//! A fit that is watched from the terminal: clock, Ctrl-C, progress.
+//! The observer of a fit on the terminal: clock, Ctrl-C, progress.
 
 use crate::cli::interrupt;
 use crate::cli::output::Progress;
@@ -6,20 +6,20 @@ use pbrdf::fit::{Observer, TracePoint};
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// What a fit is told and tells.
+/// Clock and progress line of a fit.
 pub struct Watched {
     begun: Instant,
     progress: Mutex<Progress>,
 }
 
-/// Its closures, which a [`Observer`] borrows.
+/// The closures that an [`Observer`] borrows.
 pub struct Closures<'a> {
     clock: Box<dyn Fn() -> f64 + Sync + 'a>,
     progress: Box<dyn Fn(TracePoint) + Sync + 'a>,
 }
 
 impl Watched {
-    /// Begins to watch.
+    /// Starts the clock.
     pub fn new(what: &'static str) -> Self {
         Self { begun: Instant::now(), progress: Mutex::new(Progress::new(what)) }
     }
@@ -38,7 +38,7 @@ impl Watched {
 }
 
 impl Closures<'_> {
-    /// As the core takes them.
+    /// The observer for the core.
     pub fn as_watch(&self) -> Observer<'_> {
         Observer { clock: &*self.clock, cancelled: &interrupt::asked, progress: &*self.progress }
     }

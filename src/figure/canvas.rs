@@ -14,9 +14,9 @@ pub const FAINT: Rgb = Rgb(222, 222, 222);
 pub enum Paint {
     /// Filled, with an opacity from 0 to 1.
     Fill(Rgb, f64),
-    /// Filled without smooth edges: cells that meet leave no gap.
+    /// Filled without anti-aliasing, so that adjacent cells leave no gap.
     Cells(Rgb),
-    /// Drawn as a line of that width, with the lengths of dash and gap.
+    /// Mark as a line of that width, with the lengths of dash and gap.
     Stroke(Rgb, f64, Option<(f64, f64)>),
 }
 
@@ -31,17 +31,17 @@ pub enum Anchor {
     End,
 }
 
-/// What becomes of characters that the font lacks.
+/// Rendering of characters that the fonts lack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Missing {
-    /// The viewer's own fonts draw that text.
+    /// The fonts of the viewer draw the text.
     LeftToViewer,
     /// Empty boxes.
     #[cfg(feature = "figures")]
     Boxes,
 }
 
-/// A page that is being drawn on.
+/// A page under construction.
 pub struct Canvas<'a> {
     pub font: &'a Font,
     missing: Missing,
@@ -161,7 +161,7 @@ pub fn polyline(points: &[(f64, f64)]) -> String {
     data
 }
 
-/// Path data of a rectangle; neighbours that share an edge share its digits too.
+/// Path data of a rectangle. Adjacent rectangles have the same digits at their common edge.
 pub fn rectangle(left: f64, top: f64, width: f64, height: f64) -> String {
     let (x, y) = (short(left), short(top));
     format!("M{x} {y}H{}V{}H{x}Z", short(left + width), short(top + height))

@@ -1,29 +1,29 @@
-//! Where everything of a figure stands: frames, ends of axes, marks, legends, colour bars.
+//! Layout of a figure: frames, ends of axes, ticks, legends, colour bars.
 
 use crate::figure::canvas::POINTS_PER_MM;
 use crate::figure::text::Font;
 use crate::figure::ticks::{Tick, ticks};
-use crate::figure::{Axis, Drawn, Figure, HeatMap, Panel, Scale, Series};
+use crate::figure::{Axis, Figure, HeatMap, Mark, Panel, Scale, Series};
 
 /// Sizes of text in points.
 pub const TITLE: f64 = 10.0;
 pub const LABEL: f64 = 9.0;
 pub const SMALL: f64 = 8.0;
-/// Free room at the edge of the page, in points.
+/// Margin of the page, in points.
 const MARGIN: f64 = 6.0;
-/// Length of a mark.
+/// Length of a tick.
 pub const TICK: f64 = 3.5;
-/// Between a mark and its label, and between neighbours.
+/// Distance between a tick and its label, and between neighbouring elements.
 pub const GAP: f64 = 3.0;
 /// Height of a line of the legend.
 pub const LEGEND_LINE: f64 = 11.5;
 /// Width of the sample in a legend.
 pub const LEGEND_SAMPLE: f64 = 18.0;
-/// Between two entries of a legend.
+/// Distance between two entries of a legend.
 const LEGEND_SPACE: f64 = 12.0;
 /// Width of a colour bar.
 pub const COLOR_BAR: f64 = 9.0;
-/// Most that the labels of a vertical axis take of the width.
+/// Largest share of the width for the labels of a vertical axis.
 const WIDEST_LABELS: f64 = 0.45;
 /// Height of a letter relative to its size, for centring.
 pub const LETTER_HEIGHT: f64 = 0.73;
@@ -61,10 +61,11 @@ impl Ruled {
         Self { low: ends.0, high: ends.1, scale: axis.scale, ticks: ticks(axis, ends, most) }
     }
 
-    /// Where a value lies, 0 at the lower end and 1 at the upper; none where an axis has no place for it.
+    /// Position of a value, 0 at the lower end and 1 at the upper; none for a value outside the
+    /// domain of the scale.
     pub fn fraction(&self, value: f64) -> Option<f64> {
         let fraction = match self.scale {
-            // Halves do not overflow.
+            // Differences of halves do not overflow.
             Scale::Linear => (0.5 * value - 0.5 * self.low) / (0.5 * self.high - 0.5 * self.low),
             Scale::Log => (libm::log10(value) - libm::log10(self.low)) / (libm::log10(self.high) - libm::log10(self.low)),
         };
@@ -84,7 +85,7 @@ pub struct ColorBar {
     pub axis: Ruled,
 }
 
-/// A panel with everything in its place.
+/// A panel with the positions of its elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     pub frame: Frame,
@@ -95,7 +96,7 @@ pub struct Placed {
     pub color_bar: Option<ColorBar>,
 }
 
-/// Lines of the legend, each as wide as there is room.
+/// Breaks the legend into lines no wider than the frame.
 fn legend(panel: &Panel, font: &Font, room: f64) -> Vec<Vec<usize>> {
     let mut lines: Vec<Vec<usize>> = Vec::new();
     let mut used = 0.0;
@@ -127,7 +128,7 @@ pub fn entry_width(series: &Series, font: &Font) -> f64 {
 
 /// The map whose colours a panel explains.
 pub fn heat_map(panel: &Panel) -> Option<&HeatMap> {
-    panel.series.iter().find_map(|series| if let Drawn::HeatMap(map) = &series.drawn { Some(map) } else { None })
+    panel.series.iter().find_map(|series| if let Mark::HeatMap(map) = &series.mark { Some(map) } else { None })
 }
 
 /// A cell of the grid of panels and the margins inside it, all in points.
@@ -142,7 +143,7 @@ struct Cell {
     legend: Vec<Vec<usize>>,
 }
 
-/// So many labels fit into that length, and at least so many are wanted.
+/// Number of labels that fit into a length, with a lower limit.
 fn most(length: f64, each: f64, least: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "2 to 9")]
     let most = (length / each).clamp(least, 9.0) as usize;
@@ -168,7 +169,7 @@ fn cell(panel: &Panel, outer: Frame, font: &Font) -> Cell {
     Cell { outer, above, below, left, right: bar + 12.0, y, color, legend }
 }
 
-/// Puts all panels of a figure in their places.
+/// Places all panels of a figure.
 pub fn place(figure: &Figure, font: &Font) -> Vec<Placed> {
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns);

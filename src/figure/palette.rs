@@ -1,7 +1,8 @@
-//! Colours that colour-blind eyes tell apart: of series, and of maps.
+//! Colours of series and of maps, distinct for colour-blind readers.
 //!
-//! Series: Okabe and Ito's palette (jfly.uni-koeln.de/color), darkened for a white page. Maps: matplotlib's `viridis` and `twilight`
-//! (CC0) and ColorBrewer's `RdBu` (Apache 2.0), by anchors with straight lines between them.
+//! Series: Okabe and Ito's palette (jfly.uni-koeln.de/color), darkened for a white page. Maps:
+//! matplotlib's `viridis` and `twilight` (CC0) and ColorBrewer's `RdBu` (Apache 2.0), interpolated
+//! linearly between anchors.
 
 /// Red, green and blue, 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -42,9 +43,9 @@ pub enum ColorMap {
     /// From dark to light, for values from small to large: viridis.
     #[default]
     Sequential,
-    /// From blue over white to red, for values on both sides of a middle: RdBu, reversed.
+    /// From blue over white to red, for values on both sides of a centre: RdBu, reversed.
     Diverging,
-    /// The same at both ends, for angles: twilight.
+    /// Cyclic, for angles: twilight.
     Cyclic,
 }
 
@@ -103,7 +104,7 @@ const TWILIGHT: [Rgb; 17] = [
 ];
 
 impl ColorMap {
-    /// The colour at a fraction of the way, 0 to 1; beyond the ends the ends' own.
+    /// The colour at a fraction from 0 to 1; values outside are clamped.
     #[must_use]
     pub fn at(self, fraction: f64) -> Rgb {
         let anchors: &[Rgb] = match self {
@@ -140,7 +141,7 @@ mod tests {
         assert_eq!(ColorMap::Sequential.at(f64::NAN), VIRIDIS[0]);
     }
 
-    /// Brightness in a grey copy, as eyes weigh it.
+    /// Luminance, for a grey copy.
     fn luma(Rgb(r, g, b): Rgb) -> f64 {
         0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
     }

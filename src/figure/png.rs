@@ -43,7 +43,11 @@ pub struct Image {
 }
 
 impl Figure {
-    /// The figure as pixels, at so many dots per inch (300 for print).
+    /// The figure as pixels at `dpi` dots per inch (300 for print).
+    ///
+    /// # Errors
+    ///
+    /// [`PngError`] where `dpi` and the size give no image of 1 to 10⁸ pixels, or the renderer fails.
     pub fn image(&self, dpi: f64) -> Result<Image, PngError> {
         let tree = Tree::from_str(&self.drawn(Missing::Boxes), &Options::default())?;
         let wrong = || PngError::Size { width_mm: self.width_mm, height_mm: self.height_mm, dpi };
@@ -62,7 +66,13 @@ impl Figure {
         Ok(Image { width: pixmap.width(), height: pixmap.height(), rgba: pixmap.take() })
     }
 
-    /// The figure as the bytes of a PNG file, at so many dots per inch (300 for print), which the file states.
+    /// The figure as the bytes of a PNG file at `dpi` dots per inch (300 for print), which the file
+    /// states.
+    ///
+    /// # Errors
+    ///
+    /// [`PngError`] where `dpi` and the size give no image of 1 to 10⁸ pixels, or renderer or
+    /// encoder fail.
     pub fn png(&self, dpi: f64) -> Result<Vec<u8>, PngError> {
         let image = self.image(dpi)?;
         let mut bytes = Vec::new();

@@ -1,25 +1,25 @@
-//! Ends of axes: those that were asked for, or such that everything drawn has room.
+//! Ends of axes: the requested ones, or the ends of the data with a margin.
 
-use crate::figure::{Axis, Drawn, HeatMap, Panel, Scale};
+use crate::figure::{Axis, HeatMap, Mark, Panel, Scale};
 
-/// Ends beyond this would overflow.
+/// Largest magnitude of an end: beyond it differences overflow.
 const LARGEST: f64 = 1e300;
-/// Free room at either end of an axis with points, as a fraction of the span.
+/// Margin at either end of an axis with points, as a fraction of the span.
 const AIR: f64 = 0.04;
-/// From this fraction of the upper end on, a lower end above 0 is not drawn down to 0.
+/// An axis begins at 0 if its lower end is below this fraction of the upper one.
 const NEAR_ZERO: f64 = 0.3;
 
 /// Ends of the horizontal axis.
 pub fn x(panel: &Panel) -> (f64, f64) {
     let is_poorly_determined =
-        panel.series.iter().all(|series| matches!(series.drawn, Drawn::Points { .. } | Drawn::Labels(_) | Drawn::Rule { .. }));
-    ends(&panel.x, panel.series.iter().flat_map(|series| xs(&series.drawn)), is_poorly_determined)
+        panel.series.iter().all(|series| matches!(series.mark, Mark::Points { .. } | Mark::Labels(_) | Mark::Rule { .. }));
+    ends(&panel.x, panel.series.iter().flat_map(|series| xs(&series.mark)), is_poorly_determined)
 }
 
 /// Ends of the vertical axis.
 pub fn y(panel: &Panel) -> (f64, f64) {
-    let is_map = panel.series.iter().any(|series| matches!(series.drawn, Drawn::HeatMap(_)));
-    ends(&panel.y, panel.series.iter().flat_map(|series| ys(&series.drawn)), !is_map)
+    let is_map = panel.series.iter().any(|series| matches!(series.mark, Mark::HeatMap(_)));
+    ends(&panel.y, panel.series.iter().flat_map(|series| ys(&series.mark)), !is_map)
 }
 
 /// Ends of a colour bar.
@@ -27,35 +27,35 @@ pub fn color(map: &HeatMap) -> (f64, f64) {
     ends(&map.color_axis, map.values.iter().copied(), false)
 }
 
-fn xs(drawn: &Drawn) -> Vec<f64> {
-    match drawn {
-        Drawn::Line { points, .. } | Drawn::Steps { points } | Drawn::Area { points } => points.iter().map(|[x, _]| *x).collect(),
-        Drawn::Points { points, .. } => points.iter().map(|point| point.x).collect(),
-        Drawn::Band { points } => points.iter().map(|[x, ..]| *x).collect(),
-        Drawn::Bars { points, width } => points.iter().flat_map(|[x, _]| [x - 0.6 * width, x + 0.6 * width]).collect(),
-        Drawn::HeatMap(map) => map.x_edges.clone(),
-        Drawn::Rule { upright: true, at } => vec![*at],
-        Drawn::Rule { .. } => Vec::new(),
-        Drawn::Labels(labels) => labels.iter().map(|([x, _], _)| *x).collect(),
+fn xs(mark: &Mark) -> Vec<f64> {
+    match mark {
+        Mark::Line { points, .. } | Mark::Steps { points } | Mark::Area { points } => points.iter().map(|[x, _]| *x).collect(),
+        Mark::Points { points, .. } => points.iter().map(|point| point.x).collect(),
+        Mark::Band { points } => points.iter().map(|[x, ..]| *x).collect(),
+        Mark::Bars { points, width } => points.iter().flat_map(|[x, _]| [x - 0.6 * width, x + 0.6 * width]).collect(),
+        Mark::HeatMap(map) => map.x_edges.clone(),
+        Mark::Rule { upright: true, at } => vec![*at],
+        Mark::Rule { .. } => Vec::new(),
+        Mark::Labels(labels) => labels.iter().map(|([x, _], _)| *x).collect(),
     }
 }
 
-fn ys(drawn: &Drawn) -> Vec<f64> {
-    match drawn {
-        Drawn::Line { points, .. } | Drawn::Steps { points } | Drawn::Area { points } => points.iter().map(|[_, y]| *y).collect(),
-        Drawn::Points { points, .. } => points
+fn ys(mark: &Mark) -> Vec<f64> {
+    match mark {
+        Mark::Line { points, .. } | Mark::Steps { points } | Mark::Area { points } => points.iter().map(|[_, y]| *y).collect(),
+        Mark::Points { points, .. } => points
             .iter()
             .flat_map(|point| {
                 let (low, high) = point.bar.unwrap_or((point.y, point.y));
                 [point.y, low, high]
             })
             .collect(),
-        Drawn::Band { points } => points.iter().flat_map(|[_, low, high]| [*low, *high]).collect(),
-        Drawn::Bars { points, .. } => points.iter().map(|[_, y]| *y).chain([0.0]).collect(),
-        Drawn::HeatMap(map) => map.y_edges.clone(),
-        Drawn::Rule { upright: false, at } => vec![*at],
-        Drawn::Rule { .. } => Vec::new(),
-        Drawn::Labels(labels) => labels.iter().map(|([_, y], _)| *y).collect(),
+        Mark::Band { points } => points.iter().flat_map(|[_, low, high]| [*low, *high]).collect(),
+        Mark::Bars { points, .. } => points.iter().map(|[_, y]| *y).chain([0.0]).collect(),
+        Mark::HeatMap(map) => map.y_edges.clone(),
+        Mark::Rule { upright: false, at } => vec![*at],
+        Mark::Rule { .. } => Vec::new(),
+        Mark::Labels(labels) => labels.iter().map(|([_, y], _)| *y).collect(),
     }
 }
 
@@ -80,7 +80,7 @@ fn ends(axis: &Axis, values: impl Iterator<Item = f64>, air: bool) -> (f64, f64)
 }
 
 fn linear(low: f64, high: f64, air: bool) -> (f64, f64) {
-    // Marks closer than rounding would not differ.
+    // Ticks closer than rounding have the same label.
     let least = 1e-9 * low.abs().max(high.abs());
     if high - low <= least {
         let half = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };

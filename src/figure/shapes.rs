@@ -1,21 +1,21 @@
-//! Series between the axes: curves cut at the frame, points, bands, bars, maps.
+//! Marks of a panel: curves clipped to the frame, points, bands, bars, maps.
 
 use crate::figure::canvas::{Anchor, Canvas, INK, Paint, circle, polyline, rectangle};
 use crate::figure::layout::{Frame, GAP, LETTER_HEIGHT, Placed, Ruled, SMALL};
-use crate::figure::{Dash, Drawn, HeatMap, Point, Rgb, Series, Symbol};
+use crate::figure::{Dash, HeatMap, Mark, Point, Rgb, Series, Symbol};
 use std::collections::BTreeMap;
 
 /// Radius of a point.
 const RADIUS: f64 = 2.0;
 /// Half the width of the cap of an error bar.
 const CAP: f64 = 2.0;
-/// Two points of a curve nearer than this are one, in points of paper.
+/// Points of a curve closer than this are merged, in points of paper.
 const SAME: f64 = 0.02;
 /// Opacity of a band.
 const BAND: f64 = 0.2;
-/// Opacity of what is behind a label.
+/// Opacity of the background of a label.
 const PLATE: f64 = 0.7;
-/// Levels of colour in a map.
+/// Number of colours of a map.
 const LEVELS: u16 = 255;
 
 /// Dash and gap of a line of that width.
@@ -28,7 +28,7 @@ fn dashes(dash: Dash, width: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// The way from coordinates to points on paper.
+/// Transform from coordinates to points on paper.
 struct Map<'a> {
     frame: Frame,
     x: &'a Ruled,
@@ -49,7 +49,7 @@ impl Map<'_> {
         Some(Self::place(self.frame.top, self.frame.height, 1.0 - self.y.fraction(y)?))
     }
 
-    /// The same, within the frame; none for what is not a number. On a logarithmic axis 0 is below everything.
+    /// The same, clamped to the frame; none for NaN. On a logarithmic axis 0 is at the lower end.
     fn y_within(&self, y: f64) -> Option<f64> {
         let place = if !y.is_nan() && self.y.scale == crate::figure::Scale::Log && y <= 0.0 { self.frame.bottom() } else { self.y(y)? };
         Some(place.clamp(self.frame.top, self.frame.bottom()))
@@ -70,32 +70,32 @@ impl Map<'_> {
 /// Draws a series in that colour.
 pub fn draw(canvas: &mut Canvas<'_>, placed: &Placed, series: &Series, color: Rgb) {
     let map = Map { frame: placed.frame, x: &placed.x, y: &placed.y };
-    match &series.drawn {
-        Drawn::Line { points, width, dash } => {
+    match &series.mark {
+        Mark::Line { points, width, dash } => {
             let data = curve(&map, points.iter().map(|[x, y]| map.point(*x, *y)));
             canvas.path(&data, Paint::Stroke(color, *width, dashes(*dash, *width)));
         }
-        Drawn::Steps { points } => canvas.path(&steps(&map, points), Paint::Stroke(color, 1.2, None)),
-        Drawn::Points { points, symbol } => draw_points(canvas, &map, points, *symbol, color),
-        Drawn::Band { points } => {
+        Mark::Steps { points } => canvas.path(&steps(&map, points), Paint::Stroke(color, 1.2, None)),
+        Mark::Points { points, symbol } => draw_points(canvas, &map, points, *symbol, color),
+        Mark::Band { points } => {
             for piece in points.split(|[x, low, high]| !(x.is_finite() && low.is_finite() && high.is_finite())) {
                 canvas.path(&band(&map, piece), Paint::Fill(color, BAND));
             }
         }
-        Drawn::Area { points } => {
+        Mark::Area { points } => {
             for piece in points.split(|point| !point.iter().all(|coordinate| coordinate.is_finite())) {
                 let outline: Vec<(f64, f64)> = piece.iter().filter_map(|[x, y]| Some((map.x(*x)?, map.y_within(*y)?))).collect();
                 canvas.path(&if outline.len() < 3 { String::new() } else { polyline(&outline) + "Z" }, Paint::Fill(color, BAND));
             }
         }
-        Drawn::Bars { points, width } => canvas.path(&bars(&map, points, *width), Paint::Fill(color, 1.0)),
-        Drawn::HeatMap(values) => draw_heat_map(canvas, &map, values, placed),
-        Drawn::Rule { upright, at } => canvas.path(&rule(&map, *upright, *at), Paint::Stroke(color, 0.9, dashes(Dash::Dashed, 0.9))),
-        Drawn::Labels(labels) => draw_labels(canvas, &map, labels),
+        Mark::Bars { points, width } => canvas.path(&bars(&map, points, *width), Paint::Fill(color, 1.0)),
+        Mark::HeatMap(values) => draw_heat_map(canvas, &map, values, placed),
+        Mark::Rule { upright, at } => canvas.path(&rule(&map, *upright, *at), Paint::Stroke(color, 0.9, dashes(Dash::Dashed, 0.9))),
+        Mark::Labels(labels) => draw_labels(canvas, &map, labels),
     }
 }
 
-/// A curve through points, in pieces where one is missing, cut at the frame.
+/// A curve through points, split at missing ones and clipped to the frame.
 fn curve(map: &Map<'_>, points: impl Iterator<Item = Option<(f64, f64)>>) -> String {
     let mut data = String::new();
     let mut before: Option<(f64, f64)> = None;
@@ -116,7 +116,7 @@ fn curve(map: &Map<'_>, points: impl Iterator<Item = Option<(f64, f64)>>) -> Str
         if point.is_none() {
             data.push_str(&finished(&mut piece));
         }
-        // A step too small to see is not taken, so that it adds to the next.
+        // A point too close to the last one is skipped; its step adds to the next.
         before = match (before, point) {
             (Some(a), Some(b)) if near(a, b) => Some(a),
             _ => point,
@@ -153,7 +153,7 @@ fn cut(frame: &Frame, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64,
         }
     }
     let at = |t: f64| (a.0 + t * dx, a.1 + t * dy);
-    // The ends themselves are kept as they are, so that the next piece joins.
+    // Unclipped ends stay exact, so that the next piece joins.
     let first = if from == 0.0 { a } else { at(from) };
     let last = if to == 1.0 { b } else { at(to) };
     (from <= to).then_some((first, last))
@@ -207,7 +207,7 @@ fn draw_points(canvas: &mut Canvas<'_>, map: &Map<'_>, points: &[Point], symbol:
         let bar = point.bar.and_then(|(low, high)| Some((low, high, map.y_within(low)?, map.y_within(high)?)));
         if let Some((low, high, foot, top)) = bar.filter(|(.., foot, top)| foot != top) {
             error_bars.push_str(&polyline(&[(x, foot), (x, top)]));
-            // A bar that leaves the frame has no cap there.
+            // No cap where the bar is clipped.
             for (end, place) in [(low, foot), (high, top)] {
                 if map.y(end).is_some_and(|exact| exact == place) {
                     error_bars.push_str(&polyline(&[(x - CAP, place), (x + CAP, place)]));
@@ -243,10 +243,10 @@ fn symbol_paint(symbol: Symbol, color: Rgb) -> Paint {
 fn draw_labels(canvas: &mut Canvas<'_>, map: &Map<'_>, labels: &[([f64; 2], String)]) {
     for ([x, y], text) in labels {
         let Some((x, y)) = map.point(*x, *y).filter(|place| map.contains(*place)) else { continue };
-        // To the right of the place, unless the frame ends there.
+        // Right of the point, unless the frame ends there.
         let is_free = x + GAP + canvas.font.width(text, SMALL) <= map.frame.right();
         let (x, anchor) = if is_free { (x + GAP + RADIUS, Anchor::Start) } else { (x - GAP - RADIUS, Anchor::End) };
-        // Readable on a map too.
+        // A background keeps the label readable on a map.
         let width = canvas.font.width(text, SMALL) + 2.0;
         let left = if is_free { x - 1.0 } else { x - width + 1.0 };
         canvas.path(&rectangle(left, y - 0.55 * SMALL, width, 1.1 * SMALL), Paint::Fill(Rgb(255, 255, 255), PLATE));
@@ -254,7 +254,7 @@ fn draw_labels(canvas: &mut Canvas<'_>, map: &Map<'_>, labels: &[([f64; 2], Stri
     }
 }
 
-/// One path per colour: runs of cells of one colour are one rectangle.
+/// One path per colour; runs of cells of one colour are one rectangle.
 fn draw_heat_map(canvas: &mut Canvas<'_>, map: &Map<'_>, heat: &HeatMap, placed: &Placed) {
     let (columns, rows) = (heat.x_edges.len().saturating_sub(1), heat.y_edges.len().saturating_sub(1));
     let Some(bar) = placed.color_bar.as_ref().filter(|_| columns > 0) else { return };
@@ -297,18 +297,18 @@ pub fn draw_color_bar(canvas: &mut Canvas<'_>, frame: &Frame, heat: &HeatMap) {
 pub fn draw_sample(canvas: &mut Canvas<'_>, series: &Series, color: Rgb, (left, middle): (f64, f64), width: f64) {
     let line = polyline(&[(left, middle), (left + width, middle)]);
     let center = left + 0.5 * width;
-    match &series.drawn {
-        Drawn::Line { width, dash, .. } => canvas.path(&line, Paint::Stroke(color, *width, dashes(*dash, *width))),
-        Drawn::Steps { .. } => canvas.path(&line, Paint::Stroke(color, 1.2, None)),
-        Drawn::Rule { .. } => canvas.path(&line, Paint::Stroke(color, 0.9, dashes(Dash::Dashed, 0.9))),
-        Drawn::Points { points, symbol } => {
+    match &series.mark {
+        Mark::Line { width, dash, .. } => canvas.path(&line, Paint::Stroke(color, *width, dashes(*dash, *width))),
+        Mark::Steps { .. } => canvas.path(&line, Paint::Stroke(color, 1.2, None)),
+        Mark::Rule { .. } => canvas.path(&line, Paint::Stroke(color, 0.9, dashes(Dash::Dashed, 0.9))),
+        Mark::Points { points, symbol } => {
             if points.iter().any(|point| point.bar.is_some()) {
                 canvas.path(&polyline(&[(center, middle - 4.0), (center, middle + 4.0)]), Paint::Stroke(color, 0.7, None));
             }
             canvas.path(&symbol_at(*symbol, center, middle), symbol_paint(*symbol, color));
         }
-        Drawn::Band { .. } | Drawn::Area { .. } => canvas.path(&rectangle(left, middle - 3.0, width, 6.0), Paint::Fill(color, BAND)),
-        Drawn::Bars { .. } => canvas.path(&rectangle(left + 4.0, middle - 3.0, width - 8.0, 6.0), Paint::Fill(color, 1.0)),
-        Drawn::HeatMap(_) | Drawn::Labels(_) => {}
+        Mark::Band { .. } | Mark::Area { .. } => canvas.path(&rectangle(left, middle - 3.0, width, 6.0), Paint::Fill(color, BAND)),
+        Mark::Bars { .. } => canvas.path(&rectangle(left + 4.0, middle - 3.0, width - 8.0, 6.0), Paint::Fill(color, 1.0)),
+        Mark::HeatMap(_) | Mark::Labels(_) => {}
     }
 }

@@ -140,7 +140,7 @@ fn draw_legend(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed, colors: 
             }
             let mut kinds = Vec::new();
             for (part, color) in parts {
-                let kind = std::mem::discriminant(&part.drawn);
+                let kind = std::mem::discriminant(&part.mark);
                 if !kinds.contains(&kind) {
                     kinds.push(kind);
                     draw_sample(canvas, part, if is_one { color } else { INK }, (left, middle), LEGEND_SAMPLE);

@@ -1,7 +1,7 @@
-//! Text as outlines: a figure looks the same wherever it is opened, whatever fonts are there.
+//! Text as outlines, independent of the fonts of the viewer.
 //!
-//! The font is a subset of DejaVu Sans, and for Chinese one of Droid Sans Fallback, the same that the window has (`assets/fonts`). Characters
-//! that both lack are left to the viewer's own fonts in an SVG and are empty boxes in a PNG.
+//! The fonts are subsets of DejaVu Sans and, for Chinese, Droid Sans Fallback (`assets/fonts`), which the
+//! window uses too. Characters that both lack are `<text>` elements in an SVG and empty boxes in a PNG.
 
 use std::fmt::Write as _;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
@@ -10,13 +10,13 @@ static FONT: &[u8] = include_bytes!("../../assets/fonts/figure.ttf");
 /// Chinese characters.
 pub static CJK: &[u8] = include_bytes!("../../assets/fonts/cjk.ttf");
 
-/// The fonts as one, ready to measure and to draw.
+/// The fonts, searched in their order.
 pub struct Font {
-    /// Asked in this order. Empty only if the bundled files were damaged: then there is no text.
+    /// Empty only if the bundled files are damaged; then figures have no text.
     faces: Vec<Face<'static>>,
 }
 
-/// Width of a character where there is no font to ask, as a fraction of the size.
+/// Width of a character without a font, as a fraction of the size.
 const GUESSED_WIDTH: f64 = 0.6;
 
 impl Font {
@@ -24,13 +24,13 @@ impl Font {
         Self { faces: [FONT, CJK].into_iter().filter_map(|font| Face::parse(font, 0).ok()).collect() }
     }
 
-    /// The first font that has it; else the empty box of the first.
+    /// The glyph of the first font that has it; else the empty box of the first font.
     fn glyph(&self, letter: char) -> Option<(&Face<'static>, GlyphId)> {
         let found = self.faces.iter().find_map(|face| Some((face, face.glyph_index(letter)?)));
         found.or_else(|| self.faces.first().map(|face| (face, GlyphId(0))))
     }
 
-    /// Whether it has every character.
+    /// Whether the fonts have every character of a text.
     pub fn covers(&self, text: &str) -> bool {
         text.chars().all(|letter| self.faces.iter().any(|face| face.glyph_index(letter).is_some()))
     }
@@ -60,7 +60,7 @@ impl Font {
     }
 }
 
-/// Writes outlines where the pen stands.
+/// Writes outlines at the position of the pen.
 struct Pen {
     data: String,
     x: f64,
@@ -68,7 +68,7 @@ struct Pen {
     scale: f64,
 }
 
-/// A coordinate with two decimals and no idle zeros.
+/// A coordinate with at most two decimals.
 pub fn short(number: f64) -> String {
     let text = format!("{number:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -1,17 +1,17 @@
-//! Where an axis has marks, and what stands beside them.
+//! Ticks of an axis and their labels.
 
 use crate::figure::{Axis, Scale};
 
-/// A mark on an axis.
+/// A tick of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// Where, in the axis' own unit.
+    /// Its value, in the unit of the axis.
     pub at: f64,
-    /// What stands beside it; a minor mark has none.
+    /// Its label; a minor tick has none.
     pub label: Option<String>,
 }
 
-/// Marks between the ends of an axis, with about so many labels at most.
+/// Ticks between the ends of an axis, with at most about `most` labels.
 pub fn ticks(axis: &Axis, (low, high): (f64, f64), most: usize) -> Vec<Tick> {
     if let Some(own) = &axis.ticks {
         let inside = own.iter().filter(|(at, _)| (low..=high).contains(at));
@@ -21,17 +21,17 @@ pub fn ticks(axis: &Axis, (low, high): (f64, f64), most: usize) -> Vec<Tick> {
         Scale::Linear => {
             let step = step_of(axis, high - low, most);
             let marks = linear(low, high, step);
-            // One mark tells no scale.
+            // One tick shows no scale.
             if marks.len() < 2 { linear(low, high, 0.5 * step) } else { marks }
         }
         Scale::Log => log(low, high, most),
     }
 }
 
-/// Steps that divide a circle evenly.
+/// Steps in degrees that divide a circle evenly.
 const DEGREES: [f64; 4] = [15.0, 30.0, 45.0, 90.0];
 
-/// The step between marks: of angles beyond 10° one that divides the circle.
+/// The step between ticks; for angles beyond 10° one that divides the circle.
 fn step_of(axis: &Axis, span: f64, most: usize) -> f64 {
     let step = step(span, most);
     #[expect(clippy::cast_precision_loss, reason = "a handful of marks")]
@@ -39,7 +39,8 @@ fn step_of(axis: &Axis, span: f64, most: usize) -> f64 {
     if axis.unit == "°" && step > 10.0 { DEGREES.into_iter().find(fits).unwrap_or(step) } else { step }
 }
 
-/// The step of 1, 2 or 5 times a power of ten that divides a span into at most so many parts, but into two at least.
+/// The step of 1, 2 or 5 times a power of ten that divides a span into at least two and at most
+/// `most` parts.
 pub fn step(span: f64, most: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a handful of marks")]
     let wanted = span / most.max(2) as f64;
@@ -48,7 +49,7 @@ pub fn step(span: f64, most: usize) -> f64 {
     nice.unwrap_or(10.0 * decade)
 }
 
-/// More marks than this are a step lost in rounding.
+/// More ticks than this mean that the step is lost in rounding.
 const MOST_MARKS: usize = 60;
 
 fn linear(low: f64, high: f64, step: f64) -> Vec<Tick> {
@@ -66,7 +67,8 @@ fn linear(low: f64, high: f64, step: f64) -> Vec<Tick> {
     marks
 }
 
-/// Powers of ten, every so many where there are too many; 1, 2 and 5 times those where there are too few.
+/// Powers of ten; every n-th where there are too many, and 1, 2 and 5 times each where there are
+/// too few.
 fn log(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let (first, last) = (libm::log10(low), libm::log10(high));
     let decades = last - first;
@@ -80,7 +82,7 @@ fn log(low: f64, high: f64, most: usize) -> Vec<Tick> {
     while exponent <= last.floor() {
         let decade = libm::exp10(exponent);
         if decade >= low * (1.0 - 1e-9) && decade <= high * (1.0 + 1e-9) {
-            // Counted from 1, so that labels do not move with the ends.
+            // Counted from 10⁰, so that labels do not move with the ends.
             let is_labelled = (exponent / every).fract() == 0.0;
             marks.push(Tick { at: decade, label: is_labelled.then(|| power_of_ten(exponent)) });
         }
@@ -93,7 +95,7 @@ fn log(low: f64, high: f64, most: usize) -> Vec<Tick> {
     marks
 }
 
-/// Within one decade a logarithmic axis is read like a linear one.
+/// Within one decade a logarithmic axis has the ticks of a linear one.
 fn short_log(low: f64, high: f64, most: usize) -> Vec<Tick> {
     linear(low, high, step(high - low, most)).into_iter().filter(|tick| tick.at > 0.0).collect()
 }
@@ -103,7 +105,7 @@ pub fn power_of_ten(exponent: f64) -> String {
     format!("10{}", superscript(&format!("{}", exponent + 0.0)))
 }
 
-/// Digits and signs raised.
+/// Superscript digits and signs.
 pub fn superscript(text: &str) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let raised = |letter: char| match letter.to_digit(10) {
@@ -114,8 +116,8 @@ pub fn superscript(text: &str) -> String {
     text.chars().map(raised).collect()
 }
 
-/// A number with as many decimals as the step between marks has; where those would be many, with the power of ten of the largest
-/// number on the axis.
+/// A number with the decimals of the step between ticks; where these are many, with the power of ten
+/// of the largest number of the axis.
 pub fn number(value: f64, step: f64, largest: f64) -> String {
     if value == 0.0 || value.abs() < 1e-9 * step {
         return "0".to_owned();
@@ -131,7 +133,7 @@ pub fn number(value: f64, step: f64, largest: f64) -> String {
     }
     let exponent = exponent_of(largest);
     let power = libm::exp10(exponent);
-    // Below the normal numbers there is no power of ten to divide by.
+    // The power of ten of a subnormal number underflows.
     let mantissa = if power > 0.0 { value / power } else { value };
     let text = minus(&format!("{mantissa:.0$}", decimals_of(step / power)));
     match text.as_str() {

@@ -1,8 +1,8 @@
-//! Figures and reports of fits as files: what the name of a file asks for, and writing it.
+//! Figures and reports of fits as files; the ending of a file name decides about the format.
 
 use crate::figure::Figure;
 use crate::files::write_file::write_file;
-use crate::report::Document;
+use crate::report::ReportDocument;
 use pbrdf::selftest::Machine;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -68,7 +68,7 @@ impl EndingError {
     }
 }
 
-/// What a figure's file name asks for.
+/// The format of a figure by the ending of its file name.
 pub fn picture_kind(path: &Path) -> Result<PictureKind, EndingError> {
     match extension(path).as_str() {
         "svg" => Ok(PictureKind::Svg),
@@ -77,7 +77,7 @@ pub fn picture_kind(path: &Path) -> Result<PictureKind, EndingError> {
     }
 }
 
-/// What a report's file name asks for.
+/// The format of a report by the ending of its file name.
 pub fn report_kind(path: &Path) -> Result<ReportKind, EndingError> {
     match extension(path).as_str() {
         "html" | "htm" => Ok(ReportKind::Html),
@@ -86,7 +86,7 @@ pub fn report_kind(path: &Path) -> Result<ReportKind, EndingError> {
     }
 }
 
-/// Refuses a file name that says another kind of file. Only the window asks for a name by its kind.
+/// Refuses a file name with another ending. The command line has no use for it.
 #[cfg(any(feature = "gui", test))]
 pub fn expect_ending(path: &Path, ending: &'static str) -> Result<(), EndingError> {
     if extension(path) == ending { Ok(()) } else { Err(EndingError::new(path, Endings::Only(ending))) }
@@ -101,14 +101,14 @@ pub fn write_picture(path: &Path, kind: PictureKind, figure: &Figure) -> io::Res
     write_file(path, |out| out.write_all(&bytes))
 }
 
-/// The file of a figure that belongs to a Markdown file: `report.md` has `report-dolp.svg` beside it.
+/// The file of a figure of a Markdown file: the figure `dolp` of `report.md` is `report-dolp.svg`.
 fn beside(path: &Path, name: &str) -> PathBuf {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     path.with_file_name(format!("{stem}-{name}.svg"))
 }
 
-/// Writes a report: HTML in one file; Markdown after the SVG files of its figures, which stand beside it.
-pub fn write_report(path: &Path, kind: ReportKind, document: &Document) -> io::Result<()> {
+/// Writes a report: HTML as one file; Markdown with its figures as SVG files in the same folder.
+pub fn write_report(path: &Path, kind: ReportKind, document: &ReportDocument) -> io::Result<()> {
     let text = match kind {
         ReportKind::Html => document.html(),
         ReportKind::Markdown => {

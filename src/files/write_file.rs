@@ -1,11 +1,12 @@
-//! Writing a file so that a crash or a full disk leaves the old one or the new one.
+//! Atomic writing: a crash or a full disk leaves the old file or the new one.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes a file in one move: what was there before stays until the new file is whole, and on any error.
+/// Writes a file atomically: the old file stays until the new one is complete, and on any error.
 pub fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // What a link points to is replaced, not the link; a device, a pipe or a stream of this process can only be written to.
+    // The target of a link is replaced, not the link. A device, a pipe or a stream of this process cannot
+    // be replaced, only written to.
     let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let is_stream = [path, &target].into_iter().any(|path| path.starts_with("/dev") || path.starts_with("/proc"));
     let path = target.as_path();
@@ -18,10 +19,10 @@ pub fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<(
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // As a newly created file has, less the umask; a temporary file alone would be private.
+        // The mode of a new file, less the umask; temporary files are private.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    // The name of a temporary file would only confuse.
+    // The error without the name of the temporary file.
     let file = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     let mut out = io::BufWriter::new(file);
     body(&mut out)?;

@@ -1,17 +1,17 @@
-//! Figures of what the program says about itself.
+//! Figures of the benchmarks.
 
-use crate::figure::{Axis, Dash, Drawn, Figure, Panel, Series};
-use crate::report::wording::Wording;
+use crate::figure::{Axis, Dash, Figure, Mark, Panel, Series};
+use crate::report::language::ReportLanguage;
 use pbrdf::selftest::{BenchmarkMethod, Cell, Cost, ErrorVsTime, GRADIENT_BAR, Report, Stability, TaskKind, VALUE_BAR, digits};
 
 /// A report that has figures.
 pub trait BenchmarkFigures {
     /// The figures in a language, each with the end of the name of its file.
-    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)>;
+    fn figures(&self, words: &dyn ReportLanguage) -> Vec<(&'static str, Figure)>;
 }
 
 impl BenchmarkFigures for Report<ErrorVsTime> {
-    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+    fn figures(&self, words: &dyn ReportLanguage) -> Vec<(&'static str, Figure)> {
         let figures = vec![
             ("evaluate", work_precision(&self.rows, Compared::Evaluations, words)),
             ("fit", along_fits(&self.curves.fits, words)),
@@ -24,18 +24,18 @@ impl BenchmarkFigures for Report<ErrorVsTime> {
 }
 
 impl BenchmarkFigures for Report<Stability> {
-    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+    fn figures(&self, words: &dyn ReportLanguage) -> Vec<(&'static str, Figure)> {
         vec![("digits", digits_held(&self.rows).translate(&|text| words.label(text)))]
     }
 }
 
 impl BenchmarkFigures for Report<Cost> {
-    fn figures(&self, words: &dyn Wording) -> Vec<(&'static str, Figure)> {
+    fn figures(&self, words: &dyn ReportLanguage) -> Vec<(&'static str, Figure)> {
         vec![("time", bars(&self.rows, words).translate(&|text| words.label(text)))]
     }
 }
 
-/// Errors below a tenth of a rounding are drawn there: a logarithmic axis has no 0.
+/// Smallest error drawn, a tenth of a rounding error: a logarithmic axis has no 0.
 const DRAWN_AT_LEAST: f64 = 1e-17;
 
 /// What a work–precision diagram compares.
@@ -46,7 +46,7 @@ enum Compared {
 }
 
 /// Work–precision diagram: from the median to the worst error at the time of each method.
-fn work_precision(rows: &[ErrorVsTime], compared: Compared, words: &dyn Wording) -> Figure {
+fn work_precision(rows: &[ErrorVsTime], compared: Compared, words: &dyn ReportLanguage) -> Figure {
     let belongs = |row: &&ErrorVsTime| match compared {
         Compared::Evaluations => row.task == TaskKind::Evaluate,
         Compared::Models => row.is_model(),
@@ -77,7 +77,7 @@ const OBJECTIVE: (usize, &str) = (1, "objective ΔE");
 const DISTANCE: (usize, &str) = (2, "distance to the truth");
 
 /// Ways of fits in one panel; the times of both panels of a figure are those of all steps.
-fn ways(ways: &[(BenchmarkMethod, Vec<[f64; 3]>)], (place, label): (usize, &str), legend: bool, words: &dyn Wording) -> Panel {
+fn ways(ways: &[(BenchmarkMethod, Vec<[f64; 3]>)], (place, label): (usize, &str), legend: bool, words: &dyn ReportLanguage) -> Panel {
     let series = ways.iter().map(|(method, steps)| {
         let points = steps.iter().map(|step| [step[0], step[place]]).filter(|[ms, y]| *ms > 0.0 && *y > 0.0);
         Series::line(words.method(*method), points.collect())
@@ -94,22 +94,22 @@ fn ways(ways: &[(BenchmarkMethod, Vec<[f64; 3]>)], (place, label): (usize, &str)
 }
 
 /// Objective and distance to the truth along one fit.
-fn along_fits(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn Wording) -> Figure {
+fn along_fits(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn ReportLanguage) -> Figure {
     let panels = vec![ways(curves, OBJECTIVE, true, words), ways(curves, DISTANCE, false, words)];
     let title = "Along one fit: noise-free Gauss data, dense angles, first from the defaults".to_owned();
     Figure { title, panels, height_mm: 200.0, ..Figure::default() }
 }
 
 /// Objective along a fit of each model.
-fn along_the_ladder(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn Wording) -> Figure {
+fn along_the_ladder(curves: &[(BenchmarkMethod, Vec<[f64; 3]>)], words: &dyn ReportLanguage) -> Figure {
     let title = "Along one fit of each model: the same Cauchy data, noise 0.005, from the defaults".to_owned();
     Figure { title, panels: vec![ways(curves, OBJECTIVE, true, words)], height_mm: 120.0, ..Figure::default() }
 }
 
 /// Dolan and Moré's performance profile.
-fn performance_profile(profiles: &[(BenchmarkMethod, Vec<[f64; 2]>)], words: &dyn Wording) -> Figure {
+fn performance_profile(profiles: &[(BenchmarkMethod, Vec<[f64; 2]>)], words: &dyn ReportLanguage) -> Figure {
     let last = profiles.iter().flat_map(|(_, steps)| steps).map(|step| step[0]).fold(1.0, f64::max);
-    // Each goes on to the end at the share it has reached.
+    // Each curve continues to the end at its final share.
     let to_the_end = |steps: &[[f64; 2]]| steps.iter().copied().chain(steps.last().map(|step| [2.0 * last, step[1]])).collect();
     let series = profiles.iter().map(|(method, steps)| Series::steps(words.method(*method), to_the_end(steps))).collect();
     let x = Axis::log("time over that of the fastest method", "");
@@ -122,7 +122,7 @@ fn performance_profile(profiles: &[(BenchmarkMethod, Vec<[f64; 2]>)], words: &dy
 const BAR_POINTS: f64 = 9.0;
 
 /// A bar for each scene, the first on top.
-fn bars(rows: &[Cost], words: &dyn Wording) -> Figure {
+fn bars(rows: &[Cost], words: &dyn ReportLanguage) -> Figure {
     let places = || (0_u32..).map(f64::from).zip(rows.iter().rev());
     let shortest = rows.iter().map(|row| row.time.median_ns).fold(f64::INFINITY, f64::min);
     let longest = rows.iter().map(|row| row.time.median_ns).fold(0.0, f64::max);
@@ -130,7 +130,7 @@ fn bars(rows: &[Cost], words: &dyn Wording) -> Figure {
     let of = |kernel: &str| {
         let bar = |(y, row): (f64, &Cost)| [[from, y], [row.time.median_ns, y], [f64::NAN; 2]];
         let points: Vec<[f64; 2]> = places().filter(|(_, row)| row.kernel == kernel).flat_map(bar).collect();
-        Series { drawn: Drawn::Line { points, width: BAR_POINTS, dash: Dash::Solid }, ..Series::line(kernel, Vec::new()) }
+        Series { mark: Mark::Line { points, width: BAR_POINTS, dash: Dash::Solid }, ..Series::line(kernel, Vec::new()) }
     };
     let numbers = places().map(|(y, row)| ([row.time.median_ns, y], Cell::Number(row.time.median_ns).to_string())).collect();
     let name = |row: &Cost| match (row.kernel, row.threads) {

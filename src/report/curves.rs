@@ -1,4 +1,4 @@
-//! The model along a series: DoLP, its limit, BRDF and the terms of it against θr.
+//! The model along a series: DoLP, Fresnel limit, BRDF and its terms against θr.
 
 use pbrdf::measurement::{IncidenceSeries, exact};
 use pbrdf::model::{Pbrdf, Reflection};
@@ -12,11 +12,12 @@ pub struct CurvePoint {
     pub theta_r: f64,
     /// BRDF, DoLP and terms.
     pub reflection: Reflection,
-    /// DoLP of a lone specular lobe: the Fresnel limit.
+    /// DoLP of the specular lobe alone: the Fresnel limit.
     pub limit: f64,
 }
 
-/// Signed θr of a curve in degrees: every half degree, and ever closer around the mirror direction, where lobes are narrow.
+/// Signed θr of a curve in degrees: every half degree, and denser around the mirror direction, where
+/// lobes are narrow.
 #[must_use]
 pub fn directions(theta_i: f64, backscatter: bool) -> Vec<f64> {
     let first = if backscatter { -179 } else { 0 };
@@ -46,8 +47,13 @@ pub fn curve(surface: &Pbrdf, series: &IncidenceSeries, backscatter: bool) -> Ve
 
 /// Writes the model along some series as CSV, 17 significant digits a number.
 ///
-/// Columns: `theta_i`, `theta_r`, `dphi` in degrees as in a measurement, so that the file can be read as one; `signed_theta_r`, negative on
-/// the backscatter side; `dolp`, `fresnel_limit`; `brdf`, `specular`, `diffuse`, `volume` in 1/sr.
+/// Columns: `theta_i`, `theta_r`, `dphi` in degrees as in a measurement, so that the file can be read as
+/// one; `signed_theta_r`, negative on the backscatter side; `dolp`, `fresnel_limit`; `brdf`, `specular`,
+/// `diffuse`, `volume` in 1/sr.
+///
+/// # Errors
+///
+/// Those of `out`.
 pub fn write_curves(surface: &Pbrdf, series: &[IncidenceSeries], backscatter: bool, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "theta_i,theta_r,dphi,signed_theta_r,dolp,fresnel_limit,brdf,specular,diffuse,volume")?;
     for group in series {

@@ -1,11 +1,12 @@
-//! A document of headings, paragraphs, tables and figures, written as one self-contained HTML file or as Markdown.
+//! A document of headings, paragraphs, tables and figures, as one self-contained HTML file or as
+//! Markdown.
 
 use crate::figure::{Figure, escape};
 use std::fmt::Write as _;
 
 /// A part of a document.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Block {
+pub enum DocumentPart {
     /// A heading under the title.
     Heading(String),
     /// A paragraph.
@@ -19,7 +20,7 @@ pub enum Block {
         /// What stands in them.
         rows: Vec<Vec<String>>,
     },
-    /// What stands in the data's own file, key and value: in no language of ours.
+    /// Metadata of the data file, key and value; never translated.
     Quoted(Vec<(String, String)>),
     /// A figure with words under it.
     Picture {
@@ -34,13 +35,13 @@ pub enum Block {
 
 /// A title and what stands under it. All of it is plain text, whatever characters there are.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Document {
+pub struct ReportDocument {
     /// Its title.
     pub title: String,
     /// Code of its language where that is not English.
     pub language: Option<&'static str>,
     /// Its parts.
-    pub blocks: Vec<Block>,
+    pub parts: Vec<DocumentPart>,
 }
 
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a;background:#fff}\
@@ -49,8 +50,8 @@ table{border-collapse:collapse;margin:1rem 0;font-variant-numeric:tabular-nums}\
 th,td{padding:.2rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top;overflow-wrap:anywhere}\
 thead th{border-bottom:2px solid #888}figure{margin:1.5rem 0}figcaption{color:#444;font-size:.9rem}svg{max-width:100%;height:auto}";
 
-impl Document {
-    /// As one HTML file that needs nothing else: figures are in it as SVG, and it loads and runs nothing.
+impl ReportDocument {
+    /// As one HTML file. Figures are embedded as SVG; the file loads and runs nothing.
     #[must_use]
     pub fn html(&self) -> String {
         let title = escape(&self.title);
@@ -61,18 +62,18 @@ impl Document {
              <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
              <h1>{title}</h1>\n"
         );
-        for block in &self.blocks {
+        for part in &self.parts {
             // Writing to a string does not fail.
-            let _ = match block {
-                Block::Heading(text) => writeln!(out, "<h2>{}</h2>", escape(text)),
-                Block::Paragraph(text) => writeln!(out, "<p>{}</p>", escape(text)),
-                Block::List(items) => {
+            let _ = match part {
+                DocumentPart::Heading(text) => writeln!(out, "<h2>{}</h2>", escape(text)),
+                DocumentPart::Paragraph(text) => writeln!(out, "<p>{}</p>", escape(text)),
+                DocumentPart::List(items) => {
                     let items: String = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
                     writeln!(out, "<ul>\n{items}</ul>")
                 }
-                Block::Table { head, rows } => writeln!(out, "{}", html_table(head, rows)),
-                Block::Quoted(pairs) => writeln!(out, "{}", html_table(&[], &rows_of(pairs))),
-                Block::Picture { caption, figure, .. } => {
+                DocumentPart::Table { head, rows } => writeln!(out, "{}", html_table(head, rows)),
+                DocumentPart::Quoted(pairs) => writeln!(out, "{}", html_table(&[], &rows_of(pairs))),
+                DocumentPart::Picture { caption, figure, .. } => {
                     writeln!(out, "<figure>\n{}<figcaption>{}</figcaption>\n</figure>", figure.svg(), escape(caption))
                 }
             };
@@ -81,23 +82,24 @@ impl Document {
         out
     }
 
-    /// As Markdown, with the figures as files beside it: `file_of` gives the path that stands in the text for the figure of that name.
+    /// As Markdown with the figures as files: `file_of` gives the path of the figure of that name, as the
+    /// text links it.
     #[must_use]
     pub fn markdown(&self, file_of: impl Fn(&str) -> String) -> String {
         let mut out = format!("# {}\n", plain(&self.title));
-        for block in &self.blocks {
+        for part in &self.parts {
             out.push('\n');
             // Writing to a string does not fail.
-            let _ = match block {
-                Block::Heading(text) => writeln!(out, "## {}", plain(text)),
-                Block::Paragraph(text) => writeln!(out, "{}", plain_line(text)),
-                Block::List(items) => {
+            let _ = match part {
+                DocumentPart::Heading(text) => writeln!(out, "## {}", plain(text)),
+                DocumentPart::Paragraph(text) => writeln!(out, "{}", plain_line(text)),
+                DocumentPart::List(items) => {
                     let items: String = items.iter().map(|item| format!("- {}\n", plain_line(item))).collect();
                     write!(out, "{items}")
                 }
-                Block::Table { head, rows } => write!(out, "{}", markdown_table(head, rows)),
-                Block::Quoted(pairs) => write!(out, "{}", markdown_table(&[], &rows_of(pairs))),
-                Block::Picture { name, caption, .. } => {
+                DocumentPart::Table { head, rows } => write!(out, "{}", markdown_table(head, rows)),
+                DocumentPart::Quoted(pairs) => write!(out, "{}", markdown_table(&[], &rows_of(pairs))),
+                DocumentPart::Picture { name, caption, .. } => {
                     writeln!(out, "![{}](<{}>)\n\n*{}*", plain(caption), address(&file_of(name)), plain(caption))
                 }
             };
@@ -107,8 +109,8 @@ impl Document {
 
     /// The figures with their names.
     pub fn figures(&self) -> impl Iterator<Item = (&'static str, &Figure)> {
-        self.blocks.iter().filter_map(|block| match block {
-            Block::Picture { name, figure, .. } => Some((*name, &**figure)),
+        self.parts.iter().filter_map(|part| match part {
+            DocumentPart::Picture { name, figure, .. } => Some((*name, &**figure)),
             _ => None,
         })
     }
@@ -189,22 +191,22 @@ fn address(path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Block, Document, plain, plain_line};
+    use super::{DocumentPart, ReportDocument, plain, plain_line};
     use crate::figure::Figure;
 
     const HOSTILE: &str = "<script>alert(1)</script> & \"x\" | *b* _i_ `c` [l](javascript:1) \u{0}\n# h";
 
-    fn document() -> Document {
+    fn document() -> ReportDocument {
         let text = || HOSTILE.to_owned();
-        Document {
+        ReportDocument {
             title: text(),
             language: None,
-            blocks: vec![
-                Block::Heading(text()),
-                Block::Paragraph(text()),
-                Block::List(vec![text()]),
-                Block::Table { head: vec![text()], rows: vec![vec![text()], Vec::new()] },
-                Block::Picture { name: "dolp", caption: text(), figure: Box::new(Figure { title: text(), ..Figure::default() }) },
+            parts: vec![
+                DocumentPart::Heading(text()),
+                DocumentPart::Paragraph(text()),
+                DocumentPart::List(vec![text()]),
+                DocumentPart::Table { head: vec![text()], rows: vec![vec![text()], Vec::new()] },
+                DocumentPart::Picture { name: "dolp", caption: text(), figure: Box::new(Figure { title: text(), ..Figure::default() }) },
             ],
         }
     }

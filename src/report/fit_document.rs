@@ -1,9 +1,10 @@
-//! A fit as a document for people: data and where they come from, model, choices, parameters, what is open, figures.
+//! A fit as a document: data and their source, model, options, parameters, undetermined directions,
+//! figures.
 
 use crate::figure::{Figure, Panel};
-use crate::report::document::{Block, Document};
+use crate::report::document::{DocumentPart, ReportDocument};
 use crate::report::fit_figures::FitFigures;
-use crate::report::wording::Wording;
+use crate::report::language::ReportLanguage;
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
@@ -12,30 +13,30 @@ use pbrdf::rounding::{significant, trimmed, with_error};
 
 /// Where measured data come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Source {
+pub struct DataSource {
     /// Name of the file.
     pub name: String,
     /// SHA-256 of its bytes in hexadecimal digits.
     pub sha256: Option<String>,
 }
 
-/// A fit with all that a reader of its report asks for.
+/// A fit with everything that its report states.
 #[derive(Clone, Copy)]
 pub struct FitDocument<'a> {
     /// The data.
     pub measurement: &'a Measurement,
     /// Where they come from.
-    pub source: &'a Source,
+    pub source: &'a DataSource,
     /// What was minimised.
     pub problem: &'a Problem,
     /// What came out.
     pub report: &'a FitResult,
     /// The program and its version.
     pub program: &'a str,
-    /// Day and time of the report, as ISO 8601; empty where nobody knows.
+    /// Date and time of the report, as ISO 8601; empty if unknown.
     pub date: &'a str,
     /// Its language.
-    pub words: &'a dyn Wording,
+    pub words: &'a dyn ReportLanguage,
 }
 
 impl FitDocument<'_> {
@@ -44,17 +45,17 @@ impl FitDocument<'_> {
         self.words.text(english)
     }
 
-    fn heading(&self, english: &str) -> Block {
-        Block::Heading(self.text(english))
+    fn heading(&self, english: &str) -> DocumentPart {
+        DocumentPart::Heading(self.text(english))
     }
 
-    fn paragraph(&self, english: &str) -> Block {
-        Block::Paragraph(self.text(english))
+    fn paragraph(&self, english: &str) -> DocumentPart {
+        DocumentPart::Paragraph(self.text(english))
     }
 
     /// Rows of a table with two columns, each with a name.
-    fn pairs(&self, rows: Vec<(&str, String)>) -> Block {
-        Block::Table { head: Vec::new(), rows: rows.into_iter().map(|(key, value)| vec![self.text(key), value]).collect() }
+    fn pairs(&self, rows: Vec<(&str, String)>) -> DocumentPart {
+        DocumentPart::Table { head: Vec::new(), rows: rows.into_iter().map(|(key, value)| vec![self.text(key), value]).collect() }
     }
 
     /// The head of a table.
@@ -67,29 +68,30 @@ impl FitDocument<'_> {
     }
 
     /// A figure with a caption.
-    fn picture(&self, name: &'static str, caption: String, figure: &Figure) -> Block {
-        Block::Picture { name, caption, figure: Box::new(figure.translate(&|text| self.words.label(text))) }
+    fn picture(&self, name: &'static str, caption: String, figure: &Figure) -> DocumentPart {
+        DocumentPart::Picture { name, caption, figure: Box::new(figure.translate(&|text| self.words.label(text))) }
     }
 
     /// The whole document.
     #[must_use]
-    pub fn document(&self) -> Document {
-        let mut blocks = vec![Block::Paragraph(self.summary())];
-        blocks.extend(self.figures());
-        blocks.extend(self.parameters());
-        blocks.extend(self.open());
-        blocks.extend(self.correlations());
-        blocks.extend(self.goodness());
-        blocks.extend(self.data());
-        blocks.extend(self.model());
-        blocks.extend(self.audit());
-        blocks.push(self.heading("Program"));
+    pub fn document(&self) -> ReportDocument {
+        let mut parts = vec![DocumentPart::Paragraph(self.summary())];
+        parts.extend(self.figures());
+        parts.extend(self.parameters());
+        parts.extend(self.open());
+        parts.extend(self.correlations());
+        parts.extend(self.goodness());
+        parts.extend(self.data());
+        parts.extend(self.model());
+        parts.extend(self.audit());
+        parts.push(self.heading("Program"));
         let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
-        blocks.push(Block::Paragraph(format!("{}{date}.", self.program)));
-        Document { title: self.words.fill("Fit of {0}", &[&self.source.name]), language: self.words.language(), blocks }
+        parts.push(DocumentPart::Paragraph(format!("{}{date}.", self.program)));
+        ReportDocument { title: self.words.fill("Fit of {0}", &[&self.source.name]), language: self.words.language(), parts }
     }
 
-    /// One figure of data, fit and residuals: DoLP and, where it was measured and is predicted, the BRDF below it.
+    /// One figure of data, fit and residuals: DoLP and, where it is measured and predicted, the BRDF
+    /// below it.
     #[must_use]
     pub fn figure(&self) -> Option<Figure> {
         let surface = Pbrdf::new(self.report.model, self.report.parameters).ok()?;
@@ -115,7 +117,7 @@ impl FitDocument<'_> {
 
     fn summary(&self) -> String {
         let FitResult { stop_reason, objective, start_objective, course, .. } = self.report;
-        // A fit out of an old session does not know what it took.
+        // Sessions of old versions do not hold the number of evaluations.
         let (rows, reason) = (self.measurement.rows.len(), self.words.stop_reason(*stop_reason));
         let (before, after) = (self.number(*start_objective), self.number(*objective));
         if course.minima.is_empty() {
@@ -126,17 +128,17 @@ impl FitDocument<'_> {
         self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after, &course.evaluations, &format!("{:.0}", course.elapsed_ms)])
     }
 
-    fn figures(&self) -> Vec<Block> {
+    fn figures(&self) -> Vec<DocumentPart> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
         let series = IncidenceSeries::of(&self.measurement.rows);
         let figures = FitFigures::new(&surface, &series);
-        let mut blocks = vec![self.heading("Figures")];
+        let mut parts = vec![self.heading("Figures")];
         if let Some(figure) = figures.dolp("") {
             let caption = self.text(
                 "DoLP against the angle of view: points measured, curves fitted, dashed the Fresnel limit that no diffuse or volume term \
                  can exceed; below, model less measured.",
             );
-            blocks.push(self.picture("dolp", caption, &figure));
+            parts.push(self.picture("dolp", caption, &figure));
         }
         let predicts_brdf = !self.choices().dolp_only;
         if let Some(figure) = figures.brdf("").filter(|_| predicts_brdf) {
@@ -147,12 +149,12 @@ impl FitDocument<'_> {
                 }
                 _ => self.text("BRDF against the angle of view: points measured, curves fitted."),
             };
-            blocks.push(self.picture("brdf", caption, &figure));
+            parts.push(self.picture("brdf", caption, &figure));
         }
-        blocks
+        parts
     }
 
-    fn parameters(&self) -> Vec<Block> {
+    fn parameters(&self) -> Vec<DocumentPart> {
         let head = self.head(["", "parameter", "value", "standard error", "start", "bounds", "unit"]);
         let row = |estimate: &Estimate| {
             let Estimate { parameter, start, value, free, .. } = *estimate;
@@ -171,7 +173,7 @@ impl FitDocument<'_> {
             let start = trimmed(start, 6);
             vec![parameter.symbol().to_owned(), self.text(parameter.name()), value, error, start, bounds, parameter.unit().to_owned()]
         };
-        let table = Block::Table { head, rows: self.report.estimates.iter().map(row).collect() };
+        let table = DocumentPart::Table { head, rows: self.report.estimates.iter().map(row).collect() };
         let errors = match self.choices().weights {
             Weights::Sigma => "Standard errors are those of the stated standard deviations, one each, linearised at the solution.",
             Weights::None => {
@@ -179,36 +181,36 @@ impl FitDocument<'_> {
                  they say nothing about a wrong model."
             }
         };
-        let mut blocks = vec![self.heading("Parameters"), table, self.paragraph(errors)];
+        let mut parts = vec![self.heading("Parameters"), table, self.paragraph(errors)];
         if self.report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
-            blocks.push(self.paragraph("A parameter at a bound has no standard error, and those of the others hold with it kept there."));
+            parts.push(self.paragraph("A parameter at a bound has no standard error, and those of the others hold with it kept there."));
         }
-        blocks
+        parts
     }
 
-    fn open(&self) -> Vec<Block> {
+    fn open(&self) -> Vec<DocumentPart> {
         let open = self.report.describe_undetermined();
-        let mut blocks = vec![self.heading("What the data leave open")];
+        let mut parts = vec![self.heading("What the data leave open")];
         if open.is_empty() {
             let text = if self.report.correlations.parameters.is_empty() {
                 "No parameter was free."
             } else {
                 "Nothing: every free parameter is determined."
             };
-            blocks.push(self.paragraph(text));
+            parts.push(self.paragraph(text));
         } else {
-            blocks.push(Block::List(open.iter().map(|what| self.words.undetermined(what)).collect()));
+            parts.push(DocumentPart::List(open.iter().map(|what| self.words.undetermined(what)).collect()));
         }
         if !self.report.undetermined.is_empty() {
-            blocks.push(self.paragraph(
+            parts.push(self.paragraph(
                 "Along an open direction the parameters may change together without changing what was measured: their values above are \
                  one choice among many and have no standard error.",
             ));
         }
-        blocks
+        parts
     }
 
-    fn correlations(&self) -> Vec<Block> {
+    fn correlations(&self) -> Vec<DocumentPart> {
         let names: Vec<String> = self.report.correlations.parameters.iter().map(|parameter| parameter.symbol().to_owned()).collect();
         if names.len() < 2 {
             return Vec::new();
@@ -220,10 +222,10 @@ impl FitDocument<'_> {
             [name.clone()].into_iter().chain(cells).collect()
         };
         let rows = names.iter().enumerate().map(row).collect();
-        vec![self.heading("Correlations of the determined parameters"), Block::Table { head, rows }]
+        vec![self.heading("Correlations of the determined parameters"), DocumentPart::Table { head, rows }]
     }
 
-    fn goodness(&self) -> Vec<Block> {
+    fn goodness(&self) -> Vec<DocumentPart> {
         let report = self.report;
         let mut rows = vec![
             ("ΔE, Eq. (18)", self.number(report.objective)),
@@ -236,21 +238,21 @@ impl FitDocument<'_> {
             rows.push(("χ² per degree of freedom", self.number((report.statistics.dof > 0).then(|| chi2 / report.statistics.dof as f64))));
         }
         rows.push(("AICc", self.number(report.statistics.aicc)));
-        let mut blocks = vec![self.heading("Goodness of fit"), self.pairs(rows)];
+        let mut parts = vec![self.heading("Goodness of fit"), self.pairs(rows)];
         if report.course.minima.len() > 1 {
             let row = |minimum: &pbrdf::fit::Minimum| {
                 vec![significant(minimum.objective, 6), minimum.hits.to_string(), self.words.stop_reason(minimum.stop_reason)]
             };
-            blocks.push(self.paragraph("Where the starts ended, the best first:"));
-            blocks.push(Block::Table {
+            parts.push(self.paragraph("Where the starts ended, the best first:"));
+            parts.push(DocumentPart::Table {
                 head: self.head(["ΔE", "starts", "why there"]),
                 rows: report.course.minima.iter().map(row).collect(),
             });
         }
-        blocks
+        parts
     }
 
-    fn data(&self) -> Vec<Block> {
+    fn data(&self) -> Vec<DocumentPart> {
         let measurement = self.measurement;
         let masked = measurement.rows.len() - self.used();
         let mut rows = vec![("file", self.source.name.clone())];
@@ -267,14 +269,14 @@ impl FitDocument<'_> {
         rows.push(("measured", self.words.list(&measured.into_iter().flatten().collect::<Vec<_>>())));
         let angles: Vec<String> = measurement.incidence_angles().iter().take(20).map(|angle| format!("{angle}°")).collect();
         rows.push(("angles of incidence", angles.join(", ")));
-        let mut blocks = vec![self.heading("Data"), self.pairs(rows)];
+        let mut parts = vec![self.heading("Data"), self.pairs(rows)];
         if !measurement.metadata.is_empty() {
-            blocks.push(Block::Quoted(measurement.metadata.clone()));
+            parts.push(DocumentPart::Quoted(measurement.metadata.clone()));
         }
-        blocks
+        parts
     }
 
-    fn model(&self) -> Vec<Block> {
+    fn model(&self) -> Vec<DocumentPart> {
         let model = self.report.model;
         let preset = Preset::of(model);
         let mut rows = vec![
@@ -286,8 +288,8 @@ impl FitDocument<'_> {
         vec![self.heading("Model and choices"), self.pairs(rows)]
     }
 
-    /// What the physics says of the fitted surface.
-    fn audit(&self) -> Vec<Block> {
+    /// Physical checks of the fitted surface.
+    fn audit(&self) -> Vec<DocumentPart> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
         let row = |finding: &Finding| {
             let Finding { check, value, bar, pass, at } = *finding;
@@ -298,7 +300,7 @@ impl FitDocument<'_> {
             vec![name, significant(value, 4), significant(bar, 2), verdict, place, why]
         };
         let head = self.head(["check", "number", "limit", "verdict", "direction", "why"]);
-        vec![self.heading("Audit"), Block::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
+        vec![self.heading("Audit"), DocumentPart::Table { head, rows: Audit::new(&surface).findings.iter().map(row).collect() }]
     }
 
     fn choice_rows(&self) -> Vec<(&'static str, String)> {

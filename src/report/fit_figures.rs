@@ -6,15 +6,16 @@ use pbrdf::measurement::{DataPoint, IncidenceSeries};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 
-/// Series that are drawn at most: more cannot be told apart.
+/// Largest number of series: more cannot be told apart.
 const MOST_SERIES: usize = SERIES.len();
-/// Points of one series and quantity that are drawn at most.
+/// Largest number of points of one series and quantity.
 const MOST_POINTS: usize = 2000;
-/// Up to this θr, in degrees, curves take part in choosing the axes: a Minnaert lobe has no bound at the horizon.
+/// Largest θr in degrees at which curves count for the range of an axis: a Minnaert lobe diverges at
+/// the horizon.
 const SETS_AXES: f64 = 80.0;
-/// Decades below its top that a logarithmic axis shows at most.
+/// Largest number of decades of a logarithmic axis.
 const DECADES: f64 = 8.0;
-/// A ratio of largest to smallest measured BRDF from which its axis is logarithmic.
+/// Ratio of largest to smallest measured BRDF above which its axis is logarithmic.
 const SPANS_DECADES: f64 = 1e3;
 /// Masked points.
 const MUTED: Rgb = Rgb(150, 150, 150);
@@ -52,7 +53,7 @@ impl<'a> FitFigures<'a> {
         self.series.iter().zip(&self.curves).zip(SERIES).map(|((group, curve), color)| (group, curve.as_slice(), color))
     }
 
-    /// DoLP against θr with the Fresnel limit, and below it what the model misses; none without a measured DoLP.
+    /// DoLP against θr with the Fresnel limit, and the residuals below; none without a measured DoLP.
     #[must_use]
     pub fn dolp(&self, title: &str) -> Option<Figure> {
         let marks: Marks = |group| &group.dolp;
@@ -91,7 +92,7 @@ impl<'a> FitFigures<'a> {
         used.filter_map(residual).collect()
     }
 
-    /// BRDF against θr: measured and fitted where it was measured, or the lobes along the first series with their terms.
+    /// BRDF against θr: measured and fitted where it is measured, else the lobes along the first series.
     #[must_use]
     pub fn brdf(&self, title: &str) -> Option<Figure> {
         let values = || self.series.iter().flat_map(|group| &group.brdf).map(|mark| mark.quantity.value).filter(|&value| value > 0.0);

@@ -1,4 +1,4 @@
-//! A fit as JSON: the keys that other programs rely on. Numbers that do not exist or are not finite are null.
+//! A fit as JSON. Numbers that do not exist or are not finite are null.
 
 use pbrdf::fit::FitResult;
 use pbrdf::model::Preset;

@@ -6,14 +6,14 @@ mod document;
 mod fit_document;
 mod fit_figures;
 mod fit_json;
+mod language;
 mod residual_table;
-mod wording;
 
 pub use benchmark_figures::BenchmarkFigures;
 pub use curves::{CurvePoint, curve, directions, write_curves};
-pub use document::{Block, Document};
-pub use fit_document::{FitDocument, Source};
+pub use document::{DocumentPart, ReportDocument};
+pub use fit_document::{DataSource, FitDocument};
 pub use fit_figures::FitFigures;
 pub use fit_json::fit_json;
+pub use language::{English, ReportLanguage};
 pub use residual_table::{FITTED_COLUMNS, fitted_cells, write_fitted};
-pub use wording::{English, Wording};

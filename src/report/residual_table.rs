@@ -8,8 +8,8 @@ use std::io::{self, Write};
 /// Names of the columns that a fit adds to a measurement.
 pub const FITTED_COLUMNS: [&str; 4] = ["dolp_model", "dolp_residual", "brdf_model", "brdf_residual"];
 
-/// Model and residual (model less measured) of both quantities for each row; a quantity that was not measured, or that a model of DoLP
-/// alone does not predict, leaves its cells empty.
+/// Model and residual (model less measured) of both quantities for each row; a quantity that was not
+/// measured, or that a model of DoLP alone does not predict, has empty cells.
 #[must_use]
 pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool) -> Vec<Vec<String>> {
     let pair = |model: f64, measured: Option<f64>| [exact(model), measured.map_or_else(String::new, |measured| exact(model - measured))];
@@ -23,6 +23,10 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool)
 }
 
 /// Writes a measurement with the fitted columns beside it.
+///
+/// # Errors
+///
+/// Those of `out`.
 pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool, out: impl Write) -> io::Result<()> {
     let mut table = Vec::new();
     measurement.write(&mut table)?;

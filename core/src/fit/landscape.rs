@@ -9,7 +9,7 @@ use crate::model::{Batch, Parameter, Parameters, Pbrdf, Radiances};
 
 /// One side of a landscape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
+pub struct LandscapeAxis {
     /// What changes along it.
     pub parameter: Parameter,
     /// The first value.
@@ -22,7 +22,7 @@ pub struct Axis {
     pub logarithmic: bool,
 }
 
-impl Axis {
+impl LandscapeAxis {
     /// The values along it, both ends included.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
@@ -49,9 +49,9 @@ impl Axis {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landscape {
     /// Along a row.
-    pub across: Axis,
+    pub across: LandscapeAxis,
     /// From row to row.
-    pub up: Axis,
+    pub up: LandscapeAxis,
     /// The objective, row by row; NaN where the parameters are no surface or nothing is measured.
     pub objective: Vec<f64>,
 }
@@ -59,17 +59,17 @@ pub struct Landscape {
 impl Landscape {
     /// ΔE of a problem around its start; none if it is cancelled. The rows are shared among threads.
     #[must_use]
-    pub fn new(problem: &Problem, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub fn new(problem: &Problem, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         Self::of(&Field::new(problem, Height::DeltaE), across, up, cancelled)
     }
 
     /// The same of what the problem minimises, [`Problem::sum_of_squares`].
     #[must_use]
-    pub fn minimised(problem: &Problem, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub fn minimised(problem: &Problem, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         Self::of(&Field::new(problem, Height::Minimised), across, up, cancelled)
     }
 
-    fn of(field: &Field<'_>, across: Axis, up: Axis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    fn of(field: &Field<'_>, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let columns = across.values();
         let row = |value: f64| {
             if cancelled() {

@@ -62,7 +62,7 @@ pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
 pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
 pub use intervals::profile::{Profile, ProfilePoint, profile};
-pub use landscape::{Axis, Landscape};
+pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
 pub(crate) use local::sin_squared::SinSquared;
 pub use local::solution::{LocalFit, Solution};

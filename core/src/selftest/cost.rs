@@ -3,7 +3,7 @@
 //! Every row evaluates prepared points under one surface and is compared with the full evaluation: all terms (those that the scene has not, with
 //! weight 0), BRDF and DoLP with all derivatives, in the scalar form.
 
-use crate::fit::{Axis, Bounds, FitOptions, Landscape, Problem};
+use crate::fit::{Bounds, FitOptions, Landscape, LandscapeAxis, Problem};
 use crate::measurement::{Columns, Measurement, Simulation};
 use crate::model;
 use crate::model::{
@@ -448,12 +448,12 @@ fn ulps(value: f64, reference: f64) -> f64 {
 }
 
 /// The paper's 27 angles under a surface, around it.
-fn landscape(surface: &Pbrdf) -> Option<(Problem, Axis, Axis)> {
+fn landscape(surface: &Pbrdf) -> Option<(Problem, LandscapeAxis, LandscapeAxis)> {
     let model = surface.model();
     let parameters = *surface.parameters();
     let problem =
         Problem::new(&steel_angles(surface)?, model, parameters, ParameterSet::ALL, Bounds::default(), FitOptions::default()).ok()?;
-    let axis = |parameter, low, high| Axis { parameter, low, high, count: NODES, logarithmic: false };
+    let axis = |parameter, low, high| LandscapeAxis { parameter, low, high, count: NODES, logarithmic: false };
     Some((problem, axis(Parameter::N, 0.5, 6.0), axis(Parameter::K, 0.5, 8.0)))
 }
 
@@ -475,7 +475,7 @@ fn steel_angles(surface: &Pbrdf) -> Option<Measurement> {
 /// Largest relative difference between nodes of the landscape and the plain objective.
 fn landscape_difference(surface: &Pbrdf) -> Option<f64> {
     let (problem, across, up) = landscape(surface)?;
-    let (across, up) = (Axis { count: 31, ..across }, Axis { count: 31, ..up });
+    let (across, up) = (LandscapeAxis { count: 31, ..across }, LandscapeAxis { count: 31, ..up });
     let landscape = Landscape::new(&problem, across, up, &|| false)?;
     let mut worst: f64 = 0.0;
     for (row, k) in up.values().into_iter().enumerate() {

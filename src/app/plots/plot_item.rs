@@ -4,7 +4,7 @@ use crate::app::plots::error_bars::{ErrorBar, ErrorBars};
 use crate::app::plots::plot_axis::{PlotAxis, coordinate};
 use crate::app::plots::polyline::{curve, split_at_gaps};
 use crate::app::plots::theme;
-use crate::figure::{Dash, Drawn, Point, Rgb, Scale, Series, Symbol};
+use crate::figure::{Dash, Mark, Point, Rgb, Scale, Series, Symbol};
 use egui::{Align2, Color32, RichText};
 use egui_plot::{FilledArea, HLine, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine};
 
@@ -53,17 +53,17 @@ impl PlotItem {
     pub fn new(series: &Series, color: Rgb, x: &PlotAxis, y: &PlotAxis) -> Option<Self> {
         let point = |[a, b]: [f64; 2]| Some(PlotPoint::new(x.coordinate(a)?, y.coordinate(b)?));
         let pieces = |points: &[[f64; 2]]| split_at_gaps(points.iter().map(|at| point(*at)));
-        let shape = match &series.drawn {
-            Drawn::Line { points, width, dash } => {
+        let shape = match &series.mark {
+            Mark::Line { points, width, dash } => {
                 let pieces = pieces(points);
                 let pieces = if *dash == Dash::Solid { pieces.into_iter().flat_map(into_edges).collect() } else { pieces };
                 PlotShape::Line { pieces, style: style(*dash), width: on_screen(*width) }
             }
-            Drawn::Steps { points } => {
+            Mark::Steps { points } => {
                 let pieces = pieces(points).iter().flat_map(|piece| steps(piece)).collect();
                 PlotShape::Line { pieces, style: LineStyle::Solid, width: on_screen(1.2) }
             }
-            Drawn::Points { points, symbol } => {
+            Mark::Points { points, symbol } => {
                 let bar = |at: &Point| {
                     let (low, high) = at.bar?;
                     Some(ErrorBar { x: x.coordinate(at.x)?, low: y.end_coordinate(low)?, high: y.end_coordinate(high)? })
@@ -74,13 +74,13 @@ impl PlotItem {
                     symbol: *symbol,
                 }
             }
-            Drawn::Band { points } => PlotShape::Band(bands(points, x, y)),
-            Drawn::Area { points } => PlotShape::Area(pieces(points)),
-            Drawn::Rule { upright: false, at } => PlotShape::Level(y.coordinate(*at)?),
-            Drawn::Rule { upright: true, at } => PlotShape::Upright(x.coordinate(*at)?),
-            Drawn::Labels(labels) => PlotShape::Labels(labels.iter().filter_map(|(at, text)| Some((point(*at)?, text.clone()))).collect()),
+            Mark::Band { points } => PlotShape::Band(bands(points, x, y)),
+            Mark::Area { points } => PlotShape::Area(pieces(points)),
+            Mark::Rule { upright: false, at } => PlotShape::Level(y.coordinate(*at)?),
+            Mark::Rule { upright: true, at } => PlotShape::Upright(x.coordinate(*at)?),
+            Mark::Labels(labels) => PlotShape::Labels(labels.iter().filter_map(|(at, text)| Some((point(*at)?, text.clone()))).collect()),
             // Panes paint maps themselves, and bars stand in files alone.
-            Drawn::Bars { .. } | Drawn::HeatMap(_) => return None,
+            Mark::Bars { .. } | Mark::HeatMap(_) => return None,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
         let opacity = series.opacity as f32;
@@ -144,11 +144,11 @@ impl PlotItem {
 /// Coordinates of a series that decide about an axis without ends, by the logarithms that its axes have.
 pub fn coordinates(series: &Series, [x, y]: [Scale; 2]) -> Vec<(f64, f64)> {
     let place = |a: f64, b: f64| Some((coordinate(x == Scale::Log, a)?, coordinate(y == Scale::Log, b)?));
-    match &series.drawn {
-        Drawn::Line { points, .. } | Drawn::Steps { points } | Drawn::Area { points } => {
+    match &series.mark {
+        Mark::Line { points, .. } | Mark::Steps { points } | Mark::Area { points } => {
             points.iter().filter_map(|[a, b]| place(*a, *b)).collect()
         }
-        Drawn::Points { points, .. } => points.iter().filter_map(|at| place(at.x, at.y)).collect(),
+        Mark::Points { points, .. } => points.iter().filter_map(|at| place(at.x, at.y)).collect(),
         _ => Vec::new(),
     }
 }

@@ -13,7 +13,7 @@ use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
 use crate::files::export;
 use crate::files::write_file::write_file;
-use crate::report::{FitDocument, Source, write_curves, write_fitted};
+use crate::report::{DataSource, FitDocument, write_curves, write_fitted};
 use pbrdf::model::Pbrdf;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -145,7 +145,7 @@ fn report(explorer: &App) -> Result<Write, String> {
     let fit = explorer.work.shown_fit.clone().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
     let (measurement, document) = (explorer.work.document.measurement.clone(), &explorer.work.document);
-    let source = Source { name: document.name.clone(), sha256: document.sha256.clone() };
+    let source = DataSource { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let (program, date) = (export::program(), export::now());

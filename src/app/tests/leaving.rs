@@ -9,7 +9,7 @@ use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::HemisphereQuantity;
-use crate::figure::{Drawn, Figure, HeatMap, Panel, Scale, Series};
+use crate::figure::{Figure, HeatMap, Mark, Panel, Scale, Series};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Pbrdf;
@@ -28,20 +28,21 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
     let explorer = explorer(&mut harness);
     let dolp = explorer.figure(PaneId::Dolp).expect("a plot");
     let curves = explorer.derived.curves.get().expect("curves");
-    let drawn = dolp.panels[0].series.iter().find_map(|series| match &series.drawn {
-        Drawn::Line { points, .. } if series.name.starts_with("θi") => Some(points),
+    let drawn = dolp.panels[0].series.iter().find_map(|series| match &series.mark {
+        Mark::Line { points, .. } if series.name.starts_with("θi") => Some(points),
         _ => None,
     });
     assert_eq!(drawn.expect("a curve"), &curves.series[0].dolp);
     let marks = explorer.derived.marks.get().expect("points");
-    let points: usize =
-        dolp.panels[0]
-            .series
-            .iter()
-            .map(|series| {
-                if let Drawn::Points { points, .. } = &series.drawn { points.iter().filter(|point| point.bar.is_some()).count() } else { 0 }
-            })
-            .sum();
+    let points: usize = dolp.panels[0]
+        .series
+        .iter()
+        .map(
+            |series| {
+                if let Mark::Points { points, .. } = &series.mark { points.iter().filter(|point| point.bar.is_some()).count() } else { 0 }
+            },
+        )
+        .sum();
     assert_eq!(points, marks.series.iter().map(|marks| marks.dolp.used.iter().filter(|point| point.bar.is_some()).count()).sum::<usize>());
     assert_eq!(dolp.panels[0].y.title(), "DoLP");
 }
@@ -100,9 +101,9 @@ fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
 }
 
 fn map_of(figure: &Figure) -> &HeatMap {
-    let is_map = |series: &&Series| matches!(series.drawn, Drawn::HeatMap(_));
-    match figure.panels[0].series.iter().find(is_map).map(|series| &series.drawn) {
-        Some(Drawn::HeatMap(map)) => map,
+    let is_map = |series: &&Series| matches!(series.mark, Mark::HeatMap(_));
+    match figure.panels[0].series.iter().find(is_map).map(|series| &series.mark) {
+        Some(Mark::HeatMap(map)) => map,
         _ => panic!("no map"),
     }
 }
@@ -163,7 +164,7 @@ fn a_logarithmic_plot_is_exported_with_its_values() {
     let panel = &explorer.figure(PaneId::Lobes).expect("a plot").panels[0];
     assert_eq!((panel.y.scale, panel.y.title().as_str()), (Scale::Log, "BRDF / sr⁻¹"));
     let total = panel.series.last().expect("the total");
-    let Drawn::Line { points, .. } = &total.drawn else { panic!("a curve") };
+    let Mark::Line { points, .. } = &total.mark else { panic!("a curve") };
     assert_eq!(*points, explorer.derived.curves.get().expect("curves").own.total);
 }
 

@@ -21,7 +21,7 @@ use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
 use egui_plot::PlotPoint;
 use map::map_ui;
 use marks::{Marks, MarksKey};
-use pbrdf::fit::{Axis, FitOptions, Loss};
+use pbrdf::fit::{FitOptions, LandscapeAxis, Loss};
 use pbrdf::model::{Model, Parameter, Parameters};
 use tr::tr;
 
@@ -56,8 +56,8 @@ pub struct Key {
     choices: FitOptions,
     /// Where the residuals are looked at that set the scale of a robust loss.
     scale_at: Option<Parameters>,
-    pub across: Axis,
-    pub up: Axis,
+    pub across: LandscapeAxis,
+    pub up: LandscapeAxis,
 }
 
 impl Key {
@@ -248,14 +248,14 @@ impl LandscapeView {
 #[cfg(test)]
 mod tests {
     use super::{Key, nodes};
-    use pbrdf::fit::{Axis, FitOptions};
+    use pbrdf::fit::{FitOptions, LandscapeAxis};
     use pbrdf::model::{Model, Parameter, Parameters};
     use pbrdf::optics::SlopeDistribution;
 
     #[test]
     fn a_coarse_landscape_on_the_way_is_worth_waiting_for_and_a_fine_one_is_not() {
         let key = |generation, sigma, count| {
-            let axis = |parameter| Axis { parameter, low: 1.0, high: 2.0, count, logarithmic: false };
+            let axis = |parameter| LandscapeAxis { parameter, low: 1.0, high: 2.0, count, logarithmic: false };
             let others = Parameters { sigma, ..Parameters::default() };
             let model = Model::full(SlopeDistribution::Cauchy);
             let (across, up) = (axis(Parameter::N), axis(Parameter::K));

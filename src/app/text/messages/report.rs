@@ -3,7 +3,7 @@
 use crate::app::text::i18n::{self, Language, label, translated};
 use crate::app::text::messages::Localized;
 use crate::app::text::messages::selftest::short_method;
-use crate::report::Wording;
+use crate::report::ReportLanguage;
 use pbrdf::fit::{StopReason, Undetermined};
 use pbrdf::model::Finding;
 use pbrdf::selftest::BenchmarkMethod;
@@ -11,7 +11,7 @@ use pbrdf::selftest::BenchmarkMethod;
 /// The language of the window.
 pub struct WindowWording;
 
-impl Wording for WindowWording {
+impl ReportLanguage for WindowWording {
     fn language(&self) -> Option<&'static str> {
         match i18n::current() {
             Language::English => None,

@@ -4,7 +4,7 @@ use crate::app::plots::Range;
 use crate::app::plots::axis;
 use crate::app::plots::axis::power_of_ten;
 use egui_plot::{GridInput, GridMark};
-use pbrdf::fit::Axis;
+use pbrdf::fit::LandscapeAxis;
 use pbrdf::model::Parameter;
 
 /// The coordinate of a value on an axis: its logarithm where the parameter is best walked by factors.
@@ -34,11 +34,11 @@ pub fn first(parameter: Parameter) -> Range {
 }
 
 /// The axis over what is seen, as far as there are surfaces.
-pub fn axis_over(parameter: Parameter, seen: Range, count: usize) -> Option<Axis> {
+pub fn axis_over(parameter: Parameter, seen: Range, count: usize) -> Option<LandscapeAxis> {
     let [low, high] = [seen.low, seen.high].map(|coordinate| value(parameter, coordinate));
     let low = if parameter.domain().contains(low) { low } else { whole_low(parameter) };
     let is_sound = low.is_finite() && high.is_finite() && low < high && parameter.domain().contains(low);
-    is_sound.then_some(Axis { parameter, low, high, count, logarithmic: parameter.is_logarithmic() })
+    is_sound.then_some(LandscapeAxis { parameter, low, high, count, logarithmic: parameter.is_logarithmic() })
 }
 
 fn whole_low(parameter: Parameter) -> f64 {

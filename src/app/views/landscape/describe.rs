@@ -10,7 +10,7 @@ use crate::app::views::landscape::{Key, LandscapeView};
 use crate::app::work::settings::Settings;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 use egui_plot::PlotPoint;
-use pbrdf::fit::Axis as Nodes;
+use pbrdf::fit::LandscapeAxis;
 use tr::tr;
 
 const WAY: Rgb = Rgb(255, 96, 64);
@@ -40,8 +40,8 @@ pub fn describe(view: &LandscapeView, cx: &Cx<'_>) -> Option<Figure> {
     Some(Figure { title: cx.document.title(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
 }
 
-fn axis(nodes: Nodes) -> Axis {
-    let Nodes { parameter, low, high, .. } = nodes;
+fn axis(nodes: LandscapeAxis) -> Axis {
+    let LandscapeAxis { parameter, low, high, .. } = nodes;
     let unit = parameter.unit().trim();
     let axis = if nodes.logarithmic { Axis::log(parameter.symbol(), unit) } else { Axis::linear(parameter.symbol(), unit) };
     axis.between(low, high)
@@ -49,7 +49,7 @@ fn axis(nodes: Nodes) -> Axis {
 
 /// The nodes are in the middle of cells; those at the ends stand half outside the axes.
 fn heat_map(drawn: &LandscapeImage, key: &Key) -> HeatMap {
-    let edges = |nodes: Nodes| -> Vec<f64> {
+    let edges = |nodes: LandscapeAxis| -> Vec<f64> {
         let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
         #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
         let half = 0.5 * (high - low) / (nodes.count - 1) as f64;

@@ -10,7 +10,7 @@ use crate::app::work::settings::Settings;
 use crate::figure::ColorMap;
 use egui::{Color32, ColorImage};
 use egui_plot::PlotPoint;
-use pbrdf::fit::{Axis, Landscape, Loss, Problem, Weights};
+use pbrdf::fit::{Landscape, LandscapeAxis, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::ParameterSet;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ impl LandscapeImage {
 
     /// The number at the node nearest to a point of the plot.
     pub fn at(&self, point: PlotPoint) -> Option<f64> {
-        let index = |axis: Axis, place: f64| {
+        let index = |axis: LandscapeAxis, place: f64| {
             let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
             #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
             let place = ((place - low) / (high - low) * (axis.count - 1) as f64).round();
@@ -94,7 +94,7 @@ fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Vec<
     };
     let levels = [levels(&[1.0, 2.0, 5.0]), levels(&[1.0, 3.0])].into_iter().find(|levels| levels.len() <= LINES);
     let levels = levels.unwrap_or_else(|| (1..LINES).map(|i| low + (high - low) * f64_of(i) / f64_of(LINES)).collect());
-    let place = |axis: Axis, index: f64| {
+    let place = |axis: LandscapeAxis, index: f64| {
         let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
         low + (high - low) * index / f64_of(axis.count - 1)
     };

@@ -10,7 +10,7 @@ use crate::app::views::landscape::marks::{marks_in, sliders_in};
 use crate::app::work::settings::Settings;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
-use pbrdf::fit::Axis;
+use pbrdf::fit::LandscapeAxis;
 use pbrdf::model::Parameter;
 
 /// The map with what lies on it.
@@ -61,7 +61,7 @@ pub fn map_ui(view: &mut LandscapeView, settings: &Settings, height: f32, ui: &m
 }
 
 fn drawn_in<'a>(plot: &mut PlotUi<'a>, drawn: &'a LandscapeImage, texture: &TextureHandle, with_contours: bool) {
-    let ends = |axis: Axis| [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
+    let ends = |axis: LandscapeAxis| [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
     let ([left, right], [bottom, top]) = (ends(drawn.landscape.across), ends(drawn.landscape.up));
     let center = PlotPoint::new(f64::midpoint(left, right), f64::midpoint(bottom, top));
     #[expect(clippy::cast_possible_truncation, reason = "a size on the screen")]

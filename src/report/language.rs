@@ -6,7 +6,7 @@ use pbrdf::selftest::BenchmarkMethod;
 use std::fmt::Display;
 
 /// Says the texts and messages of a report in one language.
-pub trait Wording {
+pub trait ReportLanguage {
     /// Code of the language where it is not English.
     fn language(&self) -> Option<&'static str>;
 
@@ -29,7 +29,7 @@ pub trait Wording {
     fn method(&self, method: BenchmarkMethod) -> String;
 }
 
-impl dyn Wording + '_ {
+impl dyn ReportLanguage + '_ {
     /// A template with values in its holes.
     pub(crate) fn fill(&self, english: &str, values: &[&dyn Display]) -> String {
         let template = self.text(english);
@@ -53,7 +53,7 @@ impl dyn Wording + '_ {
 #[derive(Debug, Clone, Copy)]
 pub struct English;
 
-impl Wording for English {
+impl ReportLanguage for English {
     fn language(&self) -> Option<&'static str> {
         None
     }

@@ -1,0 +1,98 @@
+//! A figure and its panels.
+
+use crate::figure::axis::Axis;
+use crate::figure::palette::{Rgb, SERIES};
+use crate::figure::series::Series;
+
+/// Panels under a title.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Above everything; may be empty.
+    pub title: String,
+    /// In reading order.
+    pub panels: Vec<Panel>,
+    /// Panels side by side.
+    pub columns: usize,
+    /// Millimetres, 20 to 2000.
+    pub width_mm: f64,
+    /// Millimetres, 20 to 2000.
+    pub height_mm: f64,
+}
+
+impl Default for Figure {
+    fn default() -> Self {
+        Self { title: String::new(), panels: Vec::new(), columns: 1, width_mm: 160.0, height_mm: 105.0 }
+    }
+}
+
+/// One pair of axes with what is drawn between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Above the panel; may be empty.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Drawn in their order; those with one name share a colour and an entry in the legend.
+    pub series: Vec<Series>,
+    /// Whether there is a legend.
+    pub legend: bool,
+    /// Height of the panel's row relative to the others'.
+    pub height_share: f64,
+    /// Whether one unit is as long on both axes.
+    pub equal_aspect: bool,
+}
+
+impl Default for Panel {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            x: Axis::default(),
+            y: Axis::default(),
+            series: Vec::new(),
+            legend: true,
+            height_share: 1.0,
+            equal_aspect: false,
+        }
+    }
+}
+
+impl Figure {
+    /// With every text replaced by what `translate` makes of it; series of one name keep one name.
+    #[must_use]
+    pub fn translate(&self, translate: &dyn Fn(&str) -> String) -> Self {
+        let panels = self.panels.iter().map(|panel| panel.translated(translate)).collect();
+        Self { title: translate(&self.title), panels, ..self.clone() }
+    }
+}
+
+impl Panel {
+    fn translated(&self, translate: &dyn Fn(&str) -> String) -> Self {
+        Self {
+            title: translate(&self.title),
+            x: self.x.translated(translate),
+            y: self.y.translated(translate),
+            series: self.series.iter().map(|series| series.translated(translate)).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The colour of each series: its own, else that of an earlier series of the same name, else the
+    /// next of [`SERIES`].
+    #[must_use]
+    pub fn colors(&self) -> Vec<Rgb> {
+        let mut names: Vec<(&str, Rgb)> = Vec::new();
+        let mut next = SERIES.into_iter().cycle();
+        let mut colors = Vec::new();
+        for series in &self.series {
+            let known = names.iter().find(|(name, _)| !name.is_empty() && *name == series.name).map(|(_, color)| *color);
+            let color = series.color.or(known).or_else(|| next.next()).unwrap_or(SERIES[0]);
+            if known.is_none() {
+                names.push((&series.name, color));
+            }
+            colors.push(color);
+        }
+        colors
+    }
+}
