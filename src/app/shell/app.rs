@@ -3,10 +3,8 @@
 use crate::app::jobs::spawner::Spawner;
 use crate::app::panels;
 use crate::app::platform::Instant;
-use crate::app::shell::benchmarks::Benchmarks;
 use crate::app::shell::command_palette::{Palette, palette_ui};
 use crate::app::shell::commands;
-use crate::app::shell::commands::Command;
 use crate::app::shell::docking::{Dock, panes_ui};
 use crate::app::shell::file_dialogs::request_for;
 use crate::app::shell::frame_times::FrameTimes;
@@ -31,6 +29,8 @@ use crate::app::tasks::jobs::Jobs;
 use crate::app::text::help::Help;
 use crate::app::text::i18n;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::action::Action;
+use crate::app::views::benchmarks::Benchmarks;
 use crate::app::views::derived::Derived;
 use crate::app::views::{Cx, Views};
 use crate::app::work::document::{Document, EXAMPLES};
@@ -87,7 +87,7 @@ pub struct App {
     pub(crate) autosaved: Option<AutosaveKey>,
     /// Since when it is another one.
     pub(crate) unsaved_since: Option<Instant>,
-    pub commands: Vec<Command>,
+    pub actions: Vec<Action>,
     pub frame_times: FrameTimes,
     saved: SettingsFile,
     changed_at: Option<Instant>,
@@ -131,7 +131,7 @@ impl App {
             working_file: None,
             autosaved: None,
             unsaved_since: None,
-            commands: Vec::new(),
+            actions: Vec::new(),
             frame_times: FrameTimes::default(),
             changed_at: None,
         }
@@ -147,7 +147,7 @@ impl App {
             Ok(measurement) => self.take(example.name.to_owned(), measurement),
             Err(error) => self.say(tr!("The bundled example cannot be read: {}.", error.localized())),
         }
-        self.commands.extend(file.map(Command::OpenMeasurement));
+        self.actions.extend(file.map(Action::OpenMeasurement));
     }
 
     /// The bundled lessons and those of a folder, and a sentence for each that is none.
@@ -182,13 +182,13 @@ impl App {
     /// Before each frame: results of jobs, dropped files, commands, what is derived, settings.
     pub fn logic(&mut self, ctx: &egui::Context) {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
-            self.commands.push(Command::OpenMeasurement(file.path().to_owned()));
+            self.actions.push(Action::OpenMeasurement(file.path().to_owned()));
         }
         i18n::set(self.window.language);
         self.listen_to_keys(ctx);
         self.jobs.spawner.begin_frame();
         poll_jobs(self);
-        for command in std::mem::take(&mut self.commands) {
+        for command in std::mem::take(&mut self.actions) {
             if let Err(sentence) = self.execute(ctx, command) {
                 self.say(sentence);
             }
@@ -232,7 +232,7 @@ impl App {
             derived: &mut self.derived,
             jobs: &self.jobs,
             benchmarks: &mut self.reports,
-            actions: &mut self.commands,
+            actions: &mut self.actions,
             interacting: self.dragging,
         };
         (cx, &mut self.views, &mut self.panes)
@@ -255,10 +255,10 @@ impl App {
         if ctx.text_edit_focused() || self.import.is_some() || self.replacing.is_some() {
             return;
         }
-        self.commands.extend(commands::pressed(self, ctx));
+        self.actions.extend(commands::pressed(self, ctx));
         let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };
         let pasted = ctx.input(|input| input.events.iter().find_map(text));
-        self.commands.extend(pasted.map(Command::PasteParameters));
+        self.actions.extend(pasted.map(Action::PasteParameters));
     }
 
     /// Fits what is free again after a slider was moved, one fit at a time.
@@ -298,80 +298,80 @@ impl App {
         self.jobs.fits.compare(problems, self.work.settings.starts, self.work.settings.seed)
     }
 
-    pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+    pub(crate) fn execute(&mut self, ctx: &egui::Context, command: Action) -> Result<(), String> {
         match command {
-            Command::ChooseMeasurement | Command::ChooseSession | Command::ChooseSave | Command::ChooseExport(_) => {
+            Action::ChooseMeasurement | Action::ChooseSession | Action::ChooseSave | Action::ChooseExport(_) => {
                 request_for(&self.work.document, &command).map_or(Ok(()), |request| self.jobs.files.ask(request))?;
             }
-            Command::OpenMeasurement(path) if export::ExportKind::Session.check(&path).is_ok() => {
+            Action::OpenMeasurement(path) if export::ExportKind::Session.check(&path).is_ok() => {
                 self.jobs.files.open_session(path)?;
             }
-            Command::OpenMeasurement(path) => self.jobs.files.open(path)?,
-            Command::OpenSession(path) => self.jobs.files.open_session(path)?,
-            Command::SaveSession => self.save_session(ctx)?,
-            Command::Export(what, path) => self.export(what, path)?,
-            Command::CopyPlot(pane) => ctx.copy_image(export::image(self.figure(pane))?),
-            Command::CopyTable => self.copy_table(ctx),
-            Command::SaveNew(_) | Command::ExportNew(..) | Command::Replace | Command::KeepFile => self.write_typed(ctx, command)?,
-            Command::SaveMeasurement(path) => self.jobs.files.save(path, self.work.document.measurement.clone())?,
-            Command::Mask { rows, masked } => self.work.apply(Edit::Mask { rows, masked }),
-            Command::OpenExample(index) => self.open_example(index)?,
-            Command::ShowStep(lesson, step) => self.show_step(lesson, step)?,
-            Command::CloseLesson => self.end_lesson()?,
-            Command::KeepLesson => self.keep_lesson(),
-            Command::ImportDialog => self.start_import()?,
-            Command::CancelImport => self.cancel_import(),
-            Command::CancelLoading => self.jobs.files.cancel_load(),
-            Command::StartFit => self.start_fit()?,
-            Command::CancelFit => self.jobs.fits.fit.cancel(),
-            Command::UseFit => self.work.apply(Edit::UseFit),
-            Command::Back => self.work.apply(Edit::UseValuesBeforeFit),
-            Command::DismissNotices => self.notices.clear(),
-            Command::Undo => self.work.apply(Edit::Undo),
-            Command::Redo => self.work.apply(Edit::Redo),
-            Command::CopyParameters => ctx.copy_text(parameter_text::text(&self.work.settings.parameters)),
-            Command::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
-            Command::PasteParameters(text) => {
+            Action::OpenMeasurement(path) => self.jobs.files.open(path)?,
+            Action::OpenSession(path) => self.jobs.files.open_session(path)?,
+            Action::SaveSession => self.save_session(ctx)?,
+            Action::Export(what, path) => self.export(what, path)?,
+            Action::CopyPlot(pane) => ctx.copy_image(export::image(self.figure(pane))?),
+            Action::CopyTable => self.copy_table(ctx),
+            Action::SaveNew(_) | Action::ExportNew(..) | Action::Replace | Action::KeepFile => self.write_typed(ctx, command)?,
+            Action::SaveMeasurement(path) => self.jobs.files.save(path, self.work.document.measurement.clone())?,
+            Action::Mask { rows, masked } => self.work.apply(Edit::Mask { rows, masked }),
+            Action::OpenExample(index) => self.open_example(index)?,
+            Action::ShowStep(lesson, step) => self.show_step(lesson, step)?,
+            Action::CloseLesson => self.end_lesson()?,
+            Action::KeepLesson => self.keep_lesson(),
+            Action::ImportDialog => self.start_import()?,
+            Action::CancelImport => self.cancel_import(),
+            Action::CancelLoading => self.jobs.files.cancel_load(),
+            Action::StartFit => self.start_fit()?,
+            Action::CancelFit => self.jobs.fits.fit.cancel(),
+            Action::UseFit => self.work.apply(Edit::UseFit),
+            Action::Back => self.work.apply(Edit::UseValuesBeforeFit),
+            Action::DismissNotices => self.notices.clear(),
+            Action::Undo => self.work.apply(Edit::Undo),
+            Action::Redo => self.work.apply(Edit::Redo),
+            Action::CopyParameters => ctx.copy_text(parameter_text::text(&self.work.settings.parameters)),
+            Action::RequestPaste => ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+            Action::PasteParameters(text) => {
                 let parameters = parameter_text::read(&text, self.work.settings.parameters)?;
                 self.work.apply(Edit::SetParameters(parameters));
             }
-            Command::SetParameters(values) => self.set_parameters(values),
-            Command::UseFinish(index) => self.use_finish(index),
-            Command::ResetParameters => self.work.apply(Edit::SetParameters(Parameters::default())),
-            Command::UseModel(key) => self.use_model(key),
-            Command::ReturnTo(index) => self.return_to(index),
-            Command::Profile(parameter) => self.start_profile(parameter)?,
-            Command::Bootstrap => self.start_bootstrap()?,
-            Command::CancelScan => self.jobs.fits.cancel_scan(),
-            Command::UseRung(index) => self.work.apply(Edit::UseModelFit(index)),
-            Command::CompareModels => {
+            Action::SetParameters(values) => self.set_parameters(values),
+            Action::UseFinish(index) => self.use_finish(index),
+            Action::ResetParameters => self.work.apply(Edit::SetParameters(Parameters::default())),
+            Action::UseModel(key) => self.use_model(key),
+            Action::ReturnTo(index) => self.return_to(index),
+            Action::Profile(parameter) => self.start_profile(parameter)?,
+            Action::Bootstrap => self.start_bootstrap()?,
+            Action::CancelScan => self.jobs.fits.cancel_scan(),
+            Action::UseRung(index) => self.work.apply(Edit::UseModelFit(index)),
+            Action::CompareModels => {
                 self.panes.show(PaneId::Models);
                 self.compare_models()?;
             }
-            Command::MakeReport(subject) => self.jobs.benchmarks.start(subject)?,
-            Command::ForgetReport(subject) => self.jobs.benchmarks.forget(subject),
-            Command::CancelReport => self.jobs.benchmarks.cancel(),
-            Command::UseCase(index) => self.use_case(index),
-            Command::CancelComparison => self.jobs.fits.compare.cancel(),
-            Command::Toggle(switch) => {
+            Action::MakeReport(subject) => self.jobs.benchmarks.start(subject)?,
+            Action::ForgetReport(subject) => self.jobs.benchmarks.forget(subject),
+            Action::CancelReport => self.jobs.benchmarks.cancel(),
+            Action::UseCase(index) => self.use_case(index),
+            Action::CancelComparison => self.jobs.fits.compare.cancel(),
+            Action::Toggle(switch) => {
                 let on = switch.is_on(&self.work.settings);
                 self.work.apply(Edit::SetSwitch(switch, !on));
             }
-            Command::ToggleFrameTimes => self.window.show_frame_times = !self.window.show_frame_times,
-            Command::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
-            Command::TogglePane(pane) => self.panes.show(pane),
-            Command::ClosePane(pane) => self.panes.close(pane),
-            Command::ResetLayout => self.panes = Dock::new(&Layout::default()),
-            Command::ForgetRecent => self.window.recent.clear(),
-            Command::OpenPalette => self.palette.open(),
-            Command::ShowHelp(page) => self.help = Some(page),
-            Command::CloseHelp => self.help = None,
-            Command::SetLanguage(language) => self.window.language = language,
-            Command::SetTheme(theme) => {
+            Action::ToggleFrameTimes => self.window.show_frame_times = !self.window.show_frame_times,
+            Action::TogglePane(pane) if self.panes.is_on_screen(pane) => self.panes.close(pane),
+            Action::TogglePane(pane) => self.panes.show(pane),
+            Action::ClosePane(pane) => self.panes.close(pane),
+            Action::ResetLayout => self.panes = Dock::new(&Layout::default()),
+            Action::ForgetRecent => self.window.recent.clear(),
+            Action::OpenPalette => self.palette.open(),
+            Action::ShowHelp(page) => self.help = Some(page),
+            Action::CloseHelp => self.help = None,
+            Action::SetLanguage(language) => self.window.language = language,
+            Action::SetTheme(theme) => {
                 self.window.theme = theme;
                 set_theme(ctx, theme);
             }
-            Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+            Action::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
         }
         Ok(())
     }

@@ -2,9 +2,10 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
-use crate::app::shell::commands::{Command, Item, Status};
+use crate::app::shell::commands::{Availability, Command};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
+use crate::app::views::action::Action;
 use egui::{Key, Modifiers, Role, Ui};
 use tr::tr;
 
@@ -37,7 +38,7 @@ pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
         return;
     }
     let items = matching(found(explorer), english_names(explorer), &explorer.palette.filter);
-    let App { palette, commands, .. } = explorer;
+    let App { palette, actions: commands, .. } = explorer;
     let area = egui::Modal::default_area(egui::Id::unique("palette")).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 80.0));
     let response = egui::Modal::new(egui::Id::unique("palette")).area(area).show(ui.ctx(), |ui| {
         ui.set_width(520.0);
@@ -73,9 +74,9 @@ pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
         clicked.or(enter.then_some(palette.chosen))
     });
     if let Some(item) =
-        response.inner.and_then(|chosen| items.get(chosen)).map(|found| &found.item).filter(|item| item.status != Status::Impossible)
+        response.inner.and_then(|chosen| items.get(chosen)).map(|found| &found.item).filter(|item| item.status != Availability::Impossible)
     {
-        commands.push(item.command.clone());
+        commands.push(item.action.clone());
         palette.is_open = false;
         ui.ctx().request_repaint();
     } else if response.should_close() {
@@ -86,16 +87,18 @@ pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
 fn row_ui(found: &Found, is_chosen: bool, ui: &mut Ui) -> egui::Response {
     let item = &found.item;
     let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
-    let state = if item.status == Status::On { tr!("on") } else { String::new() };
+    let state = if item.status == Availability::On { tr!("on") } else { String::new() };
     let button = egui::Button::selectable(is_chosen, found.shown()).right_text(format!("{state}  {keys}"));
     let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
-    let why_disabled = item.command.why_disabled().unwrap_or_else(|| item.tooltip.to_string());
-    ui.add_enabled(item.status != Status::Impossible, button).on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(why_disabled)
+    let why_disabled = item.why_disabled();
+    ui.add_enabled(item.status != Availability::Impossible, button)
+        .on_hover_text(item.tooltip.as_ref())
+        .on_disabled_hover_text(why_disabled)
 }
 
 /// A command with what it is found by.
 struct Found {
-    item: Item,
+    item: Command,
     name: Name,
     /// Its English text, where that found it in another language.
     english: Option<String>,
@@ -118,9 +121,9 @@ impl Found {
 /// Every command, as the menus have them.
 fn found(explorer: &App) -> Vec<Found> {
     let mut items = commands::items(explorer);
-    items.sort_by_key(|item| (item.menu, item.command == Command::Quit));
-    let found = |item: Item| {
-        let alias = if let Command::SetLanguage(language) = item.command { language.english_name() } else { "" };
+    items.sort_by_key(|item| (item.menu, item.action == Action::Quit));
+    let found = |item: Command| {
+        let alias = if let Action::SetLanguage(language) = item.action { language.english_name() } else { "" };
         Found { name: Name { menu: item.menu.name(), text: item.text.to_string(), alias }, item, english: None }
     };
     items.into_iter().map(found).collect()
@@ -155,7 +158,7 @@ fn matching(found: Vec<Found>, english: Option<Vec<Name>>, filter: &str) -> Vec<
         Some((misfit, found))
     });
     let mut ranked: Vec<(u32, Found)> = fits.collect();
-    ranked.sort_by_key(|(misfit, found)| (found.item.status == Status::Impossible, *misfit));
+    ranked.sort_by_key(|(misfit, found)| (found.item.status == Availability::Impossible, *misfit));
     ranked.into_iter().map(|(_, found)| found).collect()
 }
 

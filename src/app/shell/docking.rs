@@ -1,7 +1,7 @@
 //! The tiles that the panes in the middle lie in.
 
-use crate::app::shell::commands::Command;
 use crate::app::text::i18n::translated;
+use crate::app::views::action::Action;
 use crate::app::views::{Cx, Views, spec};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
@@ -196,7 +196,7 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     fn on_tab_close(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId) -> bool {
         // A group of tiles inside tabs is closed as a whole by the tiles themselves.
         let Some(pane) = tiles.get_pane(&tile) else { return true };
-        self.cx.actions.push(Command::ClosePane(*pane));
+        self.cx.actions.push(Action::ClosePane(*pane));
         false
     }
 

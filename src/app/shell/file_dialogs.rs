@@ -1,33 +1,33 @@
 //! File dialogs: what a command asks for, and what follows from the answer.
 
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::file_request::FileRequest;
+use crate::app::views::action::Action;
 use crate::app::work::document::Document;
 use std::path::PathBuf;
 use tr::tr;
 
 /// What a command asks the user for.
-pub fn request_for(document: &Document, command: &Command) -> Option<FileRequest> {
+pub fn request_for(document: &Document, command: &Action) -> Option<FileRequest> {
     match command {
-        Command::ChooseMeasurement => Some(FileRequest::Open),
-        Command::ChooseSession => Some(FileRequest::OpenSession),
-        Command::ChooseSave => Some(FileRequest::Save(document.file_name())),
-        Command::ChooseExport(kind) => Some(FileRequest::Export(*kind, kind.file_name(document))),
+        Action::ChooseMeasurement => Some(FileRequest::Open),
+        Action::ChooseSession => Some(FileRequest::OpenSession),
+        Action::ChooseSave => Some(FileRequest::Save(document.file_name())),
+        Action::ChooseExport(kind) => Some(FileRequest::Export(*kind, kind.file_name(document))),
         _ => None,
     }
 }
 
 /// The command that uses the chosen path.
-pub fn command_for(request: FileRequest, path: PathBuf) -> Command {
+pub fn command_for(request: FileRequest, path: PathBuf) -> Action {
     match request {
-        FileRequest::Open => Command::OpenMeasurement(path),
-        FileRequest::OpenSession => Command::OpenSession(path),
-        FileRequest::Save(_) => Command::SaveMeasurement(path),
+        FileRequest::Open => Action::OpenMeasurement(path),
+        FileRequest::OpenSession => Action::OpenSession(path),
+        FileRequest::Save(_) => Action::SaveMeasurement(path),
         FileRequest::Export(kind, _) => {
             let complete = kind.with_ending(path.clone());
             // The desktop asked about the name without the extension.
-            if complete == path { Command::Export(kind, path) } else { Command::ExportNew(kind, complete) }
+            if complete == path { Action::Export(kind, path) } else { Action::ExportNew(kind, complete) }
         }
     }
 }

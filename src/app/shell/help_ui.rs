@@ -1,10 +1,10 @@
 //! The pages of help, each in a dialog.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary::{Entry, GLOSSARY};
 use crate::app::text::help::{DOI, FIRST_STEPS, Help, PAPER, TITLE};
 use crate::app::text::i18n::translated;
+use crate::app::views::action::Action;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 use std::path::Path;
 use tr::tr;
@@ -34,7 +34,7 @@ pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
         close.clicked()
     });
     if response.inner || response.should_close() {
-        explorer.commands.push(Command::CloseHelp);
+        explorer.actions.push(Action::CloseHelp);
     }
 }
 

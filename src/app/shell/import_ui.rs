@@ -2,11 +2,11 @@
 
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::import_dialog::{ImportDialog, Slices};
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::{Localized as _, advised};
 use crate::app::text::numbers::{short, significant};
+use crate::app::views::action::Action;
 use crate::app::work::design::Span;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample};
@@ -24,7 +24,7 @@ const SHOWN: usize = 5;
 const LISTED: usize = 12;
 
 pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { import: Some(import), jobs, commands, .. } = explorer else { return };
+    let App { import: Some(import), jobs, actions: commands, .. } = explorer else { return };
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         ui.heading(tr!("Import {}", import.origin.name));
@@ -40,7 +40,7 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
             } else {
                 let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
                 if open.clicked() {
-                    commands.push(Command::ImportDialog);
+                    commands.push(Action::ImportDialog);
                 }
                 // Enter opens.
                 if is_sound && ui.memory(|memory| memory.focused().is_none()) {
@@ -48,13 +48,13 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
                 }
             }
             if ui.button(tr!("Cancel")).on_hover_text(tr!("What is open stays")).clicked() {
-                commands.push(Command::CancelImport);
+                commands.push(Action::CancelImport);
             }
         });
     });
     // A click beside the dialog would lose the options.
     if response.should_close() && !response.backdrop_response.clicked() {
-        commands.push(Command::CancelImport);
+        commands.push(Action::CancelImport);
     }
 }
 

@@ -1,8 +1,8 @@
 //! The open lesson, under the panes that it speaks of: what to move, what to watch, why.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::text::i18n;
+use crate::app::views::action::Action;
 use crate::app::work::lesson::Wording;
 use egui::{Label, RichText, ScrollArea, Ui};
 use tr::tr;
@@ -18,7 +18,7 @@ pub fn lesson_panel(explorer: &mut App, ui: &mut Ui) {
 }
 
 fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { lessons, commands, .. } = explorer;
+    let App { lessons, actions: commands, .. } = explorer;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
@@ -36,7 +36,7 @@ fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
         ui.weak(tr!("Your own work comes back when you close the lesson."));
         let help = tr!("Close the lesson and go on from here; your work of before is given up");
         if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
-            commands.push(Command::KeepLesson);
+            commands.push(Action::KeepLesson);
         }
     });
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
@@ -53,21 +53,21 @@ fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
 }
 
 /// Forth, back, and out.
-fn buttons_ui(lesson: usize, step: usize, count: usize, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn buttons_ui(lesson: usize, step: usize, count: usize, commands: &mut Vec<Action>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
-            commands.push(Command::ShowStep(lesson, step - 1));
+            commands.push(Action::ShowStep(lesson, step - 1));
         }
         if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
-            commands.push(Command::ShowStep(lesson, step));
+            commands.push(Action::ShowStep(lesson, step));
         }
         let (name, command) =
-            if step + 1 < count { (tr!("Next step"), Command::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Command::CloseLesson) };
+            if step + 1 < count { (tr!("Next step"), Action::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Action::CloseLesson) };
         if ui.button(name).clicked() {
             commands.push(command);
         }
         if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
-            commands.push(Command::CloseLesson);
+            commands.push(Action::CloseLesson);
         }
     });
 }

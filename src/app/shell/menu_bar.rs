@@ -2,8 +2,9 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
-use crate::app::shell::commands::{Command, Item, Menu, Status};
+use crate::app::shell::commands::{Availability, Command, Menu};
 use crate::app::shell::path_entry::path_in;
+use crate::app::views::action::Action;
 use egui::containers::menu::MenuConfig;
 use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
@@ -14,17 +15,17 @@ pub fn menu_ui(explorer: &mut App, ui: &mut Ui) {
         for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
             bar_menu_ui(name, ui, |ui| {
                 let items = commands::items(explorer);
-                items_ui(&items, menu, &mut explorer.commands, ui);
+                items_ui(&items, menu, &mut explorer.actions, ui);
             });
         }
         bar_menu_ui(tr!("View"), ui, |ui| view_ui(explorer, ui));
         bar_menu_ui(tr!("Lessons"), ui, |ui| {
             let items = commands::items(explorer);
-            items_ui(&items, Menu::Lesson, &mut explorer.commands, ui);
+            items_ui(&items, Menu::Lesson, &mut explorer.actions, ui);
         });
         bar_menu_ui(tr!("Help"), ui, |ui| {
             let items = commands::items(explorer);
-            items_ui(&items, Menu::Help, &mut explorer.commands, ui);
+            items_ui(&items, Menu::Help, &mut explorer.actions, ui);
         });
     });
 }
@@ -61,8 +62,8 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 }
 
 fn file_ui(explorer: &mut App, ui: &mut Ui) {
-    let (quit, items): (Vec<Item>, Vec<Item>) = commands::items(explorer).into_iter().partition(|item| item.command == Command::Quit);
-    let App { commands, typed, window, .. } = explorer;
+    let (quit, items): (Vec<Command>, Vec<Command>) = commands::items(explorer).into_iter().partition(|item| item.action == Action::Quit);
+    let App { actions: commands, typed, window, .. } = explorer;
     items_ui(&items, Menu::File, commands, ui);
     ui.separator();
     ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
@@ -73,7 +74,7 @@ fn file_ui(explorer: &mut App, ui: &mut Ui) {
         let mut chosen = Vec::new();
         items_ui(&items, Menu::Export, &mut chosen, ui);
         commands.extend(chosen.into_iter().map(|command| match command {
-            Command::ChooseExport(what) => typed.export_command(what).unwrap_or(command),
+            Action::ChooseExport(what) => typed.export_command(what).unwrap_or(command),
             other => other,
         }));
         ui.separator();
@@ -86,7 +87,7 @@ fn file_ui(explorer: &mut App, ui: &mut Ui) {
     if is_entered(&field, ui)
         && let Some(path) = path_in(&typed.open)
     {
-        commands.push(Command::OpenMeasurement(path));
+        commands.push(Action::OpenMeasurement(path));
         ui.close();
     }
     let label = ui.label(tr!("Save to a path (.csv the measurement, .json the session), Enter:"));
@@ -108,31 +109,32 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
 fn view_ui(explorer: &mut App, ui: &mut Ui) {
     let items = commands::items(explorer);
     ui.weak(tr!("Panes"));
-    items_ui(&items, Menu::PaneId, &mut explorer.commands, ui);
+    items_ui(&items, Menu::PaneId, &mut explorer.actions, ui);
     ui.separator();
-    items_ui(&items, Menu::View, &mut explorer.commands, ui);
+    items_ui(&items, Menu::View, &mut explorer.actions, ui);
     ui.separator();
-    ui.menu_button(tr!("Theme"), |ui| items_ui(&items, Menu::Theme, &mut explorer.commands, ui));
-    ui.menu_button(tr!("Language"), |ui| items_ui(&items, Menu::Language, &mut explorer.commands, ui));
+    ui.menu_button(tr!("Theme"), |ui| items_ui(&items, Menu::Theme, &mut explorer.actions, ui));
+    ui.menu_button(tr!("Language"), |ui| items_ui(&items, Menu::Language, &mut explorer.actions, ui));
 }
 
 /// The commands of a menu, with their keys; those that are on have a tick.
-fn items_ui(items: &[Item], menu: Menu, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn items_ui(items: &[Command], menu: Menu, commands: &mut Vec<Action>, ui: &mut Ui) {
     for item in items.iter().filter(|item| item.menu == menu) {
         let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
         let clicked = match item.status {
-            Status::Off | Status::On => {
-                let button = egui::Button::selectable(item.status == Status::On, item.text.as_ref()).shortcut_text(keys);
+            Availability::Off | Availability::On => {
+                let button = egui::Button::selectable(item.status == Availability::On, item.text.as_ref()).shortcut_text(keys);
                 let response = ui.add(button);
-                response
-                    .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, item.status == Status::On, item.text.as_ref()));
+                response.widget_info(|| {
+                    egui::WidgetInfo::selected(egui::Role::CheckBox, true, item.status == Availability::On, item.text.as_ref())
+                });
                 response
             }
-            status => ui.add_enabled(status == Status::Possible, egui::Button::new(item.text.as_ref()).shortcut_text(keys)),
+            status => ui.add_enabled(status == Availability::Possible, egui::Button::new(item.text.as_ref()).shortcut_text(keys)),
         };
-        let why_disabled = item.command.why_disabled().unwrap_or_else(|| item.tooltip.to_string());
+        let why_disabled = item.why_disabled();
         if clicked.on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(why_disabled).clicked() {
-            commands.push(item.command.clone());
+            commands.push(item.action.clone());
             ui.close();
         }
     }

@@ -1,7 +1,6 @@
 //! The window as a whole: app, commands, docking, dialogs, toasts, theme, lessons.
 
 pub mod app;
-pub mod benchmarks;
 pub mod command_palette;
 pub mod commands;
 pub mod docking;

@@ -1,7 +1,7 @@
 //! The question before a file is replaced.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
+use crate::app::views::action::Action;
 use egui::{Label, RichText, Ui};
 use tr::tr;
 
@@ -9,7 +9,7 @@ use tr::tr;
 const WIDTH: f32 = 420.0;
 
 pub fn overwrite_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { replacing: Some(replacing), commands, .. } = explorer else { return };
+    let App { replacing: Some(replacing), actions: commands, .. } = explorer else { return };
     let name = replacing.path.file_name().unwrap_or_default().to_string_lossy();
     let response = egui::Modal::new(egui::Id::unique("replace")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
@@ -18,11 +18,11 @@ pub fn overwrite_ui(explorer: &mut App, ui: &mut Ui) {
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             if ui.button(tr!("Replace")).clicked() {
-                commands.push(Command::Replace);
+                commands.push(Action::Replace);
             }
             let keep = ui.button(tr!("Keep")).on_hover_text(tr!("The file stays as it is, and nothing is written"));
             if keep.clicked() {
-                commands.push(Command::KeepFile);
+                commands.push(Action::KeepFile);
             }
             // Enter, with which the path was typed, must not answer by itself what cannot be taken back.
             if ui.memory(|memory| memory.focused().is_none()) {
@@ -31,6 +31,6 @@ pub fn overwrite_ui(explorer: &mut App, ui: &mut Ui) {
         });
     });
     if response.should_close() {
-        commands.push(Command::KeepFile);
+        commands.push(Action::KeepFile);
     }
 }

@@ -2,8 +2,8 @@
 //! replaced only after a question, which elsewhere the desktop's own dialog asks.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
+use crate::app::views::action::Action;
 use std::path::{Path, PathBuf};
 
 /// The boxes of the menu File.
@@ -18,7 +18,7 @@ pub struct PathEntry {
 #[derive(Debug)]
 pub struct OverwritePrompt {
     pub path: PathBuf,
-    pub command: Command,
+    pub command: Action,
 }
 
 /// The path in a box, if there is one; `~/` is the folder of the user, as in a shell.
@@ -30,17 +30,17 @@ pub fn path_in(text: &str) -> Option<PathBuf> {
 
 impl PathEntry {
     /// The measurement or the session into the typed path, as its ending says.
-    pub fn save_command(&self) -> Option<Command> {
+    pub fn save_command(&self) -> Option<Action> {
         let path = path_in(&self.save)?;
         let is_session = ExportKind::Session.check(&path).is_ok();
-        Some(if is_session { Command::ExportNew(ExportKind::Session, path) } else { Command::SaveNew(path) })
+        Some(if is_session { Action::ExportNew(ExportKind::Session, path) } else { Action::SaveNew(path) })
     }
 
     /// An export into the typed path, which then has an ending.
-    pub fn export_command(&mut self, what: ExportKind) -> Option<Command> {
+    pub fn export_command(&mut self, what: ExportKind) -> Option<Action> {
         let path = what.with_ending(path_in(&self.export)?);
         self.export = path.display().to_string();
-        Some(Command::ExportNew(what, path))
+        Some(Action::ExportNew(what, path))
     }
 
     /// Empties the boxes with that path: it was read or written.
@@ -55,15 +55,15 @@ impl PathEntry {
 
 impl App {
     /// Writes into a file that was typed, or asks first; or takes the answer.
-    pub(crate) fn write_typed(&mut self, ctx: &egui::Context, command: Command) -> Result<(), String> {
+    pub(crate) fn write_typed(&mut self, ctx: &egui::Context, command: Action) -> Result<(), String> {
         let (path, command) = match command {
-            Command::SaveNew(path) => (path.clone(), Command::SaveMeasurement(path)),
-            Command::ExportNew(what, path) => {
+            Action::SaveNew(path) => (path.clone(), Action::SaveMeasurement(path)),
+            Action::ExportNew(what, path) => {
                 what.check(&path)?;
-                (path.clone(), Command::Export(what, path))
+                (path.clone(), Action::Export(what, path))
             }
             answer => {
-                let asked = self.replacing.take().filter(|_| answer == Command::Replace);
+                let asked = self.replacing.take().filter(|_| answer == Action::Replace);
                 return asked.map_or(Ok(()), |asked| self.execute(ctx, asked.command));
             }
         };
@@ -77,17 +77,17 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use super::{Command, ExportKind, PathEntry, path_in};
+    use super::{Action, ExportKind, PathEntry, path_in};
     use std::path::Path;
 
     #[test]
     fn a_typed_path_says_by_its_ending_what_is_saved() {
         let command = |name: &str| PathEntry { save: format!(" {name} "), ..PathEntry::default() }.save_command();
         for name in ["a.pbrdf.json", "a.JSON"] {
-            assert_eq!(command(name), Some(Command::ExportNew(ExportKind::Session, name.into())));
+            assert_eq!(command(name), Some(Action::ExportNew(ExportKind::Session, name.into())));
         }
         for name in ["a.csv", "a", "a.json.csv"] {
-            assert_eq!(command(name), Some(Command::SaveNew(name.into())));
+            assert_eq!(command(name), Some(Action::SaveNew(name.into())));
         }
         assert_eq!(command(" "), None);
     }
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn a_box_is_emptied_by_its_own_path_alone() {
         let mut typed = PathEntry { open: "/a.csv".to_owned(), save: " /b.csv".to_owned(), export: "/c".to_owned() };
-        assert_eq!(typed.export_command(ExportKind::Curves), Some(Command::ExportNew(ExportKind::Curves, "/c.csv".into())));
+        assert_eq!(typed.export_command(ExportKind::Curves), Some(Action::ExportNew(ExportKind::Curves, "/c.csv".into())));
         for path in ["/b.csv", "/c.csv", "/d.csv"] {
             typed.served(Path::new(path));
         }

@@ -3,10 +3,10 @@
 use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::action::Action;
 use crate::app::work::workspace::Workspace;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
@@ -19,7 +19,7 @@ const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
-    let App { work: Workspace { document, .. }, derived, jobs, commands, window, frame_times, .. } = explorer;
+    let App { work: Workspace { document, .. }, derived, jobs, actions: commands, window, frame_times, .. } = explorer;
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",
@@ -31,7 +31,7 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
             #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
             ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text(tr!("Reading…")));
             if ui.button(tr!("Cancel reading")).clicked() {
-                commands.push(Command::CancelLoading);
+                commands.push(Action::CancelLoading);
             }
             ui.separator();
         }
@@ -52,7 +52,7 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
 
 /// What there is to say, over the foot of the plots: they stay where they are.
 pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
-    let App { notices, commands, derived, .. } = explorer;
+    let App { notices, actions: commands, derived, .. } = explorer;
     let now = ui.input(|input| input.time);
     if let Some(seconds) = notices.expire(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
@@ -87,10 +87,10 @@ pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
 }
 
 /// The sentences, and the button that sends them away.
-fn sentences_ui(notices: &Toasts, commands: &mut Vec<Command>, ui: &mut egui::Ui) {
+fn sentences_ui(notices: &Toasts, commands: &mut Vec<Action>, ui: &mut egui::Ui) {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
         if ui.button(tr!("Dismiss")).on_hover_text(tr!("Also with Escape")).clicked() {
-            commands.push(Command::DismissNotices);
+            commands.push(Action::DismissNotices);
         }
         ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
             // The newest is in sight; several do not cover the window.

@@ -2,7 +2,6 @@
 
 use crate::app::platform::Instant;
 use crate::app::shell::app::{App, SAVE_AFTER};
-use crate::app::shell::commands::Command;
 use crate::app::shell::docking::Dock;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
@@ -11,6 +10,7 @@ use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::views::Views;
+use crate::app::views::action::Action;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
@@ -36,7 +36,7 @@ impl App {
     /// Goes on where the program ended the last time, if it left something.
     pub fn resume(&mut self) {
         if let Some(path) = self.working_file.clone().filter(|path| path.exists()) {
-            self.commands.push(Command::OpenSession(path));
+            self.actions.push(Action::OpenSession(path));
         }
     }
 
@@ -85,7 +85,7 @@ impl App {
 
     pub fn save_session(&mut self, ctx: &egui::Context) -> Result<(), String> {
         let what = ExportKind::Session;
-        let command = self.work.session_file.clone().map_or(Command::ChooseExport(what), |path| Command::Export(what, path));
+        let command = self.work.session_file.clone().map_or(Action::ChooseExport(what), |path| Action::Export(what, path));
         self.execute(ctx, command)
     }
 

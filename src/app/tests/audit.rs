@@ -1,8 +1,8 @@
 //! The audit: findings of the sliders' surface, with verdicts and reasons, in both languages.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -10,7 +10,7 @@ use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Audit));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Audit));
     wait(&mut harness);
     harness
 }

@@ -1,10 +1,10 @@
 //! Jobs that panic: their slot is free again, and the window says so.
 
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::tasks::file_request::FileRequest;
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
+use crate::app::views::action::Action;
 use std::time::Instant;
 
 #[test]
@@ -45,7 +45,7 @@ fn what_panicked_can_start_again() {
     let toasts = explorer(&mut harness).notices.take().expect("two sentences");
     assert!(toasts.contains("Writing the file ended") && toasts.contains("The file dialog ended"), "{toasts}");
     explorer(&mut harness).jobs.files.ask = |_| Ok(Some("/no/such/file.csv".into()));
-    explorer(&mut harness).commands.extend([Command::Export(ExportKind::Curves, path.clone()), Command::ChooseMeasurement]);
+    explorer(&mut harness).actions.extend([Action::Export(ExportKind::Curves, path.clone()), Action::ChooseMeasurement]);
     wait(&mut harness);
     assert!(path.exists() && explorer(&mut harness).notices.take().is_some_and(|toast| toast.contains("/no/such/file.csv")));
 }
@@ -56,13 +56,13 @@ fn a_benchmark_that_waits_comes_after_one_that_panics() {
     let app = explorer(&mut harness);
     let spawner = app.jobs.spawner.clone();
     app.jobs.benchmarks.slots()[0].start_panicking(&spawner);
-    app.commands.push(Command::MakeReport(BenchmarkId::Stability));
+    app.actions.push(Action::MakeReport(BenchmarkId::Stability));
     let begun = Instant::now();
     while explorer(&mut harness).jobs.benchmarks.progress().is_none() {
         assert!(begun.elapsed() < PATIENCE, "the second benchmark does not start");
         harness.step();
     }
-    explorer(&mut harness).commands.push(Command::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelReport);
     wait(&mut harness);
     assert!(explorer(&mut harness).reports.stability.is_some());
 }

@@ -2,9 +2,10 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
-use crate::app::shell::commands::{Command, Status};
+use crate::app::shell::commands::Availability;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
+use crate::app::views::action::Action;
 use crate::app::work::settings::Theme;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -27,26 +28,26 @@ fn no_two_commands_have_the_same_keys_or_the_same_name() {
 
 #[test]
 fn every_command_can_be_carried_out() {
-    let commands: Vec<Command> = commands::items(explorer(&mut harness())).into_iter().map(|item| item.command).collect();
+    let commands: Vec<Action> = commands::items(explorer(&mut harness())).into_iter().map(|item| item.action).collect();
     // All in one window, so that the later ones meet what the earlier ones left.
     let mut harness = harness();
     for command in commands {
-        if let Command::CopyPlot(pane) = command
+        if let Action::CopyPlot(pane) = command
             && !explorer(&mut harness).panes.is_on_screen(pane)
         {
             // Until then the command is grey.
-            explorer(&mut harness).commands.push(Command::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::TogglePane(pane));
             wait(&mut harness);
         }
-        explorer(&mut harness).commands.push(command.clone());
-        if matches!(command, Command::MakeReport(_)) {
+        explorer(&mut harness).actions.push(command.clone());
+        if matches!(command, Action::MakeReport(_)) {
             // Begun is enough: to its end it takes a minute in a debug build.
             harness.step();
-            explorer(&mut harness).commands.push(Command::CancelReport);
+            explorer(&mut harness).actions.push(Action::CancelReport);
         }
         wait(&mut harness);
         let notice = explorer(&mut harness).notices.take();
-        assert_eq!(notice.is_some(), command == Command::CopyTable, "{command:?}: {notice:?}");
+        assert_eq!(notice.is_some(), command == Action::CopyTable, "{command:?}: {notice:?}");
     }
 }
 
@@ -54,22 +55,22 @@ fn every_command_can_be_carried_out() {
 fn commands_about_what_is_not_there_change_nothing() {
     let mut harness = harness();
     let (settings, rows) = (explorer(&mut harness).work.settings.clone(), explorer(&mut harness).work.document.measurement.rows.clone());
-    let profiles = pbrdf::model::Parameter::ALL.map(Command::Profile);
+    let profiles = pbrdf::model::Parameter::ALL.map(Action::Profile);
     let others = [
-        Command::ImportDialog,
-        Command::CancelImport,
-        Command::Mask { rows: vec![usize::MAX], masked: true },
-        Command::ReturnTo(99),
-        Command::UseRung(99),
-        Command::UseCase(99),
-        Command::UseFinish(99),
-        Command::UseModel("none"),
-        Command::ShowStep(99, 0),
-        Command::ShowStep(0, 99),
-        Command::SetParameters(Vec::new()),
+        Action::ImportDialog,
+        Action::CancelImport,
+        Action::Mask { rows: vec![usize::MAX], masked: true },
+        Action::ReturnTo(99),
+        Action::UseRung(99),
+        Action::UseCase(99),
+        Action::UseFinish(99),
+        Action::UseModel("none"),
+        Action::ShowStep(99, 0),
+        Action::ShowStep(0, 99),
+        Action::SetParameters(Vec::new()),
     ];
     for command in profiles.into_iter().chain(others) {
-        explorer(&mut harness).commands.push(command.clone());
+        explorer(&mut harness).actions.push(command.clone());
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         assert_eq!(
@@ -145,7 +146,7 @@ fn arrows_choose_in_the_palette_and_escape_leaves_it() {
 fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
     let mut harness = harness();
     let open = |harness: &mut Harness<'static, Option<App>>, text: &str| {
-        explorer(harness).commands.push(Command::OpenPalette);
+        explorer(harness).actions.push(Action::OpenPalette);
         harness.run();
         harness.get_by_label("Find a command").type_text(text);
         harness.run();
@@ -195,12 +196,12 @@ fn undo_brings_back_every_setting() {
     }
     let after = explorer(&mut harness).work.settings.clone();
     for _ in steps {
-        explorer(&mut harness).commands.push(Command::Undo);
+        explorer(&mut harness).actions.push(Action::Undo);
         harness.run();
     }
     assert_eq!(explorer(&mut harness).work.settings, before);
     for _ in steps {
-        explorer(&mut harness).commands.push(Command::Redo);
+        explorer(&mut harness).actions.push(Action::Redo);
         harness.run();
     }
     assert_eq!(explorer(&mut harness).work.settings, after);
@@ -210,8 +211,8 @@ fn undo_brings_back_every_setting() {
 fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
     let mut harness = harness();
     let steps_before = explorer(&mut harness).work.undo.can_undo();
-    for command in [Command::SetTheme(Theme::Dark), Command::ToggleFrameTimes] {
-        explorer(&mut harness).commands.push(command);
+    for command in [Action::SetTheme(Theme::Dark), Action::ToggleFrameTimes] {
+        explorer(&mut harness).actions.push(command);
         harness.run();
     }
     assert_eq!(explorer(&mut harness).work.undo.can_undo(), steps_before);
@@ -221,7 +222,7 @@ fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
 fn parameters_are_copied_and_pasted_as_text() {
     let mut harness = harness();
     explorer(&mut harness).work.settings.parameters.n = 2.07;
-    explorer(&mut harness).commands.push(Command::CopyParameters);
+    explorer(&mut harness).actions.push(Action::CopyParameters);
     harness.step();
     let copied = harness.output().platform_output.commands.iter().find_map(|command| match command {
         egui::OutputCommand::CopyText(text) => Some(text.clone()),
@@ -243,8 +244,8 @@ fn parameters_are_copied_and_pasted_as_text() {
 fn what_is_impossible_is_not_ordered_by_its_keys() {
     let mut harness = harness();
     let items = commands::items(explorer(&mut harness));
-    let redo = items.iter().find(|item| item.command == Command::Redo).expect("redo is in the table");
-    assert_eq!(redo.status, Status::Impossible);
+    let redo = items.iter().find(|item| item.action == Action::Redo).expect("redo is in the table");
+    assert_eq!(redo.status, Availability::Impossible);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run();
     assert!(explorer(&mut harness).notices.is_empty());
@@ -254,7 +255,7 @@ fn what_is_impossible_is_not_ordered_by_its_keys() {
 fn the_palette_finds_english_names_in_every_language() {
     let mut harness = harness();
     explorer(&mut harness).window.language = Language::Chinese;
-    explorer(&mut harness).commands.push(Command::OpenPalette);
+    explorer(&mut harness).actions.push(Action::OpenPalette);
     harness.run();
     harness.get_by_label("查找命令").type_text("start fit");
     harness.run();
@@ -264,7 +265,7 @@ fn the_palette_finds_english_names_in_every_language() {
     wait(&mut harness);
     assert!(explorer(&mut harness).work.shown_fit.is_some());
     // And the names that are shown, without the English ones.
-    explorer(&mut harness).commands.push(Command::OpenPalette);
+    explorer(&mut harness).actions.push(Action::OpenPalette);
     harness.run();
     harness.get_by_label("查找命令").type_text("拟合");
     harness.run();

@@ -1,10 +1,10 @@
 //! Dialogs of the desktop, where there are some and where there are none.
 
 use crate::app::platform::DialogUnavailable;
-use crate::app::shell::commands::Command;
 use crate::app::shell::file_dialogs::command_for;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::file_request::{FileReply, FileRequest, ask_user};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use std::path::Path;
 #[cfg(target_os = "linux")]
@@ -60,6 +60,6 @@ fn a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled() {
 #[test]
 fn an_ending_that_the_desktop_did_not_see_is_asked_about() {
     let export = |path: &str| command_for(FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()), path.into());
-    assert_eq!(export("/a/plot.png"), Command::Export(ExportKind::Plot(PaneId::Dolp), "/a/plot.png".into()));
-    assert_eq!(export("/a/plot"), Command::ExportNew(ExportKind::Plot(PaneId::Dolp), Path::new("/a/plot.svg").into()));
+    assert_eq!(export("/a/plot.png"), Action::Export(ExportKind::Plot(PaneId::Dolp), "/a/plot.png".into()));
+    assert_eq!(export("/a/plot"), Action::ExportNew(ExportKind::Plot(PaneId::Dolp), Path::new("/a/plot.svg").into()));
 }

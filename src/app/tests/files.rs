@@ -1,8 +1,8 @@
 //! Opening files, good and bad, and the settings file.
 
-use crate::app::shell::commands::Command;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, harness_with, wait};
+use crate::app::views::action::Action;
 use crate::app::work::document::EXAMPLES;
 use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
 use egui_kittest::kittest::Queryable as _;
@@ -51,11 +51,11 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
     let mut harness = harness();
     let rows = explorer(&mut harness).work.document.measurement.rows.clone();
     for (command, expected) in [
-        (Command::OpenMeasurement(path), "line 3, column 3 (dolp)"),
-        (Command::OpenMeasurement(folder.path().to_owned()), "directory"),
-        (Command::OpenMeasurement(folder.path().join("none.csv")), "no such file"),
+        (Action::OpenMeasurement(path), "line 3, column 3 (dolp)"),
+        (Action::OpenMeasurement(folder.path().to_owned()), "directory"),
+        (Action::OpenMeasurement(folder.path().join("none.csv")), "no such file"),
     ] {
-        explorer(&mut harness).commands.push(command);
+        explorer(&mut harness).actions.push(command);
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         let notice = explorer.notices.text().expect("a notice");
@@ -94,7 +94,7 @@ fn a_path_can_be_typed_into_the_menu_after_a_click() {
 fn every_example_opens_and_says_that_it_is_simulated() {
     let mut harness = harness();
     for (index, example) in EXAMPLES.iter().enumerate() {
-        explorer(&mut harness).commands.push(Command::OpenExample(index));
+        explorer(&mut harness).actions.push(Action::OpenExample(index));
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         assert_eq!((explorer.work.document.name.as_str(), explorer.notices.text()), (example.name, None));
@@ -116,7 +116,7 @@ fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = file(&folder, "peak.csv", "theta_i,theta_r,brdf\n35,35,5000\n35,-20,0.25\n");
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
     wait(&mut harness);
     assert!(explorer(&mut harness).work.settings.log_brdf);
 }
@@ -169,7 +169,7 @@ fn damaged_settings_are_set_aside() {
 fn the_window_fits_its_contents_in_both_themes() {
     for theme in [Theme::Light, Theme::Dark] {
         let mut harness = harness_with(Settings { log_brdf: true, show_backscatter: true, ..Settings::default() });
-        explorer(&mut harness).commands.push(Command::SetTheme(theme));
+        explorer(&mut harness).actions.push(Action::SetTheme(theme));
         harness.run();
         assert!(explorer(&mut harness).derived.fault().is_none());
     }

@@ -1,7 +1,7 @@
 //! Pressing Fit, and what follows.
 
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::{Starts, Weights};
 use pbrdf::measurement::Quantity;
@@ -107,8 +107,8 @@ fn what_the_data_determine_is_told_before_a_fit_and_only_if_asked() {
 #[test]
 fn a_fit_of_the_measurement_before_does_not_reach_the_one_after() {
     let mut harness = harness();
-    for command in [Command::StartFit, Command::CompareModels] {
-        explorer(&mut harness).commands.push(command);
+    for command in [Action::StartFit, Action::CompareModels] {
+        explorer(&mut harness).actions.push(command);
     }
     harness.step();
     // The new measurement arrives while both jobs are on their way.
@@ -154,7 +154,7 @@ fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
         explorer(harness).views.get::<crate::app::views::DolpView>().band.get().cloned().unwrap_or_default()
     };
     assert!(bands(&mut harness).is_empty());
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let around = bands(&mut harness);
     assert_eq!(around.len(), 3);
@@ -178,9 +178,9 @@ fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
 #[test]
 fn measured_lobes_have_a_band_of_their_own() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::OpenExample(2));
+    explorer(&mut harness).actions.push(Action::OpenExample(2));
     wait(&mut harness);
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     for log in [false, true] {
         explorer(&mut harness).work.settings.log_brdf = log;
@@ -229,7 +229,7 @@ fn stated_standard_deviations_are_offered_as_weights() {
     explorer(&mut harness).take("bare.csv".to_owned(), bare);
     harness.run();
     assert!(harness.query_by_label(offer).is_none(), "one value has none");
-    explorer(&mut harness).commands.push(Command::Mask { rows: vec![4], masked: true });
+    explorer(&mut harness).actions.push(Action::Mask { rows: vec![4], masked: true });
     harness.run();
     assert!(harness.query_by_label(offer).is_some(), "and is masked now");
 }
@@ -237,15 +237,15 @@ fn stated_standard_deviations_are_offered_as_weights() {
 #[test]
 fn the_last_fit_stays_in_view_where_the_sliders_or_the_model_have_left_it() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::DolpView>().ghosts(), 0, "the sliders are the fit's");
     // The same values, without the diffuse and the volume lobe.
-    explorer(&mut harness).commands.push(Command::UseModel("specular"));
+    explorer(&mut harness).actions.push(Action::UseModel("specular"));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::DolpView>().ghosts(), 3);
     // A fit far above the curves of the sliders is on the axis too.
-    explorer(&mut harness).commands.push(Command::UseFit);
+    explorer(&mut harness).actions.push(Action::UseFit);
     wait(&mut harness);
     let high = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| {
         explorer(harness).views.get::<crate::app::views::DolpView>().range().expect("an axis").high

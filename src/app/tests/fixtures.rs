@@ -4,9 +4,9 @@
 //! opened the file.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{Loss, Starts};
@@ -59,7 +59,7 @@ fn sessions_open() {
     assert!(names.len() >= 17, "{names:?}");
     for name in names {
         let mut window = harness();
-        explorer(&mut window).commands.push(Command::OpenSession(folder().join(format!("{name}.pbrdf.json"))));
+        explorer(&mut window).actions.push(Action::OpenSession(folder().join(format!("{name}.pbrdf.json"))));
         wait(&mut window);
         let mut actual = view(explorer(&mut window));
         let mut expected = json_of(&format!("{name}.expected.json"));

@@ -12,7 +12,6 @@
 mod damage;
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::Lessons;
 use crate::app::storage::export;
@@ -22,6 +21,7 @@ use crate::app::storage::session::Session;
 use crate::app::storage::session_file::OpenedSession;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, wait};
+use crate::app::views::action::Action;
 use crate::app::work::layout::Layout;
 use crate::app::work::lesson::Lesson;
 use crate::app::work::pane_id::PaneId;
@@ -54,7 +54,7 @@ fn small() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     let table = read_table(TABLE.as_bytes()).expect("a table");
     explorer(&mut harness).take("small.csv".to_owned(), table);
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert!(explorer(&mut harness).work.shown_fit.is_some());
     harness
@@ -197,7 +197,7 @@ fn lessons_in_the_window() {
         let steps = lesson.steps.len();
         explorer(&mut harness).lessons = Lessons { all: vec![lesson], open: None };
         for step in 0..steps {
-            explorer(&mut harness).commands.push(Command::ShowStep(0, step));
+            explorer(&mut harness).actions.push(Action::ShowStep(0, step));
             wait(&mut harness);
         }
         true

@@ -1,8 +1,8 @@
 //! The hemisphere map: what the pointer reads, what is made when, and what is not.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::HemisphereQuantity;
 use egui::accesskit::Role;
@@ -13,7 +13,7 @@ use pbrdf::optics::{Facet, Geometry};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Hemisphere));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Hemisphere));
     wait(&mut harness);
     harness
 }

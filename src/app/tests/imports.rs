@@ -1,9 +1,9 @@
 //! Foreign files: each asks its questions, shows the first rows of its measurement, and leaves the open measurement where it fails.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::import::bytes_of;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::measurement::{Field, Mapping, TensorGrid, TensorResolution, Unit, write_tensor};
@@ -20,7 +20,7 @@ fn opened(name: &str, contents: &[u8]) -> (Harness<'static, Option<App>>, tempfi
     let path = folder.path().join(name);
     std::fs::write(&path, contents).expect("a writable folder for temporary files");
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
     wait(&mut harness);
     (harness, folder)
 }
@@ -274,7 +274,7 @@ fn enter_opens_a_table_whose_columns_are_guessed() {
     let path = folder.path().join("lab.csv");
     std::fs::write(&path, "inc,view,dolp\n30,20,0.1\n30,40,0.2\n40,40,0.3\n").expect("a writable folder");
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
     wait(&mut harness);
     harness.get_by_label_contains("The columns are taken as follows");
     harness.key_press(egui::Key::Enter);

@@ -1,10 +1,10 @@
 //! Texts that were made while the window spoke one language, and are shown when it speaks another.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::{Language, translated};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
@@ -13,8 +13,8 @@ use pbrdf::optics::Geometry;
 
 type Window = Harness<'static, Option<App>>;
 
-fn order(harness: &mut Window, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Window, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
@@ -22,7 +22,7 @@ fn order(harness: &mut Window, command: Command) {
 fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
     let is_there = |harness: &Window| written(harness).iter().any(|text| text.contains(part));
     let before = is_there(harness);
-    order(harness, Command::SetLanguage(Language::Chinese));
+    order(harness, Action::SetLanguage(Language::Chinese));
     harness.run_steps(3);
     [before, is_there(harness)]
 }
@@ -31,12 +31,12 @@ fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
 fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
     explorer(&mut harness).work.settings.starts = Starts::One;
-    order(&mut harness, Command::StartFit);
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
+    order(&mut harness, Action::StartFit);
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     harness.run_steps(4);
     // In an unoptimised build its maps take half a minute: nobody waits for them.
     for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {
-        explorer(&mut harness).commands.push(Command::SetLanguage(language));
+        explorer(&mut harness).actions.push(Action::SetLanguage(language));
         harness.run_steps(4);
         let marks = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
         let text = marks.text(&translated("minima"), 0).expect("a minimum");

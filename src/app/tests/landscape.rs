@@ -1,8 +1,8 @@
 //! The landscape: it follows the sliders, knows what lies on it, and a click puts the sliders there.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -14,7 +14,7 @@ const HINT: &str = "A click puts both sliders there; drag to move, Ctrl+wheel to
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     harness
 }
@@ -58,7 +58,7 @@ fn it_is_coarser_while_a_slider_is_dragged() {
 fn nothing_is_computed_off_screen() {
     let mut harness = shown();
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     explorer(&mut harness).work.settings.parameters.sigma = 0.2;
     wait(&mut harness);
@@ -69,7 +69,7 @@ fn nothing_is_computed_off_screen() {
 fn a_map_that_nobody_looks_at_is_not_finished() {
     for pane in [PaneId::Landscape, PaneId::Hemisphere] {
         let mut harness = harness();
-        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        explorer(&mut harness).actions.push(Action::TogglePane(pane));
         wait(&mut harness);
         let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         explorer(&mut harness).work.settings.parameters.sigma = 0.2;
@@ -83,10 +83,10 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
             }
         };
         assert!(running(&mut harness), "{pane:?}");
-        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        explorer(&mut harness).actions.push(Action::TogglePane(pane));
         harness.step();
         assert!(!running(&mut harness), "{pane:?}");
-        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        explorer(&mut harness).actions.push(Action::TogglePane(pane));
         wait(&mut harness);
         let key = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         assert!(pane == PaneId::Hemisphere || key != before);
@@ -111,7 +111,7 @@ fn a_click_sets_both_sliders_in_one_step_of_undo() {
     // What is read under the pointer is what the click has set.
     let reading = format!("n = {}, k = {}: ΔE = ", after.n, after.k);
     assert!(harness.query_by_label_contains(&reading).is_some(), "{reading}");
-    explorer(&mut harness).commands.push(Command::Undo);
+    explorer(&mut harness).actions.push(Action::Undo);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.settings.parameters, before);
 }
@@ -127,7 +127,7 @@ fn ways_minima_and_metals_lie_on_it() {
         .sum();
     assert_eq!((marks.ways.len(), marks.minima.len(), marks.metals.len()), (0, 0, sources));
     assert!(marks.text("metals", 0).expect("a text").starts_with("silver"));
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
@@ -171,7 +171,7 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
 fn masked_rows_have_no_landscape() {
     let mut harness = shown();
     let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
-    explorer(&mut harness).commands.push(Command::Mask { rows, masked: true });
+    explorer(&mut harness).actions.push(Action::Mask { rows, masked: true });
     wait(&mut harness);
     assert!(!explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
     assert!(harness.query_by_label_contains("No landscape").is_some());

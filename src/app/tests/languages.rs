@@ -1,14 +1,15 @@
 //! Both languages: no text of the window is left in English, and every control has a name.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::{Command, items};
+use crate::app::shell::commands::items;
 use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::help::{DOI, Help, PAPER};
 use crate::app::text::i18n::{Language, MISSED};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui::Key;
-use egui::accesskit::{Action, Role};
+use egui::accesskit::{Action as NodeAction, Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
@@ -17,9 +18,9 @@ use std::collections::BTreeSet;
 /// The window in Chinese after a fit and a comparison of models, so that every view has something to show.
 fn chinese() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
     wait(&mut harness);
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     harness
 }
@@ -27,9 +28,9 @@ fn chinese() -> Harness<'static, Option<App>> {
 /// Puts that pane alone on screen.
 fn alone(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     for other in PaneId::ALL.iter().copied() {
-        explorer(harness).commands.push(Command::ClosePane(other));
+        explorer(harness).actions.push(Action::ClosePane(other));
     }
-    explorer(harness).commands.push(Command::TogglePane(pane));
+    explorer(harness).actions.push(Action::TogglePane(pane));
     if pane == PaneId::Landscape {
         // In an unoptimised build its maps take half a minute: nobody waits for them.
         harness.run_steps(4);
@@ -132,12 +133,12 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
         english.extend(written(&harness).into_iter().filter(|text| is_english(text)));
     }
     for page in [Help::FirstSteps, Help::Words, Help::About] {
-        explorer(&mut harness).commands.push(Command::ShowHelp(page));
+        explorer(&mut harness).actions.push(Action::ShowHelp(page));
         harness.run();
         // The paper, which breaks over several lines, is called as it is called.
         english
             .extend(written(&harness).into_iter().filter(|text| is_english(text) && !text.contains(DOI) && !PAPER.contains(text.trim())));
-        explorer(&mut harness).commands.push(Command::CloseHelp);
+        explorer(&mut harness).actions.push(Action::CloseHelp);
         harness.run();
     }
     let all = items(explorer(&mut harness));
@@ -164,8 +165,8 @@ fn click(harness: &mut Harness<'static, Option<App>>, label: &str) {
     harness.run();
 }
 
-fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
@@ -181,13 +182,13 @@ fn menus_palette_and_lessons_are_in_chinese() {
         harness.key_press(Key::Escape);
         harness.run();
     }
-    order(&mut harness, Command::OpenPalette);
+    order(&mut harness, Action::OpenPalette);
     english.extend(left(&harness, "palette"));
     harness.key_press(Key::Escape);
     harness.run();
     for lesson in 0..explorer(&mut harness).lessons.all.len() {
         for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
-            order(&mut harness, Command::ShowStep(lesson, step));
+            order(&mut harness, Action::ShowStep(lesson, step));
             english.extend(left(&harness, "lesson"));
         }
     }
@@ -198,7 +199,7 @@ fn menus_palette_and_lessons_are_in_chinese() {
 fn what_unfolds_is_in_chinese() {
     let mut harness = chinese();
     let mut english = Vec::new();
-    order(&mut harness, Command::CompareModels);
+    order(&mut harness, Action::CompareModels);
     for folded in ["选项", "这些数据能确定什么", "相关系数", "剖面与自助法", "拟合历史（1）"] {
         click(&mut harness, folded);
         wait(&mut harness);
@@ -233,13 +234,13 @@ fn foreign() -> Vec<(&'static str, Vec<u8>)> {
 #[test]
 fn questions_and_refusals_are_in_chinese() {
     let mut harness = harness();
-    order(&mut harness, Command::SetLanguage(Language::Chinese));
+    order(&mut harness, Action::SetLanguage(Language::Chinese));
     let folder = tempfile::tempdir().expect("a folder");
     let mut english = Vec::new();
     for (name, contents) in foreign() {
         let path = folder.path().join(name);
         std::fs::write(&path, contents).expect("a file");
-        order(&mut harness, Command::OpenMeasurement(path));
+        order(&mut harness, Action::OpenMeasurement(path));
         // The name of the file stands in the texts.
         let all = written(&harness).into_iter().map(|text| text.replace(&folder.path().display().to_string(), ""));
         english.extend(all.filter(|text| is_english(text)).map(|text| format!("{name}: {text}")));
@@ -276,7 +277,7 @@ fn nameless(harness: &Harness<'static, Option<App>>) -> Vec<String> {
     let mut nodes = vec![harness.root()];
     while let Some(node) = nodes.pop() {
         let accessible = node.accesskit_node();
-        let acts = [Action::Click, Action::Focus].into_iter().any(|action| accessible.data().supports_action(action));
+        let acts = [NodeAction::Click, NodeAction::Focus].into_iter().any(|action| accessible.data().supports_action(action));
         let is_text = accessible.role() == Role::Label && accessible.value().is_some();
         let is_named = is_text || accessible.role() == Role::ScrollBar;
         if acts && !is_named && accessible.label().is_none_or(|label| label.trim().is_empty()) {
@@ -292,7 +293,7 @@ fn every_control_has_a_name() {
     let mut all = Vec::new();
     for language in Language::ALL {
         let mut harness = chinese();
-        explorer(&mut harness).commands.push(Command::SetLanguage(language));
+        explorer(&mut harness).actions.push(Action::SetLanguage(language));
         wait(&mut harness);
         for pane in PaneId::ALL.iter().copied() {
             alone(&mut harness, pane);

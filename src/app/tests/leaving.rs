@@ -1,11 +1,11 @@
 //! Plots, curves, fits and reports as files and on the clipboard.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::{explorer, harness, plots, wait};
+use crate::app::views::action::Action;
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::HemisphereQuantity;
@@ -16,15 +16,15 @@ use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Facet, Geometry};
 use pbrdf::selftest::Host;
 
-fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
 #[test]
 fn every_plot_is_a_figure_of_what_is_drawn() {
     let mut harness = harness();
-    order(&mut harness, Command::OpenExample(1));
+    order(&mut harness, Action::OpenExample(1));
     let explorer = explorer(&mut harness);
     let dolp = explorer.figure(PaneId::Dolp).expect("a plot");
     let curves = explorer.derived.curves.get().expect("curves");
@@ -50,7 +50,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
 /// Brings a pane to the front.
 fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     if !explorer(harness).panes.is_on_screen(pane) {
-        order(harness, Command::TogglePane(pane));
+        order(harness, Action::TogglePane(pane));
     }
     wait(harness);
 }
@@ -79,7 +79,7 @@ fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
     let without = [PaneId::Data, PaneId::Planner, PaneId::Models];
     assert!(PaneId::ALL.iter().all(|pane| spec(*pane).has_figure != without.contains(pane)));
     let mut harness = harness();
-    order(&mut harness, Command::StartFit);
+    order(&mut harness, Action::StartFit);
     for (pane, titles) in TITLES.into_iter().filter(|(_, titles)| !titles.is_empty()) {
         show(&mut harness, pane);
         let figure = explorer(&mut harness).figure(pane).expect("a plot");
@@ -137,7 +137,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
 #[test]
 fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
     let mut harness = harness();
-    order(&mut harness, Command::StartFit);
+    order(&mut harness, Action::StartFit);
     show(&mut harness, PaneId::Landscape);
     let explorer = explorer(&mut harness);
     let exported = explorer.figure(PaneId::Landscape).expect("a map");
@@ -172,7 +172,7 @@ fn a_logarithmic_plot_is_exported_with_its_values() {
 fn each_export_writes_its_file_and_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
-    order(&mut harness, Command::StartFit);
+    order(&mut harness, Action::StartFit);
     for subject in BenchmarkId::ALL {
         let stop = || true;
         let result = Box::new(subject.run(Host { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
@@ -186,7 +186,7 @@ fn each_export_writes_its_file_and_says_so() {
     }
     for (what, name) in exports {
         let path = folder.path().join(name);
-        order(&mut harness, Command::Export(what, path.clone()));
+        order(&mut harness, Action::Export(what, path.clone()));
         let notice = explorer(&mut harness).notices.take().expect("a sentence");
         assert!(notice.contains("is saved to") && notice.contains(name), "{notice}");
         let bytes = std::fs::read(&path).expect("a file");
@@ -225,9 +225,9 @@ fn a_typed_path_serves_where_there_is_no_dialog() {
 fn a_name_of_another_kind_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
-    order(&mut harness, Command::Export(ExportKind::Plot(PaneId::Dolp), folder.path().join("plot.pdf")));
+    order(&mut harness, Action::Export(ExportKind::Plot(PaneId::Dolp), folder.path().join("plot.pdf")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains(".svg or .png"));
-    order(&mut harness, Command::Export(ExportKind::Report, folder.path().join("r.html")));
+    order(&mut harness, Action::Export(ExportKind::Report, folder.path().join("r.html")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("no fit yet"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
@@ -235,8 +235,8 @@ fn a_name_of_another_kind_is_refused_in_words() {
 #[test]
 fn plots_and_tables_go_to_the_clipboard() {
     let mut harness = harness();
-    for (command, is_image) in [(Command::CopyPlot(PaneId::Dolp), true), (Command::CopyTable, false)] {
-        explorer(&mut harness).commands.push(command);
+    for (command, is_image) in [(Action::CopyPlot(PaneId::Dolp), true), (Action::CopyTable, false)] {
+        explorer(&mut harness).actions.push(command);
         harness.step();
         let commands = &harness.output().platform_output.commands;
         let found = commands.iter().any(|command| match command {
@@ -260,6 +260,6 @@ fn a_file_is_known_by_its_hash() {
     std::fs::write(&path, text).expect("a writable folder");
     let mut harness = harness();
     assert_eq!(explorer(&mut harness).work.document.sha256, None);
-    order(&mut harness, Command::OpenMeasurement(path));
+    order(&mut harness, Action::OpenMeasurement(path));
     assert_eq!(explorer(&mut harness).work.document.sha256, Some(crate::files::export::sha256(text.as_bytes())));
 }

@@ -1,7 +1,6 @@
 //! Lessons: every step of every one is shown, and sets what it says.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::job_results::dialog_answered;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
@@ -10,6 +9,7 @@ use crate::app::tasks::file_request::FileRequest;
 use crate::app::tasks::files::DialogAnswer;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
+use crate::app::views::action::Action;
 use crate::app::work::document::{EXAMPLES, Mask};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
@@ -24,7 +24,7 @@ fn every_step_of_every_lesson_is_shown() {
     let mut harness = harness();
     for lesson in 0..explorer(&mut harness).lessons.all.len() {
         for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
-            explorer(&mut harness).commands.push(Command::ShowStep(lesson, step));
+            explorer(&mut harness).actions.push(Action::ShowStep(lesson, step));
             wait(&mut harness);
             let heading = explorer(&mut harness).lessons.all[lesson].steps[step].heading.in_language("en").to_owned();
             assert!(harness.query_all_by_label_contains(&heading).next().is_some(), "{heading}");
@@ -43,7 +43,7 @@ fn every_step_of_every_lesson_is_shown() {
 #[test]
 fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
     harness.run();
     let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.parameters.n, settings.parameters.k, settings.theta_i), (1.5, 0.0, 56.3));
@@ -60,7 +60,7 @@ fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
 fn lessons_speak_chinese() {
     let mut harness = harness();
     explorer(&mut harness).window.language = Language::Chinese;
-    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
     harness.run();
     assert!(harness.query_by_label_contains("透明表面").is_some());
     assert!(harness.query_by_label("下一步").is_some());
@@ -82,14 +82,14 @@ fn a_damaged_lesson_is_named_and_the_window_goes_on() {
     }
     assert_eq!(explorer(&mut harness).work.settings, before);
     let last = explorer(&mut harness).lessons.all.len() - 1;
-    explorer(&mut harness).commands.push(Command::ShowStep(last, 0));
+    explorer(&mut harness).actions.push(Action::ShowStep(last, 0));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.settings.parameters.n, 1.75);
     assert!(harness.query_all_by_label_contains("My own step").next().is_some());
 }
 
-fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
@@ -121,11 +121,11 @@ fn work(explorer: &App) -> Work {
 /// A window that somebody worked in.
 fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    order(&mut harness, Command::OpenExample(1));
-    order(&mut harness, Command::Mask { rows: vec![2, 7], masked: true });
+    order(&mut harness, Action::OpenExample(1));
+    order(&mut harness, Action::Mask { rows: vec![2, 7], masked: true });
     explorer(&mut harness).work.settings.starts = pbrdf::fit::Starts::One;
-    order(&mut harness, Command::StartFit);
-    order(&mut harness, Command::ClosePane(PaneId::Lobes));
+    order(&mut harness, Action::StartFit);
+    order(&mut harness, Action::ClosePane(PaneId::Lobes));
     explorer(&mut harness).work.settings.parameters.k = 4.25;
     harness.run();
     harness
@@ -133,15 +133,15 @@ fn worked_in() -> Harness<'static, Option<App>> {
 
 /// Moves everything that a lesson can move.
 fn go_through_a_lesson(harness: &mut Harness<'static, Option<App>>) {
-    order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
-    order(harness, Command::Mask { rows: vec![1], masked: true });
+    order(harness, Action::ShowStep(WITH_EXAMPLE, 0));
+    order(harness, Action::Mask { rows: vec![1], masked: true });
     explorer(harness).work.settings.starts = pbrdf::fit::Starts::One;
-    order(harness, Command::StartFit);
-    order(harness, Command::ClosePane(PaneId::Dolp));
+    order(harness, Action::StartFit);
+    order(harness, Action::ClosePane(PaneId::Dolp));
     // Into another lesson and back.
-    order(harness, Command::ShowStep(0, 0));
+    order(harness, Action::ShowStep(0, 0));
     explorer(harness).work.settings.parameters.k = 1.5;
-    order(harness, Command::ShowStep(WITH_EXAMPLE, 0));
+    order(harness, Action::ShowStep(WITH_EXAMPLE, 0));
 }
 
 #[test]
@@ -161,9 +161,9 @@ fn closing_a_lesson_brings_everything_back() {
         assert_eq!(work(explorer(&mut harness)), before, "{button}");
         assert_eq!(explorer(&mut harness).lessons.open, None);
         // Undo goes on where it was.
-        order(&mut harness, Command::Undo);
+        order(&mut harness, Action::Undo);
         assert_ne!(explorer(&mut harness).work.settings.parameters.k, 4.25);
-        order(&mut harness, Command::Redo);
+        order(&mut harness, Action::Redo);
         assert_eq!(work(explorer(&mut harness)), before, "{button}");
     }
 }
@@ -181,21 +181,21 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
         let count = explorer(&mut harness).lessons.all[lesson].steps.len();
         let mut forward = Vec::new();
         for step in 0..count {
-            order(&mut harness, Command::ShowStep(lesson, step));
+            order(&mut harness, Action::ShowStep(lesson, step));
             forward.push(set_up(explorer(&mut harness)));
         }
         // What a user moves, switches and opens on the way.
         let open = explorer(&mut harness);
         (open.work.settings.parameters.sigma, open.work.settings.shown.facets_equal_median, open.work.settings.tabulated.wavelength_nm) =
             (1.75, true, 333.0);
-        order(&mut harness, Command::ClosePane(PaneId::Dolp));
+        order(&mut harness, Action::ClosePane(PaneId::Dolp));
         for (step, forward) in forward.iter().enumerate().rev() {
-            order(&mut harness, Command::ShowStep(lesson, step));
+            order(&mut harness, Action::ShowStep(lesson, step));
             assert_eq!(&set_up(explorer(&mut harness)), forward, "lesson {lesson}, step {step}");
         }
         // Straight to the last one, the lesson not yet begun.
-        order(&mut harness, Command::CloseLesson);
-        order(&mut harness, Command::ShowStep(lesson, count - 1));
+        order(&mut harness, Action::CloseLesson);
+        order(&mut harness, Action::ShowStep(lesson, count - 1));
         assert_eq!(Some(&set_up(explorer(&mut harness))), forward.last(), "lesson {lesson}");
     }
 }
@@ -204,13 +204,13 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
 fn undo_leads_to_the_step_before_whichever_way_one_came() {
     let mut harness = harness();
     // "Quite another metal, the same curve", reached from behind.
-    order(&mut harness, Command::ShowStep(2, 3));
-    order(&mut harness, Command::ShowStep(2, 1));
+    order(&mut harness, Action::ShowStep(2, 3));
+    order(&mut harness, Action::ShowStep(2, 1));
     let k = |harness: &mut Harness<'static, Option<App>>| explorer(harness).work.settings.parameters.k;
     assert_eq!(k(&mut harness), 10.0054);
-    order(&mut harness, Command::Undo);
+    order(&mut harness, Action::Undo);
     assert_eq!(k(&mut harness), 6.6);
-    order(&mut harness, Command::Redo);
+    order(&mut harness, Action::Redo);
     assert_eq!(k(&mut harness), 10.0054);
 }
 
@@ -226,15 +226,15 @@ fn a_lesson_has_a_measurement_of_its_own() {
     let before = work(explorer(&mut harness));
     explorer(&mut harness).read_lessons(Some(folder.path()));
     let last = explorer(&mut harness).lessons.all.len() - 1;
-    order(&mut harness, Command::ShowStep(last, 0));
+    order(&mut harness, Action::ShowStep(last, 0));
     assert_eq!(explorer(&mut harness).work.document.name, EXAMPLES[0].name);
     assert_eq!(explorer(&mut harness).work.document.mask().len(), 0);
-    order(&mut harness, Command::ShowStep(last, 1));
+    order(&mut harness, Action::ShowStep(last, 1));
     assert!(explorer(&mut harness).work.document.measurement.rows.is_empty());
     assert!(harness.query_by_label("No measurement: curves alone").is_some());
     let tabulated = &explorer(&mut harness).work.settings.tabulated;
     assert_eq!((tabulated.metal.as_str(), tabulated.wavelength_nm), ("Cu", 450.0));
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::CloseLesson);
     assert_eq!(work(explorer(&mut harness)), before);
 }
 
@@ -242,7 +242,7 @@ fn a_lesson_has_a_measurement_of_its_own() {
 fn an_example_that_is_still_being_read_is_no_guest_of_the_own_work() {
     let mut harness = worked_in();
     let before = work(explorer(&mut harness));
-    explorer(&mut harness).commands.extend([Command::ShowStep(0, 0), Command::OpenExample(2), Command::CloseLesson]);
+    explorer(&mut harness).actions.extend([Action::ShowStep(0, 0), Action::OpenExample(2), Action::CloseLesson]);
     wait(&mut harness);
     assert_eq!(work(explorer(&mut harness)), before);
 }
@@ -251,13 +251,13 @@ fn an_example_that_is_still_being_read_is_no_guest_of_the_own_work() {
 fn what_a_lesson_shows_can_be_kept_and_undone() {
     let mut harness = worked_in();
     let before = explorer(&mut harness).work.settings.clone();
-    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Action::ShowStep(0, 0));
     harness.get_by_label("Keep this").click();
     wait(&mut harness);
     assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).work.settings.parameters.n), (None, 1.5));
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::CloseLesson);
     assert_eq!(explorer(&mut harness).work.settings.parameters.n, 1.5, "there is nothing to go back to any more");
-    order(&mut harness, Command::Undo);
+    order(&mut harness, Action::Undo);
     assert_eq!(explorer(&mut harness).work.settings, before);
 }
 
@@ -288,20 +288,20 @@ fn saving_in_a_lesson_leaves_the_file_of_the_own_session_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
-    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Action::Export(ExportKind::Session, path.clone()));
+    order(&mut harness, Action::ShowStep(0, 0));
     // Asks where to; nobody answers.
-    order(&mut harness, Command::SaveSession);
+    order(&mut harness, Action::SaveSession);
     let k =
         |path: &std::path::Path| Session::read(&std::fs::read_to_string(path).expect("a file")).expect("a session").settings.parameters.k;
     assert_eq!(k(&path), 4.25);
     // Into a file of its own it saves what is shown.
     let other = folder.path().join("lesson.pbrdf.json");
-    order(&mut harness, Command::Export(ExportKind::Session, other.clone()));
+    order(&mut harness, Action::Export(ExportKind::Session, other.clone()));
     assert_eq!(k(&other), 0.0);
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::CloseLesson);
     explorer(&mut harness).work.settings.parameters.k = 4.5;
-    order(&mut harness, Command::SaveSession);
+    order(&mut harness, Action::SaveSession);
     assert_eq!((k(&path), k(&other)), (4.5, 0.0));
 }
 
@@ -310,12 +310,12 @@ fn a_session_opened_in_a_lesson_ends_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
+    order(&mut harness, Action::Export(ExportKind::Session, path.clone()));
     let before = work(explorer(&mut harness)).settings;
-    order(&mut harness, Command::ShowStep(0, 0));
-    order(&mut harness, Command::OpenSession(path));
+    order(&mut harness, Action::ShowStep(0, 0));
+    order(&mut harness, Action::OpenSession(path));
     assert_eq!(explorer(&mut harness).lessons.open, None);
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::CloseLesson);
     assert_eq!(explorer(&mut harness).work.settings, before);
 }
 
@@ -324,10 +324,10 @@ fn a_session_that_is_still_being_read_does_not_replace_what_a_closed_lesson_give
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.pbrdf.json");
     let mut harness = worked_in();
-    order(&mut harness, Command::Export(ExportKind::Session, path.clone()));
+    order(&mut harness, Action::Export(ExportKind::Session, path.clone()));
     explorer(&mut harness).work.settings.parameters.k = 4.5;
-    order(&mut harness, Command::ShowStep(0, 0));
-    explorer(&mut harness).commands.extend([Command::OpenSession(path), Command::CloseLesson]);
+    order(&mut harness, Action::ShowStep(0, 0));
+    explorer(&mut harness).actions.extend([Action::OpenSession(path), Action::CloseLesson]);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.settings.parameters.k, 4.5);
 }
@@ -338,23 +338,23 @@ fn a_file_opened_in_a_lesson_ends_it_and_stays() {
     let path = folder.path().join("mine.csv");
     std::fs::write(&path, "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n").expect("a file");
     let mut harness = worked_in();
-    order(&mut harness, Command::ShowStep(0, 0));
-    order(&mut harness, Command::OpenMeasurement(path));
+    order(&mut harness, Action::ShowStep(0, 0));
+    order(&mut harness, Action::OpenMeasurement(path));
     let notice = explorer(&mut harness).notices.text().expect("a sentence");
     assert!(notice.contains("The lesson has ended") && notice.contains("mine.csv"), "{notice}");
     assert_eq!((explorer(&mut harness).lessons.open, explorer(&mut harness).work.settings.parameters.k), (None, 4.25));
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::CloseLesson);
     assert_eq!(explorer(&mut harness).work.document.name, "mine.csv");
 }
 
 #[test]
 fn a_mask_set_in_a_lesson_is_not_taken_for_one_set_after_it() {
     let mut harness = worked_in();
-    order(&mut harness, Command::ShowStep(0, 0));
-    order(&mut harness, Command::Mask { rows: vec![1], masked: true });
+    order(&mut harness, Action::ShowStep(0, 0));
+    order(&mut harness, Action::Mask { rows: vec![1], masked: true });
     let in_lesson = explorer(&mut harness).work.document.generation;
-    order(&mut harness, Command::CloseLesson);
-    order(&mut harness, Command::Mask { rows: vec![5], masked: true });
+    order(&mut harness, Action::CloseLesson);
+    order(&mut harness, Action::Mask { rows: vec![5], masked: true });
     assert_ne!(explorer(&mut harness).work.document.generation, in_lesson);
 }
 
@@ -365,7 +365,7 @@ fn a_lesson_begins_with_the_defaults_whatever_was_set() {
     let settings = &mut explorer(&mut harness).work.settings;
     (settings.refit_live, settings.show_limit, settings.parameters.sigma) = (true, false, 2.0);
     harness.run();
-    order(&mut harness, Command::ShowStep(0, 0));
+    order(&mut harness, Action::ShowStep(0, 0));
     let settings = &explorer(&mut harness).work.settings;
     assert_eq!((settings.refit_live, settings.show_limit, settings.parameters.sigma), (false, true, Parameters::default().sigma));
     assert!(explorer(&mut harness).work.shown_fit.is_none(), "no curve of a fit among those of the lesson");
@@ -386,12 +386,12 @@ fn a_step_states_the_ends_of_a_slider() {
     let own = Parameter::K.range();
     let own = (Some(*own.start()), Some(*own.end()));
     assert_eq!(reach(&mut harness), own);
-    order(&mut harness, Command::ShowStep(last, 0));
+    order(&mut harness, Action::ShowStep(last, 0));
     assert_eq!(reach(&mut harness), (Some(1.0), Some(3.0)));
-    order(&mut harness, Command::ShowStep(last, 1));
+    order(&mut harness, Action::ShowStep(last, 1));
     assert_eq!(reach(&mut harness), own);
-    order(&mut harness, Command::ShowStep(last, 0));
-    order(&mut harness, Command::CloseLesson);
+    order(&mut harness, Action::ShowStep(last, 0));
+    order(&mut harness, Action::CloseLesson);
     assert_eq!(reach(&mut harness), own);
 }
 
@@ -406,10 +406,10 @@ fn foreign(folder: &std::path::Path) -> std::path::PathBuf {
 fn no_lesson_begins_under_a_question() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::OpenMeasurement(foreign(folder.path())));
+    explorer(&mut harness).actions.push(Action::OpenMeasurement(foreign(folder.path())));
     wait(&mut harness);
     assert!(explorer(&mut harness).import.is_some());
-    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
     wait(&mut harness);
     let state = explorer(&mut harness);
     assert!(state.lessons.open.is_none() && state.import.is_some());
@@ -429,7 +429,7 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     wait(&mut harness);
     // The lesson is asked for in the very frame in which the answer comes.
     let request = FileRequest::Export(ExportKind::Session, String::new());
-    explorer(&mut harness).commands.push(Command::ShowStep(0, 0));
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
     dialog_answered(explorer(&mut harness), DialogAnswer { request, reply: Ok(Some(path.clone())) });
     wait(&mut harness);
     let text = std::fs::read_to_string(&path).expect("a file");

@@ -2,9 +2,9 @@
 
 use crate::app::plots::Range;
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n::Language;
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::workspace::Workspace;
 use egui::accesskit::Role;
@@ -59,18 +59,18 @@ fn a_series_is_masked_as_a_whole_and_back() {
 #[test]
 fn masks_survive_fits_and_are_undone() {
     let mut harness = table();
-    explorer(&mut harness).commands.push(Command::Mask { rows: vec![0, 5, 7], masked: true });
+    explorer(&mut harness).actions.push(Action::Mask { rows: vec![0, 5, 7], masked: true });
     harness.run();
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert_eq!(masked(&mut harness), [0, 5, 7]);
     assert_eq!(explorer(&mut harness).work.shown_fit.as_ref().expect("a fit").problem.len(), 24);
     for expected in [vec![0, 5, 7], vec![]] {
-        explorer(&mut harness).commands.push(Command::Undo);
+        explorer(&mut harness).actions.push(Action::Undo);
         harness.run();
         assert_eq!(masked(&mut harness), expected);
     }
-    explorer(&mut harness).commands.push(Command::Redo);
+    explorer(&mut harness).actions.push(Action::Redo);
     harness.run();
     assert_eq!(masked(&mut harness), [0, 5, 7]);
 }
@@ -78,10 +78,10 @@ fn masks_survive_fits_and_are_undone() {
 #[test]
 fn a_measurement_with_everything_masked_is_no_disaster() {
     let mut harness = table();
-    explorer(&mut harness).commands.push(Command::Mask { rows: (0..27).collect(), masked: true });
+    explorer(&mut harness).actions.push(Action::Mask { rows: (0..27).collect(), masked: true });
     harness.run();
     assert_eq!(explorer(&mut harness).derived.delta_e(), None);
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let report = &explorer(&mut harness).work.shown_fit.as_ref().expect("an answer").report;
     assert_eq!(report.stop_reason, pbrdf::fit::StopReason::NoData);
@@ -93,7 +93,7 @@ fn masks_are_saved_and_read_back() {
     let path = folder.path().join("masked.csv");
     std::fs::write(&path, "what was there before").expect("a writable folder");
     let mut harness = table();
-    explorer(&mut harness).commands.extend([Command::Mask { rows: vec![1, 26], masked: true }, Command::SaveMeasurement(path.clone())]);
+    explorer(&mut harness).actions.extend([Action::Mask { rows: vec![1, 26], masked: true }, Action::SaveMeasurement(path.clone())]);
     wait(&mut harness);
     let text = std::fs::read(&path).expect("a file");
     let read = pbrdf::measurement::Measurement::read(text.as_slice()).expect("a measurement");
@@ -103,7 +103,7 @@ fn masks_are_saved_and_read_back() {
     assert_eq!(read.rows.iter().filter(|row| row.masked).count(), 2);
     assert!(explorer.notices.text().is_some_and(|notice| notice.contains("saved")));
 
-    explorer.commands.push(Command::SaveMeasurement(folder.path().join("no such folder").join("x.csv")));
+    explorer.actions.push(Action::SaveMeasurement(folder.path().join("no such folder").join("x.csv")));
     wait(&mut harness);
     assert!(self::explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("cannot be written")));
 }
@@ -194,14 +194,14 @@ fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brd
 fn points_of_a_hidden_series_cannot_be_clicked() {
     let mut harness = harness();
     // Its names are those of the lobes, too.
-    explorer(&mut harness).commands.extend([Command::OpenExample(2), Command::ClosePane(PaneId::Dolp)]);
+    explorer(&mut harness).actions.extend([Action::OpenExample(2), Action::ClosePane(PaneId::Dolp)]);
     wait(&mut harness);
     let series = explorer(&mut harness).work.document.series[0].clone();
     let mark = &series.brdf[series.brdf.len() / 2];
     let at = place_in_lobes(&mut harness, mark.theta_r, mark.quantity.value);
     let is_masked = |harness: &mut Harness<'static, Option<App>>| {
         let rows = masked(harness);
-        explorer(harness).commands.push(Command::Mask { rows: rows.clone(), masked: false });
+        explorer(harness).actions.push(Action::Mask { rows: rows.clone(), masked: false });
         harness.run();
         rows.iter().any(|row| series.rows.contains(row))
     };
@@ -222,7 +222,7 @@ fn a_lobe_that_is_hidden_stays_so_in_another_language() {
     harness.get_by_role_and_label(Role::CheckBox, "total").click();
     harness.run();
     assert!(!is_shown(&harness, "total") && is_shown(&harness, "specular"));
-    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
     harness.run_steps(3);
     assert!(!is_shown(&harness, "总和") && is_shown(&harness, "镜面"));
 }
@@ -230,10 +230,10 @@ fn a_lobe_that_is_hidden_stays_so_in_another_language() {
 #[test]
 fn a_mask_changed_after_a_fit_is_told() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert!(harness.query_by_label("The mask has changed since this fit.").is_none());
-    explorer(&mut harness).commands.push(Command::Mask { rows: vec![4], masked: true });
+    explorer(&mut harness).actions.push(Action::Mask { rows: vec![4], masked: true });
     harness.run();
     harness.get_by_label("The mask has changed since this fit.");
 }

@@ -1,7 +1,6 @@
 //! Messages of the core and the program in both languages.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::fit_record::FitRecordError;
 use crate::app::storage::session::{SavedFitError, Session};
@@ -11,6 +10,7 @@ use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, MISSED, translated};
 use crate::app::text::messages::{Localized, advised, short_method};
+use crate::app::views::action::Action;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
@@ -455,13 +455,13 @@ fn texts_of(html: &str) -> Vec<String> {
 #[test]
 fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
     let folder = tempfile::tempdir().expect("a folder");
     for (example, model) in [(0, "hyde"), (1, "cauchy"), (1, "three-component")] {
-        explorer(&mut harness).commands.push(Command::OpenExample(example));
+        explorer(&mut harness).actions.push(Action::OpenExample(example));
         wait(&mut harness);
         explorer(&mut harness).work.settings.model = Preset::from_key(model).expect("a model").model;
-        explorer(&mut harness).commands.push(Command::StartFit);
+        explorer(&mut harness).actions.push(Action::StartFit);
         wait(&mut harness);
         let path = folder.path().join("report.html");
         let mut left = Vec::new();

@@ -1,8 +1,8 @@
 //! MetalSelection metals: sources side by side, sliders that take their n and k, and finishes.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::MetalSelection;
 use egui_kittest::Harness;
@@ -13,7 +13,7 @@ use pbrdf::optics;
 fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).work.settings.tabulated = MetalSelection { metal: metal.to_owned(), wavelength_nm, ..MetalSelection::default() };
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Metals));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Metals));
     wait(&mut harness);
     harness
 }
@@ -37,7 +37,7 @@ fn a_source_sets_n_and_k_and_undo_brings_them_back() {
     let after = explorer(&mut harness).work.settings.parameters;
     assert_eq!(index(&after), johnson(650.0));
     assert_eq!(Parameters { n: before.n, k: before.k, ..after }, before, "the others stay");
-    explorer(&mut harness).commands.push(Command::Undo);
+    explorer(&mut harness).actions.push(Action::Undo);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.settings.parameters, before);
 }

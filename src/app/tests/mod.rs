@@ -80,7 +80,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Whether no job is on its way.
 fn is_at_rest(explorer: &mut App) -> bool {
-    !explorer.jobs.is_busy() && explorer.commands.is_empty()
+    !explorer.jobs.is_busy() && explorer.actions.is_empty()
 }
 
 /// Draws frames until no job is on its way and nothing moves: a frame of those may begin a job.

@@ -1,8 +1,8 @@
 //! The Mueller matrix: the numbers at the chosen θr, and how it is chosen.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -12,7 +12,7 @@ use pbrdf::optics::{Geometry, Mueller};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Mueller));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Mueller));
     wait(&mut harness);
     harness
 }

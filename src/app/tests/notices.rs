@@ -2,9 +2,9 @@
 
 use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui::accesskit::{Live, Role};
 use egui::{Key, Modifiers, Rect};
@@ -112,20 +112,20 @@ fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
     let mut harness = harness();
     explorer(&mut harness).jobs.files.ask = |_| Err(DialogUnavailable);
     for (command, place) in [
-        (Command::ChooseMeasurement, "under “Type a path to open”"),
-        (Command::ChooseSession, "under “Type a path to open”"),
-        (Command::ChooseSave, "under “Save to a path”"),
-        (Command::SaveSession, "under “Save to a path”"),
-        (Command::ChooseExport(ExportKind::Plot(PaneId::Dolp)), "File › Export"),
+        (Action::ChooseMeasurement, "under “Type a path to open”"),
+        (Action::ChooseSession, "under “Type a path to open”"),
+        (Action::ChooseSave, "under “Save to a path”"),
+        (Action::SaveSession, "under “Save to a path”"),
+        (Action::ChooseExport(ExportKind::Plot(PaneId::Dolp)), "File › Export"),
     ] {
-        explorer(&mut harness).commands.push(command);
+        explorer(&mut harness).actions.push(command);
         wait(&mut harness);
         let sentence = explorer(&mut harness).notices.take().expect("a sentence");
         assert!(sentence.contains("xdg-desktop-portal") && sentence.contains("zenity") && sentence.contains(place), "{sentence}");
     }
     // A dialog that was cancelled needs no word.
     explorer(&mut harness).jobs.files.ask = |_| Ok(None);
-    explorer(&mut harness).commands.push(Command::ChooseMeasurement);
+    explorer(&mut harness).actions.push(Action::ChooseMeasurement);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).notices.text(), None);
     // The boxes are there.

@@ -1,8 +1,8 @@
 //! Bounds, choices and the history of fits.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::settings::{Settings, SettingsFile};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -11,7 +11,7 @@ use pbrdf::fit::{Loss, Starts, Weights};
 use pbrdf::model::{DolpFormula, Parameter, Parameters};
 
 fn fit(harness: &mut Harness<'static, Option<App>>) {
-    explorer(harness).commands.push(Command::StartFit);
+    explorer(harness).actions.push(Action::StartFit);
     wait(harness);
 }
 
@@ -71,7 +71,7 @@ fn bounds_hold_while_refitting_and_comparing() {
     wait(&mut harness);
     let k = explorer(&mut harness).work.settings.parameters.k;
     assert!((2.0..=2.5).contains(&k), "{k}");
-    explorer(&mut harness).commands.push(Command::CompareModels);
+    explorer(&mut harness).actions.push(Action::CompareModels);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     assert!(!explorer.work.model_comparison.is_empty());
@@ -126,7 +126,7 @@ fn weights_without_standard_deviations_are_a_sentence() {
     measurement.rows[3].dolp = measurement.rows[3].dolp.map(|dolp| pbrdf::measurement::Quantity { sigma: None, ..dolp });
     explorer.take("bare".to_owned(), measurement);
     explorer.work.settings.choices.weights = Weights::Sigma;
-    explorer.commands.push(Command::StartFit);
+    explorer.actions.push(Action::StartFit);
     harness.run();
     let notice = self::explorer(&mut harness).notices.text().expect("a sentence");
     assert!(notice.contains("The fit cannot begin") && notice.contains("dolp_sigma"), "{notice}");

@@ -2,8 +2,8 @@
 
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, harness_of, wait};
+use crate::app::views::action::Action;
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
@@ -16,19 +16,19 @@ fn every_pane_opens_alone_and_beside_the_others() {
     for pane in PaneId::ALL.iter().copied() {
         let mut harness = harness();
         for other in PaneId::ALL.iter().filter(|other| **other != pane) {
-            explorer(&mut harness).commands.push(Command::ClosePane(*other));
+            explorer(&mut harness).actions.push(Action::ClosePane(*other));
         }
         wait(&mut harness);
         if !explorer(&mut harness).panes.is_on_screen(pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::TogglePane(pane));
         }
         wait(&mut harness);
         assert_eq!(explorer(&mut harness).panes.on_screen(), [pane]);
         harness.get_by_label(spec(pane).title);
-        explorer(&mut harness).commands.push(Command::ResetLayout);
+        explorer(&mut harness).actions.push(Action::ResetLayout);
         wait(&mut harness);
         if !explorer(&mut harness).panes.is_on_screen(pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::TogglePane(pane));
             wait(&mut harness);
         }
         assert!(explorer(&mut harness).panes.is_on_screen(pane), "{}", spec(pane).title);
@@ -40,7 +40,7 @@ fn every_show_menu_opens() {
     for pane in PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_options) {
         let mut harness = harness();
         if !explorer(&mut harness).panes.is_on_screen(pane) {
-            explorer(&mut harness).commands.push(Command::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::TogglePane(pane));
             wait(&mut harness);
         }
         harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
@@ -52,7 +52,7 @@ fn every_show_menu_opens() {
 fn what_is_not_on_screen_is_not_computed() {
     let mut harness = harness();
     for pane in PaneId::ALL.iter().copied() {
-        explorer(&mut harness).commands.push(Command::ClosePane(pane));
+        explorer(&mut harness).actions.push(Action::ClosePane(pane));
     }
     harness.run();
     let before = explorer(&mut harness).derived.curves.key().cloned();
@@ -60,7 +60,7 @@ fn what_is_not_on_screen_is_not_computed() {
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Lobes));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Lobes));
     harness.run();
     assert_ne!(explorer(&mut harness).derived.curves.key().cloned(), before);
 }
@@ -68,7 +68,7 @@ fn what_is_not_on_screen_is_not_computed() {
 #[test]
 fn a_closed_pane_stays_closed_after_a_restart() {
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::ClosePane(PaneId::Lobes));
+    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Lobes));
     harness.run();
     let window: WindowSettings = explorer(&mut harness).window.clone();
     let text = serde_json::to_string(&SettingsFile { settings: Settings::default(), window }).expect("settings are JSON");
@@ -80,7 +80,7 @@ fn a_closed_pane_stays_closed_after_a_restart() {
 fn shown(pane: PaneId) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::App>> {
     let mut harness = harness();
     if !explorer(&mut harness).panes.is_on_screen(pane) {
-        explorer(&mut harness).commands.push(Command::TogglePane(pane));
+        explorer(&mut harness).actions.push(Action::TogglePane(pane));
     }
     wait(&mut harness);
     harness
@@ -151,7 +151,7 @@ fn views_draw_whatever_the_sliders_hold() {
 fn the_way_of_a_fit_is_drawn_after_it() {
     let mut harness = shown(PaneId::Convergence);
     harness.get_by_label("There is no fit yet: press Fit, and its way down is drawn here.");
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert!(harness.query_by_label("There is no fit yet: press Fit, and its way down is drawn here.").is_none());
 }
@@ -160,9 +160,9 @@ fn the_way_of_a_fit_is_drawn_after_it() {
 fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
     let mut harness = shown(PaneId::Landscape);
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen().expect("axes");
-    explorer(&mut harness).commands.push(Command::ClosePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Landscape));
     wait(&mut harness);
-    explorer(&mut harness).commands.push(Command::TogglePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen(), Some(before));
 }

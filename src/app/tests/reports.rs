@@ -1,11 +1,11 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult, FinishedBenchmark};
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -55,7 +55,7 @@ fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
     assert_eq!((settings.model, settings.parameters), (model, parameters));
     assert_eq!((settings.theta_i, settings.dphi), (geometry.theta_i().0, geometry.dphi().0));
     assert_ne!(*settings, before);
-    explorer(&mut harness).commands.push(Command::Undo);
+    explorer(&mut harness).actions.push(Action::Undo);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.settings, before);
 }
@@ -67,7 +67,7 @@ fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
     let rows = &explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows;
     let index = rows.iter().position(|row| row.brdf_error.is_none()).expect("a fit");
     let Setting::Fit { start, measurement, .. } = rows[index].setting.clone() else { panic!("a fit") };
-    explorer(&mut harness).commands.push(Command::UseCase(index));
+    explorer(&mut harness).actions.push(Action::UseCase(index));
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.work.settings.parameters, start);
@@ -80,7 +80,7 @@ fn every_case_of_the_gallery_can_be_drawn() {
     let mut harness = with_report(BenchmarkId::Stability, 0);
     let count = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows.len();
     for index in 0..count {
-        explorer(&mut harness).commands.push(Command::UseCase(index));
+        explorer(&mut harness).actions.push(Action::UseCase(index));
         harness.run();
         // Some stand outside the sliders' ranges and none outside the domain.
         assert_eq!(explorer(&mut harness).derived.fault(), None);
@@ -109,7 +109,7 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
 fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     let mut harness = harness();
     let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).jobs.benchmarks.progress().map(|(subject, _)| subject);
-    explorer(&mut harness).commands.push(Command::MakeReport(BenchmarkId::Cost));
+    explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::Cost));
     explorer(&mut harness).panes.show(PaneId::Stability);
     harness.step();
     harness.step();
@@ -120,7 +120,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     // Side by side they would disturb each other.
     assert_eq!(made(&mut harness), Some(BenchmarkId::Cost));
     harness.get_by_label_contains("Comes after the report that is being made");
-    explorer(&mut harness).commands.push(Command::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelReport);
     let begun = Instant::now();
     while made(&mut harness) != Some(BenchmarkId::Stability) {
         assert!(begun.elapsed() < PATIENCE, "the second report does not begin");
@@ -128,7 +128,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     }
     // Another one behind it is called off.
     explorer(&mut harness).panes.show(PaneId::ErrorVsTime);
-    explorer(&mut harness).commands.push(Command::MakeReport(BenchmarkId::ErrorVsTime));
+    explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::ErrorVsTime));
     for _ in 0..3 {
         harness.step();
     }
@@ -136,7 +136,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     for _ in 0..3 {
         harness.step();
     }
-    explorer(&mut harness).commands.push(Command::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelReport);
     wait(&mut harness);
     let reports = &explorer(&mut harness).reports;
     assert!(reports.cost.is_some() && reports.stability.is_some() && reports.error_vs_time.is_none());
@@ -179,7 +179,7 @@ fn the_figure_in_front_is_the_one_that_is_exported() {
     harness.run();
     assert_ne!(title(&mut harness), Some(first));
     let path = folder.path().join("profile.svg");
-    explorer(&mut harness).commands.push(Command::Export(ExportKind::Plot(pane_of(BenchmarkId::ErrorVsTime)), path.clone()));
+    explorer(&mut harness).actions.push(Action::Export(ExportKind::Plot(pane_of(BenchmarkId::ErrorVsTime)), path.clone()));
     wait(&mut harness);
     assert!(path.exists());
 }

@@ -1,8 +1,8 @@
 //! Profile and bootstrap of a finished fit.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Parameter;
@@ -12,7 +12,7 @@ fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     let locked = explorer(&mut harness).work.settings.model.parameters().without(Parameter::Kd).without(Parameter::K);
     explorer(&mut harness).work.settings.locked = locked;
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     harness.get_by_label("Profile and bootstrap").click();
     harness.run();
@@ -36,7 +36,7 @@ fn a_profile_is_scanned_and_its_interval_told() {
     assert!(profile.points.iter().all(|point| point.y >= -1e-9 * fit.report.statistics.rss));
     harness.get_by_label_contains("(one standard error)");
     // Another fit has another profile.
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert!(explorer(&mut harness).work.diagnostics.profile.is_none());
 }
@@ -70,7 +70,7 @@ fn a_scan_is_stopped_and_one_of_another_fit_is_dropped() {
     harness.step();
     wait(&mut harness);
     assert!(explorer(&mut harness).work.diagnostics.scatter.is_some(), "what was there is kept");
-    explorer(&mut harness).commands.push(Command::Bootstrap);
+    explorer(&mut harness).actions.push(Action::Bootstrap);
     harness.step();
     let rows = (*explorer(&mut harness).work.document.measurement).clone();
     explorer(&mut harness).take("another".to_owned(), rows);

@@ -1,13 +1,13 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::session_file::save_session;
 use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -17,18 +17,18 @@ use std::path::{Path, PathBuf};
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
 
-fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
 /// A window that somebody worked in.
 fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    order(&mut harness, Command::Mask { rows: vec![3, 5], masked: true });
+    order(&mut harness, Action::Mask { rows: vec![3, 5], masked: true });
     explorer(&mut harness).work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
-    order(&mut harness, Command::StartFit);
-    order(&mut harness, Command::ClosePane(PaneId::Lobes));
+    order(&mut harness, Action::StartFit);
+    order(&mut harness, Action::ClosePane(PaneId::Lobes));
     explorer(&mut harness).work.settings.theta_i = 35.5;
     explorer(&mut harness).work.settings.parameters.k = 4.25;
     harness.run();
@@ -37,7 +37,7 @@ fn worked_in() -> Harness<'static, Option<App>> {
 
 fn saved(harness: &mut Harness<'static, Option<App>>, folder: &Path) -> PathBuf {
     let path = folder.join("work.pbrdf.json");
-    order(harness, Command::Export(ExportKind::Session, path.clone()));
+    order(harness, Action::Export(ExportKind::Session, path.clone()));
     path
 }
 
@@ -47,7 +47,7 @@ fn a_session_opens_with_everything_that_was_in_it() {
     let mut before = worked_in();
     let path = saved(&mut before, folder.path());
     let mut after = harness();
-    order(&mut after, Command::OpenSession(path.clone()));
+    order(&mut after, Action::OpenSession(path.clone()));
     let (before, after) = (explorer(&mut before), explorer(&mut after));
     assert_eq!(after.notices.text(), None);
     assert_eq!(after.work.settings, before.work.settings);
@@ -68,14 +68,14 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut before = harness();
     // One with an automatic scale of its loss, and an earlier one that is shown.
-    order(&mut before, Command::StartFit);
+    order(&mut before, Action::StartFit);
     explorer(&mut before).work.settings.choices.loss = Loss::Huber;
-    order(&mut before, Command::StartFit);
-    order(&mut before, Command::Mask { rows: vec![4], masked: true });
-    order(&mut before, Command::ReturnTo(1));
+    order(&mut before, Action::StartFit);
+    order(&mut before, Action::Mask { rows: vec![4], masked: true });
+    order(&mut before, Action::ReturnTo(1));
     let path = saved(&mut before, folder.path());
     let mut after = harness();
-    order(&mut after, Command::OpenSession(path));
+    order(&mut after, Action::OpenSession(path));
     for harness in [&mut before, &mut after] {
         for pane in [PaneId::Landscape, PaneId::Convergence] {
             explorer(harness).panes.show(pane);
@@ -121,12 +121,12 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     let path = folder.path().join("old.pbrdf.json");
     std::fs::write(&path, old.to_string()).expect("a file");
     let mut other = harness();
-    order(&mut other, Command::OpenSession(path.clone()));
+    order(&mut other, Action::OpenSession(path.clone()));
     assert!(explorer(&mut other).work.shown_fit.is_some());
     assert!(other.query_by_label_contains("not known: from a session of an older version").is_some());
     // Saved again with another mask, and so as some files are: with an account that tells of the mask alone.
-    order(&mut other, Command::Mask { rows: vec![8], masked: true });
-    order(&mut other, Command::SaveSession);
+    order(&mut other, Action::Mask { rows: vec![8], masked: true });
+    order(&mut other, Action::SaveSession);
     let again: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("the session")).expect("JSON");
     assert!(again["fits"][0]["account"].is_null());
     let mut emptied = again.clone();
@@ -136,7 +136,7 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     for text in [again, emptied] {
         std::fs::write(&path, text.to_string()).expect("a file");
         let mut third = harness();
-        order(&mut third, Command::OpenSession(path.clone()));
+        order(&mut third, Action::OpenSession(path.clone()));
         let third = explorer(&mut third);
         assert_eq!(third.notices.text(), None);
         assert_eq!(third.work.shown_fit.as_ref().expect("the fit").mask[..], [3, 5]);
@@ -154,16 +154,16 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
 fn a_session_whose_sliders_are_no_surface_opens_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = harness();
-    explorer(&mut source).commands.push(Command::StartFit);
+    explorer(&mut source).actions.push(Action::StartFit);
     source.step();
     // While the fit runs: they are what "back" leads to.
     let parameters = &mut explorer(&mut source).work.settings.parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     wait(&mut source);
-    order(&mut source, Command::Back);
+    order(&mut source, Action::Back);
     let path = saved(&mut source, folder.path());
     let mut other = harness();
-    order(&mut other, Command::OpenMeasurement(path));
+    order(&mut other, Action::OpenMeasurement(path));
     let explorer = explorer(&mut other);
     assert_eq!(explorer.notices.text(), None);
     assert_eq!((explorer.work.settings.parameters.n, explorer.work.settings.parameters.k), (0.0, 0.0));
@@ -176,7 +176,7 @@ fn saving_again_goes_into_the_same_file() {
     let mut harness = worked_in();
     let path = saved(&mut harness, folder.path());
     explorer(&mut harness).work.settings.parameters.n = 1.875;
-    order(&mut harness, Command::SaveSession);
+    order(&mut harness, Action::SaveSession);
     let text = std::fs::read_to_string(&path).expect("the session");
     assert_eq!(Session::read(&text).expect("a session").settings.parameters.n, 1.875);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing else is left behind");
@@ -227,7 +227,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         assert_ne!(text, good, "{expected}: the damage is there");
         let path = folder.path().join("bad.pbrdf.json");
         std::fs::write(&path, &text).expect("a writable folder");
-        order(&mut harness, Command::OpenMeasurement(path));
+        order(&mut harness, Action::OpenMeasurement(path));
         let explorer = explorer(&mut harness);
         let notice = explorer.notices.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");
@@ -240,8 +240,8 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
     explorer(&mut source).work.settings.choices.loss = Loss::Huber;
-    order(&mut source, Command::StartFit);
-    order(&mut source, Command::ReturnTo(1));
+    order(&mut source, Action::StartFit);
+    order(&mut source, Action::ReturnTo(1));
     let good: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
     assert_eq!(good["shown"], 1);
@@ -267,7 +267,7 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         *bad.pointer_mut(place).expect("the place") = serde_json::from_str(value).expect("JSON");
         std::fs::write(&path, bad.to_string()).expect("a file");
         let mut other = harness();
-        order(&mut other, Command::OpenSession(path.clone()));
+        order(&mut other, Action::OpenSession(path.clone()));
         let other = explorer(&mut other);
         let notice = other.notices.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json is opened without") && notice.contains(expected), "{place} {value}: {notice}");
@@ -283,7 +283,7 @@ fn files_that_have_eq_17_among_the_choices_of_the_fit_keep_its_meaning() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
     explorer(&mut source).work.settings.model.dolp_formula = DolpFormula::AsPrinted;
-    order(&mut source, Command::StartFit);
+    order(&mut source, Action::StartFit);
     let mut session: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
     for (place, formula) in [("/settings", "printed"), ("/fits/0", "printed"), ("/fits/1", "consistent")] {
@@ -294,7 +294,7 @@ fn files_that_have_eq_17_among_the_choices_of_the_fit_keep_its_meaning() {
     let path = folder.path().join("earlier.pbrdf.json");
     std::fs::write(&path, session.to_string()).expect("a file");
     let mut other = harness();
-    order(&mut other, Command::OpenSession(path));
+    order(&mut other, Action::OpenSession(path));
     assert_eq!(explorer(&mut other).work.settings, explorer(&mut source).work.settings);
     let formulas: Vec<DolpFormula> = explorer(&mut other).work.fit_history.iter().map(|fit| fit.problem.model().dolp_formula).collect();
     assert_eq!(formulas, [DolpFormula::AsPrinted, DolpFormula::Consistent]);
@@ -337,7 +337,7 @@ fn a_full_disk_leaves_the_old_session() {
     if Path::new("/dev/full").exists() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }
-    order(&mut harness, Command::Export(ExportKind::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
+    order(&mut harness, Action::Export(ExportKind::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
     assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("cannot be written"));
 }
 

@@ -4,12 +4,12 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::shell::job_results::benchmark_finished;
 use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use crate::figure::{Figure, Image};
 use egui_kittest::Harness;
@@ -96,18 +96,18 @@ fn compare(folder: &Path, name: &str, figure: &Figure, update: bool) -> Option<S
     (!update).then(|| format!("{name}: {was}; the new one is {}, UPDATE_SNAPSHOTS=1 puts it in the place of the old", path.display()))
 }
 
-fn order(harness: &mut Harness<'static, Option<App>>, command: Command) {
-    explorer(harness).commands.push(command);
+fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
+    explorer(harness).actions.push(command);
     wait(harness);
 }
 
 /// The example with noise after a fit that its points determine.
 fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    order(&mut harness, Command::OpenExample(1));
+    order(&mut harness, Action::OpenExample(1));
     let free = [Parameter::N, Parameter::K, Parameter::Kd];
     explorer(&mut harness).work.settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
-    order(&mut harness, Command::StartFit);
+    order(&mut harness, Action::StartFit);
     harness
 }
 
@@ -129,7 +129,7 @@ fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)>
     }
     let mut shown = |pane: PaneId| {
         if !explorer(harness).panes.is_on_screen(pane) {
-            order(harness, Command::TogglePane(pane));
+            order(harness, Action::TogglePane(pane));
         }
         wait(harness);
         (pane, explorer(harness).figure(pane).expect("a plot"))
@@ -148,7 +148,7 @@ fn every_exported_plot_looks_as_it_did() {
 #[test]
 fn every_exported_plot_is_in_chinese_where_the_window_is() {
     let mut harness = fitted();
-    order(&mut harness, Command::SetLanguage(Language::Chinese));
+    order(&mut harness, Action::SetLanguage(Language::Chinese));
     let mut left = Vec::new();
     for (pane, figure) in figures(&mut harness) {
         let svg = figure.svg();

@@ -1,9 +1,9 @@
 //! Paths typed in the menu File, and the question before a file is replaced.
 
 use crate::app::shell::app::App;
-use crate::app::shell::commands::Command;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{explorer, harness, wait};
+use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui::Key;
 use egui::accesskit::Role;
@@ -71,7 +71,7 @@ fn enter_and_escape_keep_the_file_that_is_there() {
     std::fs::write(&path, "precious").expect("a writable folder");
     let mut harness = harness();
     for key in [Key::Enter, Key::Escape] {
-        explorer(&mut harness).commands.push(Command::SaveNew(path.clone()));
+        explorer(&mut harness).actions.push(Action::SaveNew(path.clone()));
         wait(&mut harness);
         assert!(explorer(&mut harness).replacing.is_some());
         harness.key_press(key);
@@ -91,14 +91,14 @@ fn a_new_file_and_one_that_the_desktop_asked_about_are_written_without_a_questio
     assert!(text(&new).contains("theta_i") && explorer(&mut harness).typed.save.is_empty());
     let chosen = folder.path().join("chosen.csv");
     std::fs::write(&chosen, "old").expect("a writable folder");
-    explorer(&mut harness).commands.push(Command::SaveMeasurement(chosen.clone()));
+    explorer(&mut harness).actions.push(Action::SaveMeasurement(chosen.clone()));
     wait(&mut harness);
     assert!(text(&chosen).contains("theta_i"));
     // A session goes on in its own file.
     let session = folder.path().join("s.pbrdf.json");
-    for command in [Command::Export(ExportKind::Session, session.clone()), Command::SaveSession] {
+    for command in [Action::Export(ExportKind::Session, session.clone()), Action::SaveSession] {
         std::fs::write(&session, "old").expect("a writable folder");
-        explorer(&mut harness).commands.push(command);
+        explorer(&mut harness).actions.push(command);
         wait(&mut harness);
         assert!(explorer(&mut harness).replacing.is_none() && text(&session).contains("pbrdf-session"));
     }
@@ -127,7 +127,7 @@ fn a_typed_export_asks_too_and_keeps_its_path_until_it_has_served() {
     assert_eq!(explorer(&mut harness).typed.export, "");
     // Keys ask the desktop, whatever stands in the box.
     explorer(&mut harness).typed.export = "/somewhere/else.html".to_owned();
-    explorer(&mut harness).commands.push(Command::ChooseExport(ExportKind::Curves));
+    explorer(&mut harness).actions.push(Action::ChooseExport(ExportKind::Curves));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).notices.take().expect("a sentence").lines().count(), 1);
     assert_eq!(explorer(&mut harness).typed.export, "/somewhere/else.html");
@@ -154,7 +154,7 @@ fn a_path_that_could_not_be_opened_stays_to_be_mended() {
 fn a_path_that_ends_like_another_kind_of_file_is_refused_before_anything_is_asked_or_written() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let mut harness = harness();
-    explorer(&mut harness).commands.push(Command::StartFit);
+    explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let all = [
         (ExportKind::Curves, "plot.svg", ".csv"),
@@ -171,8 +171,8 @@ fn a_path_that_ends_like_another_kind_of_file_is_refused_before_anything_is_aske
             } else {
                 std::fs::remove_file(&path).expect("a file of our own");
             }
-            for command in [Command::ExportNew(what, path.clone()), Command::Export(what, path.clone())] {
-                explorer(&mut harness).commands.push(command);
+            for command in [Action::ExportNew(what, path.clone()), Action::Export(what, path.clone())] {
+                explorer(&mut harness).actions.push(command);
                 wait(&mut harness);
                 let said = explorer(&mut harness).notices.take().expect("a sentence");
                 assert!(said.contains(&format!("expected a name that ends in {ending}")), "{said}");

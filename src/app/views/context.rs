@@ -1,8 +1,8 @@
 //! What a pane is, and what it gets to see of the window.
 
-use crate::app::shell::benchmarks::Benchmarks;
-use crate::app::shell::commands::Command;
 use crate::app::tasks::jobs::Jobs;
+use crate::app::views::action::Action;
+use crate::app::views::benchmarks::Benchmarks;
 use crate::app::views::derived::Derived;
 use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::document::Document;
@@ -29,7 +29,7 @@ pub struct Cx<'a> {
     /// The progress of jobs; commands start and cancel them.
     pub jobs: &'a Jobs,
     pub benchmarks: &'a mut Benchmarks,
-    pub actions: &'a mut Vec<Command>,
+    pub actions: &'a mut Vec<Action>,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub interacting: bool,
 }

@@ -1,10 +1,10 @@
 //! The measurement row by row, with what the model gives there; masks by row and by series.
 
 use crate::app::jobs::memo::Memo;
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary::mask_help;
 use crate::app::text::i18n::translated;
 use crate::app::text::numbers::{short, significant};
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::settings::Settings;
@@ -125,7 +125,7 @@ fn metadata_ui(document: &Document, ui: &mut Ui) {
     });
 }
 
-fn series_ui(document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn series_ui(document: &Document, commands: &mut Vec<Action>, ui: &mut Ui) {
     let title = tr!("Series ({})", document.series.len());
     CollapsingHeader::new(title).id_salt("series").show(ui, |ui| {
         let height = ui.spacing().interact_size.y;
@@ -138,7 +138,7 @@ fn series_ui(document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
     });
 }
 
-fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut Vec<Action>, ui: &mut Ui) {
     let rows = &document.measurement.rows;
     let masked = series.rows.iter().filter(|&&row| rows[row].masked).count();
     let all = masked == series.rows.len();
@@ -146,7 +146,7 @@ fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut V
     let text = tr!("mask {0}: {1} of {2} rows masked", series.name(), masked, series.rows.len());
     let response = ui.add(Checkbox::new(&mut wanted, text).indeterminate(masked > 0 && !all));
     if response.on_hover_text(tr!("Leave this whole series out of every statistic, without deleting it")).changed() {
-        commands.push(Command::Mask { rows: series.rows.clone(), masked: !all });
+        commands.push(Action::Mask { rows: series.rows.clone(), masked: !all });
     }
 }
 
@@ -172,7 +172,7 @@ const BRDF: [Heading; 4] = [
 ];
 
 /// The rows; returns those that are seen.
-fn rows_ui(document: &Document, view: &DataView, commands: &mut Vec<Command>, ui: &mut Ui) -> Range<usize> {
+fn rows_ui(document: &Document, view: &DataView, commands: &mut Vec<Action>, ui: &mut Ui) -> Range<usize> {
     let measurement = &document.measurement;
     let (has_dolp, has_brdf) = (measurement.has_dolp(), measurement.has_brdf());
     let headings = ANGLES.iter().chain(DOLP.iter().filter(|_| has_dolp)).chain(BRDF.iter().filter(|_| has_brdf));
@@ -218,14 +218,14 @@ fn line_ui(
     row: &Row,
     predicted: Option<Predicted>,
     (has_dolp, has_brdf): (bool, bool),
-    commands: &mut Vec<Command>,
+    commands: &mut Vec<Action>,
 ) {
     line.col(|ui| {
         let mut masked = row.masked;
         let response = ui.add(Checkbox::without_text(&mut masked));
         response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, masked, tr!("Mask row {}", index + 1)));
         if response.changed() {
-            commands.push(Command::Mask { rows: vec![index], masked });
+            commands.push(Action::Mask { rows: vec![index], masked });
         }
     });
     let mut cell = |text: String| {

@@ -11,7 +11,7 @@ mod marks;
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
-use crate::app::shell::commands::Command;
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::settings::{LandscapeAxes, Settings};
 use crate::figure::Figure;
@@ -143,7 +143,7 @@ impl View for LandscapeView {
         if let Some(point) = pointed.filter(|_| response.response.clicked())
             && values(point).iter().all(|(parameter, value)| parameter.domain().contains(*value))
         {
-            cx.actions.push(Command::SetParameters(values(point).to_vec()));
+            cx.actions.push(Action::SetParameters(values(point).to_vec()));
         }
         let reading = pointed.map(|point| {
             let [x, y] = values(point).map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));

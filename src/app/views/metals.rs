@@ -4,9 +4,9 @@ use crate::app::jobs::memo::Memo;
 use crate::app::panels::{SliderStep, step_with_arrows};
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice_ceiling, theme};
-use crate::app::shell::commands::Command;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::settings::{MetalSelection, Settings};
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
@@ -166,8 +166,8 @@ impl View for MetalsView {
 }
 
 /// The command that sets n and k.
-fn set(index: RefractiveIndex) -> Command {
-    Command::SetParameters(PARTS.iter().map(|(parameter, part)| (*parameter, part(index))).collect())
+fn set(index: RefractiveIndex) -> Action {
+    Action::SetParameters(PARTS.iter().map(|(parameter, part)| (*parameter, part(index))).collect())
 }
 
 /// Its name, with its symbol where it has one of its own.
@@ -317,7 +317,7 @@ fn finishes_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         for (i, finish) in FINISHES.iter().enumerate() {
             let name = finish.name;
             if ui.button(translated(name)).on_hover_text(values(finish)).clicked() {
-                cx.actions.push(Command::UseFinish(i));
+                cx.actions.push(Action::UseFinish(i));
             }
         }
     });

@@ -2,7 +2,9 @@
 //!
 //! A new pane is a file with a `SPEC` and a [`View`], its name in the list of [`crate::app::work::pane_id`], and its `mod` here.
 
+pub mod action;
 mod audit;
+pub mod benchmarks;
 pub mod confidence_band;
 pub mod context;
 mod convergence;

@@ -2,11 +2,11 @@
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::text::numbers::{short, significant};
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::document::Document;
 use crate::app::work::fit_setup::reason;
@@ -38,11 +38,11 @@ impl View for ModelsView {
             let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
             let help = tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit");
             if compare.on_hover_text(help).clicked() {
-                cx.actions.push(Command::CompareModels);
+                cx.actions.push(Action::CompareModels);
             }
             if let Some(at) = running {
                 if ui.button(tr!("Stop comparing")).clicked() {
-                    cx.actions.push(Command::CancelComparison);
+                    cx.actions.push(Action::CancelComparison);
                 }
                 ui.spinner();
                 running_model_ui(at, ui);
@@ -86,7 +86,7 @@ fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
     .inner
 }
 
-fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Action>, ui: &mut Ui) {
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.statistics.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
@@ -112,7 +112,7 @@ fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &D
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
             let button = Button::selectable(is_current, text).truncate();
             if narrow(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
-                commands.push(Command::UseRung(index));
+                commands.push(Action::UseRung(index));
             }
             match &rung.result {
                 Ok(report) => quality_ui(report, best, ui),

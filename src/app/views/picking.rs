@@ -1,6 +1,6 @@
 //! Clicks on measured points.
 
-use crate::app::shell::commands::Command;
+use crate::app::views::action::Action;
 use crate::app::views::curves::drawn;
 use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
 use egui::Ui;
@@ -20,7 +20,7 @@ pub fn clicked_mask(
     document: &Document,
     marks: impl Fn(usize, &IncidenceSeries) -> &[DataPoint],
     coordinate: impl Fn(&DataPoint) -> Option<f64>,
-) -> Option<Command> {
+) -> Option<Action> {
     let modifiers = ui.input(|input| input.modifiers);
     let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked() && modifiers.command)?;
     let distance = |mark: &DataPoint| {
@@ -31,5 +31,5 @@ pub fn clicked_mask(
     let near = near.filter_map(|(series, mark)| Some((series, mark, distance(mark)?))).filter(|(.., distance)| *distance < NEAR);
     let (series, mark, _) = near.min_by(|a, b| a.2.total_cmp(&b.2))?;
     let rows = if modifiers.shift { series.rows.clone() } else { vec![mark.row] };
-    Some(Command::Mask { rows, masked: !mark.masked })
+    Some(Action::Mask { rows, masked: !mark.masked })
 }

@@ -1,10 +1,10 @@
 //! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
 
-use crate::app::shell::benchmarks::BenchmarkView;
-use crate::app::shell::commands::Command;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized;
+use crate::app::views::action::Action;
+use crate::app::views::benchmarks::BenchmarkView;
 use crate::app::views::context::Cx;
 use egui::{Align, Layout, ProgressBar, RichText, ScrollArea, Ui};
 use egui_extras::{Column, TableBuilder};
@@ -18,7 +18,7 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
         match running {
             Some((own, done)) if own == subject => {
                 if ui.button(tr!("Stop measuring")).on_hover_text(tr!("What is done so far is shown")).clicked() {
-                    cx.actions.push(Command::CancelReport);
+                    cx.actions.push(Action::CancelReport);
                 }
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
                 let done = done as f32;
@@ -27,13 +27,13 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
             }
             _ if cx.jobs.benchmarks.is_waiting(subject) => {
                 if ui.button(tr!("Do not wait")).on_hover_text(tr!("This report is not made after all")).clicked() {
-                    cx.actions.push(Command::ForgetReport(subject));
+                    cx.actions.push(Action::ForgetReport(subject));
                 }
                 ui.label(tr!("Comes after the report that is being made: both would be slower side by side."));
             }
             _ => {
                 if ui.button(button).on_hover_text(about).clicked() {
-                    cx.actions.push(Command::MakeReport(subject));
+                    cx.actions.push(Action::MakeReport(subject));
                 }
             }
         }

@@ -2,9 +2,9 @@
 //! table or in the figure, loads it.
 
 use crate::app::plots::{PanelStyle, theme};
-use crate::app::shell::commands::Command;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};
 use crate::figure::Figure;
@@ -77,7 +77,7 @@ impl View for StabilityView {
         };
         let style = PanelStyle { spread: 4.0, ..PanelStyle::new("digits held", ui.available_height(), &hover) };
         let Some(response) = panel.ui(&style, ui) else { return };
-        actions.extend(clicked(&response, &report.rows).map(Command::UseCase));
+        actions.extend(clicked(&response, &report.rows).map(Action::UseCase));
     }
 
     fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
@@ -85,7 +85,7 @@ impl View for StabilityView {
     }
 }
 
-fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, commands: &mut Vec<Action>, ui: &mut Ui) {
     let number = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("{:.1}", digits(error)));
     let values = row.brdf_error.zip(row.dolp_error).map(|(brdf, dolp)| brdf.max(dolp));
     match column {
@@ -98,7 +98,7 @@ fn cell_ui(row: &Stability, cells: &[String], index: usize, column: usize, comma
             };
             let response = ui.link(row.case.localized()).on_hover_text(help);
             if response.clicked() {
-                commands.push(Command::UseCase(index));
+                commands.push(Action::UseCase(index));
             }
             response
         }

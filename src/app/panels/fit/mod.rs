@@ -9,9 +9,9 @@ mod scans;
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
 use crate::app::views::Cx;
+use crate::app::views::action::Action;
 use crate::app::views::derived::Derived;
 use crate::app::work::fit_setup::free;
 use crate::app::work::settings::Settings;
@@ -32,14 +32,14 @@ pub fn fit_ui(cx: &mut Cx<'_>, show_predicted_errors: &mut bool, ui: &mut Ui) {
             let fit =
                 ui.add_enabled(!running, egui::Button::new(egui::RichText::new(tr!("Fit")).strong()).min_size(egui::vec2(84.0, 26.0)));
             if fit.on_hover_text(tr!("Levenberg–Marquardt from the sliders, all parameters that are not fixed")).clicked() {
-                commands.push(Command::StartFit);
+                commands.push(Action::StartFit);
             }
             if ui
                 .add_enabled(running, egui::Button::new(tr!("Cancel")).min_size(egui::vec2(64.0, 26.0)))
                 .on_hover_text(tr!("Stop and keep the best so far"))
                 .clicked()
             {
-                commands.push(Command::CancelFit);
+                commands.push(Action::CancelFit);
             }
             if running {
                 ui.spinner();

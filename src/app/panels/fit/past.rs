@@ -1,15 +1,15 @@
 //! The last fits, to look at again and to return to.
 
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary::delta_e_help;
 use crate::app::text::messages::Localized as _;
+use crate::app::views::action::Action;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::sync::Arc;
 use tr::tr;
 
-pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u64, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u64, commands: &mut Vec<Action>, ui: &mut Ui) {
     if fits.is_empty() {
         return;
     }
@@ -29,7 +29,7 @@ pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u6
                 let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
                 let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.localized());
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
-                    commands.push(Command::ReturnTo(index));
+                    commands.push(Action::ReturnTo(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
                 ui.monospace(if report.course.minima.is_empty() {

@@ -2,11 +2,11 @@
 
 use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
-use crate::app::shell::commands::Command;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::messages::Localized as _;
 use crate::app::text::numbers::{short, significant};
+use crate::app::views::action::Action;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::settings::Settings;
@@ -17,16 +17,16 @@ use tr::tr;
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Action>, ui: &mut Ui) {
     let report = &fit.report;
     ui.horizontal(|ui| {
         let are_sliders = settings.parameters == report.parameters && settings.model == report.model;
         let take = ui.add_enabled(!are_sliders, Button::new(tr!("Use as sliders"))).on_hover_text(tr!("The fitted values to the sliders"));
         if take.on_disabled_hover_text(tr!("The sliders are those of the fit.")).clicked() {
-            commands.push(Command::UseFit);
+            commands.push(Action::UseFit);
         }
         if ui.button(tr!("Back to before the fit")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
-            commands.push(Command::Back);
+            commands.push(Action::Back);
         }
     });
     ui.add_space(4.0);

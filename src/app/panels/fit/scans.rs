@@ -4,8 +4,8 @@ use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
 use crate::app::plots::theme;
-use crate::app::shell::commands::Command;
 use crate::app::text::numbers::significant;
+use crate::app::views::action::Action;
 use crate::app::work::diagnostics::{Diagnostics, ProfileCurve};
 use crate::app::work::fit_history::FitEntry;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
@@ -16,7 +16,7 @@ use tr::tr;
 /// Data sets that a bootstrap deals out at most.
 const MOST_REPLICATES: usize = 100_000;
 
-pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands: &mut Vec<Action>, ui: &mut Ui) {
     let free = fit.problem.free();
     if free.is_empty() || fit.problem.is_empty() {
         return;
@@ -29,7 +29,7 @@ pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands
         ui.horizontal(|ui| {
             let help = tr!("Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results");
             if ui.add_enabled(!running, Button::new(tr!("Bootstrap"))).on_hover_text(help).clicked() {
-                commands.push(Command::Bootstrap);
+                commands.push(Action::Bootstrap);
             }
             let label = ui.label(tr!("data sets"));
             ui.add(DragValue::new(&mut scans.replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id);
@@ -38,14 +38,14 @@ pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands
             ui.horizontal(|ui| {
                 ui.spinner();
                 if ui.button(tr!("Stop the scan")).on_hover_text(tr!("Stop and keep what is there")).clicked() {
-                    commands.push(Command::CancelScan);
+                    commands.push(Action::CancelScan);
                 }
             });
         }
     });
 }
 
-fn profile_choice_ui(free: &[Parameter], scans: &mut Diagnostics, running: bool, commands: &mut Vec<Command>, ui: &mut Ui) {
+fn profile_choice_ui(free: &[Parameter], scans: &mut Diagnostics, running: bool, commands: &mut Vec<Action>, ui: &mut Ui) {
     let chosen = scans.parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Profile of"));
@@ -60,7 +60,7 @@ fn profile_choice_ui(free: &[Parameter], scans: &mut Diagnostics, running: bool,
         let help = tr!("Hold it at values around the fitted one and fit the rest again: the interval that holds where errors are not \
              symmetric, or where the data leave directions open");
         if ui.add_enabled(!running, Button::new(tr!("Scan"))).on_hover_text(help).clicked() {
-            commands.push(Command::Profile(chosen));
+            commands.push(Action::Profile(chosen));
         }
     });
 }

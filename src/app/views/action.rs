@@ -1,0 +1,117 @@
+//! What the window can be asked to do.
+
+use crate::app::storage::export::ExportKind;
+use crate::app::tasks::benchmarks::BenchmarkId;
+use crate::app::text::help::Help;
+use crate::app::text::i18n::Language;
+use crate::app::work::edit::Switch;
+use crate::app::work::pane_id::PaneId;
+use crate::app::work::settings::Theme;
+use pbrdf::model::Parameter;
+use std::path::PathBuf;
+
+/// Something that menus, keys, panes and panels ask of the window, which carries it out before the next frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    /// Ask the desktop for a file.
+    ChooseMeasurement,
+    /// Read that file.
+    OpenMeasurement(PathBuf),
+    /// Ask the desktop where to save.
+    ChooseSave,
+    /// Write the measurement, masks and all, into that file.
+    SaveMeasurement(PathBuf),
+    /// The same into a new file; asks if there is one already.
+    SaveNew(PathBuf),
+    /// Write in the place of the file that is asked about.
+    Replace,
+    /// Leave it as it is.
+    KeepFile,
+    /// Ask the desktop for a session.
+    ChooseSession,
+    OpenSession(PathBuf),
+    /// Into the file that it came from or went to last; asks where there is none.
+    SaveSession,
+    /// Ask the desktop where to write that.
+    ChooseExport(ExportKind),
+    Export(ExportKind, PathBuf),
+    /// The same into a new file; asks if there is one already.
+    ExportNew(ExportKind, PathBuf),
+    /// The plot of a pane to the clipboard, as an image.
+    CopyPlot(PaneId),
+    /// The measurement to the clipboard, as text.
+    CopyTable,
+    /// Load the bundled example of that number.
+    OpenExample(usize),
+    /// The lesson of that number at the step of that number: sliders and views as it wants them.
+    ShowStep(usize, usize),
+    /// Out of the lesson; what was there before it comes back.
+    CloseLesson,
+    /// Out of the lesson, and on with what it set.
+    KeepLesson,
+    /// Read the foreign file as it was chosen.
+    ImportDialog,
+    /// Leave it; what is open stays.
+    CancelImport,
+    /// Stop reading.
+    CancelLoading,
+    ForgetRecent,
+    StartFit,
+    CancelFit,
+    /// Fitted values to the sliders.
+    UseFit,
+    /// The values from before the fit to the sliders.
+    Back,
+    DismissNotices,
+    /// Take rows out of every statistic, or back in.
+    Mask {
+        rows: Vec<usize>,
+        masked: bool,
+    },
+    Undo,
+    Redo,
+    /// Sliders and results as the earlier fit of that number left them, the newest first.
+    ReturnTo(usize),
+    /// Hold a parameter around its fitted value, and fit the rest.
+    Profile(Parameter),
+    /// Deal the residuals of the fit out anew.
+    Bootstrap,
+    CancelScan,
+    /// Sliders and terms as the comparison's fit of that number has them.
+    UseRung(usize),
+    /// Sliders to the clipboard, as text.
+    CopyParameters,
+    /// Ask for what is on the clipboard.
+    RequestPaste,
+    /// Text to the sliders.
+    PasteParameters(String),
+    ResetParameters,
+    /// Those sliders to those values.
+    SetParameters(Vec<(Parameter, f64)>),
+    /// σ, q and the weights of the surface finish of that number.
+    UseFinish(usize),
+    /// The terms of that preset, by its key.
+    UseModel(&'static str),
+    /// Fit all models of the ladder.
+    CompareModels,
+    CancelComparison,
+    /// Measure, in the background.
+    MakeReport(BenchmarkId),
+    CancelReport,
+    /// Not to be made after the one that is being made.
+    ForgetReport(BenchmarkId),
+    /// Sliders, terms and angles as that case of the stability gallery has them.
+    UseCase(usize),
+    Toggle(Switch),
+    ToggleFrameTimes,
+    /// A pane to the screen, or off it.
+    TogglePane(PaneId),
+    ClosePane(PaneId),
+    ResetLayout,
+    SetTheme(Theme),
+    SetLanguage(Language),
+    OpenPalette,
+    ShowHelp(Help),
+    CloseHelp,
+    Quit,
+}
