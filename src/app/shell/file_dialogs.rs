@@ -19,7 +19,7 @@ pub fn request_for(document: &Document, command: &Action) -> Option<FileRequest>
 }
 
 /// The command that uses the chosen path.
-pub fn command_for(request: FileRequest, path: PathBuf) -> Action {
+pub fn command_for(request: &FileRequest, path: PathBuf) -> Action {
     match request {
         FileRequest::Open => Action::OpenMeasurement(path),
         FileRequest::OpenSession => Action::OpenSession(path),
@@ -27,7 +27,7 @@ pub fn command_for(request: FileRequest, path: PathBuf) -> Action {
         FileRequest::Export(kind, _) => {
             let complete = kind.with_ending(path.clone());
             // The desktop asked about the name without the extension.
-            if complete == path { Action::Export(kind, path) } else { Action::ExportNew(kind, complete) }
+            if complete == path { Action::Export(*kind, path) } else { Action::ExportNew(*kind, complete) }
         }
     }
 }

@@ -68,7 +68,7 @@ fn fit_panicked() -> String {
 pub(crate) fn dialog_answered(app: &mut App, answer: DialogAnswer) {
     match answer.reply {
         // Before the queued commands: the user chose the path for the work as it was when the dialog opened.
-        Ok(path) => drop(app.actions.splice(..0, path.map(|path| command_for(answer.request, path)))),
+        Ok(path) => drop(app.actions.splice(..0, path.map(|path| command_for(&answer.request, path)))),
         Err(DialogUnavailable) => app.say(unavailable_text(&answer.request)),
     }
 }

@@ -59,7 +59,7 @@ fn a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled() {
 
 #[test]
 fn an_ending_that_the_desktop_did_not_see_is_asked_about() {
-    let export = |path: &str| command_for(FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()), path.into());
+    let export = |path: &str| command_for(&FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()), path.into());
     assert_eq!(export("/a/plot.png"), Action::Export(ExportKind::Plot(PaneId::Dolp), "/a/plot.png".into()));
     assert_eq!(export("/a/plot"), Action::ExportNew(ExportKind::Plot(PaneId::Dolp), Path::new("/a/plot.svg").into()));
 }
