@@ -51,6 +51,10 @@ impl Bounds {
     }
 
     /// Sets the bounds of one parameter; they may exceed its slider's range within the mathematical domain.
+    ///
+    /// # Errors
+    ///
+    /// [`BoundsError`] where a bound lies outside the domain, or the lower one is not below the upper one.
     pub fn set(&mut self, parameter: Parameter, low: f64, high: f64) -> Result<(), BoundsError> {
         for value in [low, high] {
             if !parameter.domain().contains(value) {

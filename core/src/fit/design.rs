@@ -74,6 +74,10 @@ impl Design {
     }
 
     /// What it would determine.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError`] where the parameters are no surface, or the planned values are no data for a fit.
     pub fn predict(&self) -> Result<DesignPrediction, DesignError> {
         let surface = Pbrdf::new(self.model, self.parameters)?;
         let mut bounds = Bounds::default();
