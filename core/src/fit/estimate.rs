@@ -130,7 +130,7 @@ pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> boo
     error > 0.5 * relative_error_base(parameter, value)
 }
 
-/// Something that the data leave open.
+/// Something that the data do not determine, or hardly.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Undetermined {
     /// A direction that they do not determine at all.

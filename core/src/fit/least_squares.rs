@@ -4,14 +4,14 @@ use nalgebra::{DMatrix, DVector};
 
 /// A sum of squares to be minimised over a box, `Σ rᵢ(x)²` with low ≤ x ≤ high.
 ///
-/// A problem may know that its sum of squares has curved valleys. It then offers *straightened* coordinates: the three methods
-/// with a default describe, around a point x, a step in them. They concern the unknowns that are moving alone; the others rest, most of them on
-/// an edge of the box.
+/// A problem may know that its sum of squares has curved valleys. It then offers *local coordinates* at a point x in which they are
+/// straight: `to_local`, `local_bounds` and `retract` (a retraction of manifold optimisation) describe a step in them. They concern
+/// the moving unknowns alone; the others are held, most of them on a bound.
 pub trait LeastSquares {
     /// Number of residuals.
     fn residual_count(&self) -> usize;
 
-    /// Where to begin; its length is the number of unknowns.
+    /// The start; its length is the number of unknowns.
     fn start(&self) -> DVector<f64>;
 
     /// Lower and upper bound of an unknown; infinite where there is none.
@@ -23,26 +23,26 @@ pub trait LeastSquares {
     /// Writes the derivatives of the residuals (rows) by the unknowns (columns); false where one is not a finite number.
     fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool;
 
-    /// What a trace tells of a sum of squares: by default the sum itself.
+    /// The objective that a trace shows: by default the sum of squares itself.
     fn objective_at(&self, sum_of_squares: f64, _x: &DVector<f64>) -> f64 {
         sum_of_squares
     }
 
-    /// A sum of squares at which residuals are rounding alone.
+    /// Sum of squares below which residuals are rounding.
     fn negligible(&self) -> f64 {
         0.0
     }
 
-    /// Turns the derivatives by the moving unknowns into those by their straightened coordinates at x.
+    /// Turns the derivatives by the moving unknowns into those by their local coordinates at x.
     fn to_local(&self, _x: &DVector<f64>, _moving: &[usize], _jacobian: &mut DMatrix<f64>) {}
 
-    /// The least and largest step of a moving unknown's straightened coordinate at x that stay in the box.
+    /// The least and the largest step of a moving unknown's local coordinate at x that stay in the box.
     fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
         let (low, high) = self.bounds_of(unknown);
         (low - x[unknown], high - x[unknown])
     }
 
-    /// Writes the point that a step of the straightened coordinates leads to from x.
+    /// Writes the point that a step in the local coordinates leads to from x.
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);
         for (&unknown, step) in moving.iter().zip(step) {

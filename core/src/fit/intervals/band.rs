@@ -2,15 +2,15 @@
 //!
 //! To first order (delta method; Bates and Watts, *Nonlinear Regression Analysis*, 1988, sec. 2.3) a prediction f with the gradient g by the free
 //! parameters has the variance `gᵀ C g`. C is the pseudo-inverse covariance of **all** free parameters, the undetermined ones included: a curve may be
-//! determined where its parameters are not (DoLP knows k_d/k_s, but neither k_d nor k_s). Where g itself points along a direction that the data leave open,
-//! the curve is as open as that direction, and there is no standard error.
+//! determined where its parameters are not (DoLP determines k_d/k_s, but neither k_d nor k_s). Where g has a share in an undetermined
+//! direction, the curve is undetermined as well, and there is no standard error.
 
 use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::objective::Problem;
 use crate::model::{Gradient, GradientRequest, Model, ParameterSet, Parameters, Pbrdf, PerParameter};
 use crate::optics::Facet;
 
-/// What is needed to say how far a fitted curve can be trusted.
+/// Standard errors of the curves of a fit at any geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PredictionBand {
     model: Model,

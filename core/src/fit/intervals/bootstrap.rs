@@ -1,7 +1,7 @@
-//! Residual bootstrap: how the fit scatters when its own residuals are dealt out anew.
+//! Residual bootstrap: how the estimates scatter when the residuals of the fit are resampled.
 //!
-//! Data of each replicate are the fitted values and residuals drawn with replacement, widened by `√(N/(N − rank))` for what the
-//! fit took out of them (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted from the solution.
+//! The data of a replicate are the fitted values plus residuals drawn with replacement, widened by `√(N/(N − rank))` because the fit
+//! has made them smaller (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted from the solution.
 
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::objective::Problem;
@@ -24,7 +24,7 @@ pub struct BootstrapEstimate {
     pub high: f64,
 }
 
-/// Data sets that are held at once.
+/// Data sets that are held in memory at once.
 const AT_ONCE: usize = 64;
 
 /// Refits `replicates` data sets; those that were not reached before a cancel are left out.

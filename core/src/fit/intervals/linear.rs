@@ -1,8 +1,9 @@
 //! What the data determine, and how well: standard errors and correlations from the Jacobian at the solution.
 //!
-//! J scaled by diag(max(|p|, 1e-3)), q by its distance from 1, = U S Vᵀ. Singular values above 1e-8 of the largest count: their number is the rank. The
-//! covariance `V S⁻² Vᵀ` is summed over those alone and multiplied by SS/(N − rank), or, where standard deviations were stated, by 1. A
-//! parameter with a share in the directions left over has no standard error: those directions are described instead.
+//! J, its columns scaled by max(|p|, 1e-3) (q by its distance from 1), is U S Vᵀ. The rank is the number of singular values above 1e-8
+//! of the largest. The pseudo-inverse covariance `V S⁻² Vᵀ` is summed over those and multiplied by SS/(N − rank) or, where standard
+//! deviations were stated, by 1. A parameter with a share in the null space has no standard error; the null space is described
+//! instead.
 
 use crate::fit::objective::Problem;
 use crate::fit::options::Weights;
@@ -133,7 +134,7 @@ impl Uncertainty {
         for (j, scale) in scales.iter().enumerate() {
             filled.column_mut(j).scale_mut(*scale);
         }
-        // Of a matrix that is not finite the decomposition comes to no end.
+        // The decomposition of a matrix that is not finite does not terminate.
         if filled.iter().any(|element| !element.is_finite()) {
             return Self::nothing(free);
         }

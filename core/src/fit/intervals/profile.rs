@@ -1,4 +1,4 @@
-//! The honest interval: one parameter held on a grid, the rest fitted again at each value.
+//! Profile likelihood: one parameter held on a grid, the other free parameters fitted at each value.
 //!
 //! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
 //! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
@@ -36,9 +36,9 @@ pub struct Profile {
     pub high: Option<f64>,
 }
 
-/// Values on either side of the best one.
+/// Grid values on either side of the best one.
 const STEPS: i32 = 15;
-/// How many standard errors the scan goes to either side.
+/// Standard errors that the grid covers on either side: a quadratic valley crosses the limit at one.
 const REACH: f64 = 3.0;
 
 /// Scans a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.

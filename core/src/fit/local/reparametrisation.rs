@@ -1,9 +1,9 @@
-//! The pBRDF's residuals as a least squares problem, and the coordinates in which its valleys are straight.
+//! The residuals of the pBRDF as a least squares problem, and local coordinates in which its valleys are straight.
 //!
-//! The height of the specular lobe goes as `h(q)/σ²` (h = 1 for Gauss, q − 1 for Cauchy). DoLP sees k_d and k_v only over that
-//! height, so that changing σ or q alone throws them off, and a descent creeps along the curved valley in which they make up for it. In
-//! the straightened coordinates `k_d σ²/h` and `k_v σ²/h` stay when σ or q move. With a measured BRDF it is k_s that makes up for them, and
-//! `k_s h/σ²` stays. Sizes are walked by factors: the coordinate of p is `ln(p − origin)`.
+//! The peak of the specular lobe is proportional to `h(q)/σ²` (h = 1 for Gauss, q − 1 for Cauchy). DoLP depends on k_d and k_v only
+//! relative to that peak, so that their valley in σ and q is curved, and a descent in the parameters themselves creeps along it. In
+//! the local coordinates `k_d σ²/h` and `k_v σ²/h` are constant when σ or q moves. With a measured BRDF k_s takes their place, and
+//! `k_s h/σ²` is constant. Steps of n, k, σ, q and σ_v are logarithmic: the coordinate of p is `ln(p − origin)`.
 
 use crate::fit::least_squares::LeastSquares;
 use crate::fit::objective::Problem;
@@ -11,10 +11,10 @@ use crate::model::{Parameter, Parameters};
 use crate::optics::SlopeDistribution;
 use nalgebra::{DMatrix, DVector};
 
-/// Below this objective the relative misfit is 1e-13: rounding, not physics.
+/// Below this objective the relative misfit is 1e-13, which is rounding.
 const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
-/// From where a parameter is walked by factors; none where by steps.
+/// Origin of the logarithm of a parameter with logarithmic steps; none where steps are linear.
 fn origin(parameter: Parameter) -> Option<f64> {
     match parameter {
         // n and k may be 0, which has no logarithm.
@@ -36,12 +36,12 @@ impl Problem {
         parameters
     }
 
-    /// σ²/h.
+    /// σ²/h, one over the peak height of the specular lobe.
     fn inverse_peak_height(&self, parameters: &Parameters) -> f64 {
         parameters.sigma * parameters.sigma / self.model().distribution.height(parameters.q)
     }
 
-    /// The power of σ²/h that a weight goes with: 0 for what goes its own way.
+    /// Exponent e such that weight·(σ²/h)^e is held constant when σ or q moves; 0 for parameters that are not coupled.
     fn weight_exponent(&self, parameter: Parameter) -> i32 {
         match parameter {
             _ if !self.model().specular => 0,
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn straightened_derivatives_are_those_along_the_steps() {
+    fn local_derivatives_are_those_along_the_steps() {
         // Central differences: h² of a third derivative of order 1, and rounding over h.
         const STEP: f64 = 1e-5;
         const NEAR: f64 = 1e-8;

@@ -82,7 +82,7 @@ fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, recorder: &mut Rec
     BoundedLm::new(problem, &from).run(limits, recorder)
 }
 
-/// The bounded Levenberg–Marquardt; where it fails or ends on a bound, once more from where MINPACK comes to from the same start.
+/// The bounded Levenberg–Marquardt; where it fails or ends on a bound, once more from the point that MINPACK reaches from the same start.
 fn thorough<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, recorder: &mut Recorder<'_>) -> StopReason {
     let first = BoundedLm::new(problem, start).run(limits, recorder);
     let is_done = match first {

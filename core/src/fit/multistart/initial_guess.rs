@@ -1,15 +1,16 @@
-//! First guesses: the lowest points of the objective over a grid of shapes, with k_d and k_v from linear algebra.
+//! First guesses by variable projection (Golub and Pereyra, SIAM J. Numer. Anal. 10, 413 (1973)) on a grid: k_d and k_v from linear
+//! least squares at each point of a grid of the other parameters.
 //!
 //! For fixed shapes (n, k, σ, q, c, σ_v), `1/X = (1 + g)/L` with the Fresnel limit L and `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d
 //! and k_v. Linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`: a least squares problem in the box of k_d and k_v, solved once
 //! about the measured DoLP and once more about what came of it.
 //!
-//! A point of the grid that is lower than its neighbours along each axis is a floor: somewhere below it lies a minimum.
+//! A point of the grid that is lower than its neighbours along each axis is a grid minimum: a minimum of the objective is near.
 
 use crate::fit::objective::Problem;
 use crate::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
 
-/// The axes of the grid. Narrow volume lobes are apart from wide ones by other rows that they reach, hence the many σ_v.
+/// The axes of the grid. Volume lobes of different widths reach different rows, hence the many σ_v.
 const AXES: [(Parameter, &[f64]); 6] = [
     (Parameter::N, &[0.06, 0.2, 0.5, 0.9, 1.4, 2.2, 3.5, 6.0]),
     (Parameter::K, &[0.05, 0.4, 1.0, 2.0, 3.2, 4.5, 7.0, 11.0]),
@@ -18,17 +19,17 @@ const AXES: [(Parameter, &[f64]); 6] = [
     (Parameter::C, &[-1.0, -0.7, -0.35, 0.0]),
     (Parameter::SigmaV, &[0.02, 0.06, 0.1, 0.16, 0.25, 0.4, 0.65, 1.1, 2.2]),
 ];
-/// The axes on which a minimum's lobes are looked at again, n and k as they are: k_d and k_v at their bounds are made up for by σ and q.
+/// The axes of the lobe grid, n and k being held: it finds minima where σ and q make up for k_d or k_v at their bounds.
 const LOBES: [(Parameter, &[f64]); 4] = [
     (Parameter::Sigma, &[0.01, 0.03, 0.07, 0.13, 0.22, 0.35, 0.6, 1.1, 2.5]),
     (Parameter::Q, &[1.002, 1.15, 1.5, 2.2, 5.0]),
     (Parameter::C, &[-1.0, -0.8, -0.6, -0.4, -0.2, 0.0]),
     (Parameter::SigmaV, &[0.015, 0.03, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.32, 0.4, 0.55, 0.8, 1.2, 2.2]),
 ];
-/// Rows that are looked at, at most.
+/// Rows of data on which the grid is judged, at most: the time of the grid is proportional to their number.
 const ROWS: usize = 32;
 
-/// A guess and the sum of squared differences of DoLP over the rows looked at.
+/// A guess, and its sum of squared differences of DoLP over the rows of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guess {
     pub misfit: f64,
@@ -60,8 +61,8 @@ struct Grid<'a> {
     fit_v: bool,
 }
 
-/// What the lobes of c, or of σ_v, are on each row.
-type Columns = Vec<Vec<f64>>;
+/// The lobe of each c, or of each σ_v, on each row.
+type LobeColumns = Vec<Vec<f64>>;
 
 impl<'a> Grid<'a> {
     fn new(problem: &'a Problem, base: &Parameters, values: &[(Parameter, &[f64])]) -> Option<Self> {
@@ -73,7 +74,7 @@ impl<'a> Grid<'a> {
             return None;
         }
         let rows = problem.observations().dolp_rows(ROWS);
-        // Where all is dark, so are the lowest points.
+        // Where no measured DoLP is above 0, k_d and k_v would only go to their bounds.
         if rows.iter().all(|(_, measured)| *measured <= 0.0) {
             return None;
         }
@@ -112,14 +113,14 @@ impl<'a> Grid<'a> {
     }
 
     /// The diffuse lobe on each row for each c, k_d being 1 where it is fitted.
-    fn diffuse(&self, optics: &Parameters) -> Columns {
+    fn diffuse(&self, optics: &Parameters) -> LobeColumns {
         let kd = if self.fit_d { 1.0 } else { self.base.kd };
         let column = |&c: &f64| self.column(Parameters { c, kd, ..*optics }, |reflection| reflection.diffuse);
         self.axes[4].iter().map(column).collect()
     }
 
     /// The volume lobe on each row for each σ_v, k_v being 1 where it is fitted.
-    fn volume(&self) -> Columns {
+    fn volume(&self) -> LobeColumns {
         let kv = if self.fit_v { 1.0 } else { self.base.kv };
         let column = |&sigma_v: &f64| self.column(Parameters { sigma_v, kv, ..self.base }, |reflection| reflection.volume);
         self.axes[5].iter().map(column).collect()
@@ -131,7 +132,7 @@ impl<'a> Grid<'a> {
     }
 
     /// The guesses for one specular lobe.
-    fn guesses_of(&self, optics: &Parameters, diffuse: &Columns, volume: &Columns) -> Vec<Guess> {
+    fn guesses_of(&self, optics: &Parameters, diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<Guess> {
         // Alone, the specular lobe has the Fresnel limit for its DoLP.
         let alone = Model { diffuse: Diffuse::Absent, volume: false, ..self.problem.model() };
         let specular = Pbrdf::new(alone, *optics).ok().map(|surface| {
@@ -177,12 +178,12 @@ impl<'a> Grid<'a> {
     /// The points that are lower than their neighbours along each axis; of equal neighbours the first counts as lower.
     fn grid_minima(&self) -> Vec<Guess> {
         let guesses = self.guesses();
-        let mut grid_minima: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_floor(&guesses, i)).map(|i| guesses[i]).collect();
+        let mut grid_minima: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_minimum(&guesses, i)).map(|i| guesses[i]).collect();
         grid_minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
         grid_minima
     }
 
-    fn is_floor(&self, guesses: &[Guess], i: usize) -> bool {
+    fn is_minimum(&self, guesses: &[Guess], i: usize) -> bool {
         let here = guesses[i].misfit;
         let mut stride = 1;
         let low = self.axes.iter().rev().all(|axis| {
@@ -196,7 +197,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// Times that the weights of rows follow the fitted DoLP.
+/// Linearisations: about the measured DoLP, and about the DoLP of the first solution.
 const PASSES: usize = 2;
 
 /// A row under one specular lobe.
@@ -326,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_truth_on_the_grid_is_its_lowest_floor() {
+    fn a_truth_on_the_grid_is_its_lowest_minimum() {
         let lowest = grid_minima(&problem())[0];
         // Rounding of k_d and k_v, which the least squares give to about 1e-12, and of DoLP.
         assert!(lowest.misfit < 1e-20, "{lowest:?}");
@@ -344,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn floors_are_lower_than_all_neighbours_and_in_order() {
+    fn grid_minima_are_lower_than_all_neighbours_and_in_order() {
         let problem = problem();
         let grid = Grid::new(&problem, problem.start(), &AXES).unwrap();
         let guesses = grid.guesses();
@@ -354,13 +355,13 @@ mod tests {
         assert_eq!(grid_minima[0].misfit, lowest);
         let lengths: usize = grid.axes.iter().map(Vec::len).product();
         assert_eq!(guesses.len(), lengths);
-        for floor in &grid_minima {
-            let at = guesses.iter().position(|guess| guess == floor).unwrap();
+        for minimum in &grid_minima {
+            let at = guesses.iter().position(|guess| guess == minimum).unwrap();
             // σ_v runs fastest, n slowest.
             for (axis, stride) in [(5, 1), (0, lengths / grid.axes[0].len())] {
                 let place = at / stride % grid.axes[axis].len();
-                assert!(place == 0 || guesses[at - stride].misfit >= floor.misfit);
-                assert!(place + 1 == grid.axes[axis].len() || guesses[at + stride].misfit >= floor.misfit);
+                assert!(place == 0 || guesses[at - stride].misfit >= minimum.misfit);
+                assert!(place + 1 == grid.axes[axis].len() || guesses[at + stride].misfit >= minimum.misfit);
             }
         }
     }
