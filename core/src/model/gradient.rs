@@ -12,7 +12,7 @@
 
 use crate::model::hyde_diffuse::SingleScatteringLoss;
 use crate::model::lobes::Lobe;
-use crate::model::pbrdf::{Lobes, Pbrdf, Reflection};
+use crate::model::pbrdf::{Lobes, Pbrdf, Reflection, mul_zero_absorbing};
 use crate::model::prepared::PreparedGeometry;
 use crate::model::{Diffuse, DolpFormula, Parameter, ParameterSet, PerParameter};
 use crate::optics::{Facet, Fresnel, FresnelGradient};
@@ -43,11 +43,6 @@ pub struct GradientRequest {
 impl GradientRequest {
     /// Everything.
     pub const ALL: Self = Self { by: ParameterSet::ALL, brdf: true, dolp: true };
-}
-
-/// A product that is 0 wherever a factor is, however large the other.
-fn mul_zero_absorbing(value: f64, slope: f64) -> f64 {
-    if value == 0.0 || slope == 0.0 { 0.0 } else { value * slope }
 }
 
 /// Adds to a derivative; one that lies beyond f64 already stays there, even against another.
@@ -103,7 +98,7 @@ impl Pbrdf {
             }
             if wanted.dolp {
                 let mixture = self.mixture(&lobes, &fresnel, mean);
-                reflection.dolp = mixture.limit * mixture.share;
+                reflection.dolp = mul_zero_absorbing(mixture.limit, mixture.share);
                 if self.reflects_or_depolarises(&lobes) {
                     self.dolp_gradient(&lobes, facet, &mixture, by_index, wanted.by, &mut gradient.dolp);
                 }
@@ -210,17 +205,18 @@ impl Pbrdf {
         // ∂s/∂R and ∂s/∂k_s, without s/R or s/k_s, which are 0/0 in the dark.
         let by_mean = mul_zero_absorbing(depolarised_share * self.polarised_weight(), 1.0 / total);
         for (j, parameter) in [Parameter::N, Parameter::K].into_iter().enumerate() {
-            out[parameter] = mul_zero_absorbing(share, by_index.dolp[j]) + mul_zero_absorbing(limit * by_mean, by_index.mean[j]);
+            out[parameter] = mul_zero_absorbing(share, by_index.dolp[j]);
+            add_saturating(&mut out[parameter], mul_zero_absorbing(mul_zero_absorbing(limit, by_mean), by_index.mean[j]));
         }
-        out[Parameter::Ks] = mul_zero_absorbing(limit * self.ks_factor(depolarised_share, share) * mean, 1.0 / total);
-        let both = limit * (share * depolarised_share);
+        out[Parameter::Ks] = mul_zero_absorbing(mul_zero_absorbing(limit, self.ks_factor(depolarised_share, share)) * mean, 1.0 / total);
+        let both = mul_zero_absorbing(limit, share * depolarised_share);
         out[Parameter::Sigma] = mul_zero_absorbing(both, distribution.sigma_log_slope(lobes.w, p.q) / p.sigma);
         if by.contains(Parameter::Q) {
             out[Parameter::Q] = mul_zero_absorbing(both, distribution.q_slope(libm::log1p(lobes.w), p.q) / distribution.height(p.q));
         }
 
         // −DoLP_s s ∂b/(k_s R + b): the small factors enter before the exponential can overflow.
-        let gains = [-limit * share, 1.0 / total];
+        let gains = [-mul_zero_absorbing(limit, share), 1.0 / total];
         let neg_ratio = |lobe: Lobe, weight: f64| lobe.scaled(weight).scaled_ratio(lobes.specular, gains);
         let neg_ratio_for =
             |parameter: Parameter, lobe: Lobe, weight: f64| if by.contains(parameter) { neg_ratio(lobe, weight) } else { 0.0 };
@@ -246,7 +242,7 @@ impl Pbrdf {
                     // −DoLP ∂ln(k_s R + b)/∂k_s
                     DolpFormula::AsPrinted => {
                         let ratio = lobes.diffuse.ratio(lobes.specular);
-                        mul_zero_absorbing(-limit * share * (mean + ratio), 1.0 / total)
+                        mul_zero_absorbing(mul_zero_absorbing(-mul_zero_absorbing(limit, share), mean + ratio), 1.0 / total)
                     }
                 };
             }

@@ -43,11 +43,9 @@ impl Lobe {
     /// leaves the range of f64.
     #[must_use]
     pub fn scaled_ratio(self, other: Self, [a, b]: [f64; 2]) -> f64 {
-        if a == 0.0 || b == 0.0 || self.factor == 0.0 {
-            return 0.0;
-        }
         let half = libm::exp(0.5 * (other.exponent - self.exponent));
-        (a * half) * (b * half) * (self.factor / other.factor)
+        let factor = self.factor / other.factor;
+        if [a, b, half, factor].contains(&0.0) { 0.0 } else { (a * half) * (b * half) * factor }
     }
 
     /// With another weight; a weight of 0 makes an infinite lobe 0, too.

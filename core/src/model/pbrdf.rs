@@ -36,6 +36,11 @@ pub struct Pbrdf {
     index: RefractiveIndex,
 }
 
+/// A product that is 0 wherever a factor is, however large the other.
+pub(crate) fn mul_zero_absorbing(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
+}
+
 /// The lobes of unit weight under one geometry.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lobes {
@@ -98,7 +103,7 @@ impl Pbrdf {
             let fresnel = at.fresnel(self.index);
             let mean = fresnel.mean();
             reflection.specular = lobes.specular.scaled(mean).scaled(p.ks).value();
-            reflection.dolp = fresnel.dolp() * self.polarised_share(mean, self.depolarised_over_specular(&lobes));
+            reflection.dolp = mul_zero_absorbing(fresnel.dolp(), self.polarised_share(mean, self.depolarised_over_specular(&lobes)));
         }
         reflection.brdf = reflection.specular + reflection.diffuse + reflection.volume;
         reflection
@@ -120,7 +125,7 @@ impl Pbrdf {
             return fresnel.dolp() * self.polarised_share(fresnel.mean(), 0.0);
         }
         let lobes = self.lobes(at);
-        fresnel.dolp() * self.polarised_share(fresnel.mean(), self.depolarised_over_specular(&lobes))
+        mul_zero_absorbing(fresnel.dolp(), self.polarised_share(fresnel.mean(), self.depolarised_over_specular(&lobes)))
     }
 
     /// The whole Mueller matrix between the meridian bases of the incident and the reflected ray.
