@@ -1,7 +1,8 @@
 //! Predicted standard errors of three choices of angles, before anything is measured.
 
-use pbrdf::fit::{Design, NoiseModel, with_error};
+use pbrdf::fit::{Design, NoiseModel};
 use pbrdf::measurement::grid_geometries;
+use pbrdf::rounding::with_error;
 use pbrdf::{Model, Parameters};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,8 +14,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let prediction = Design::new(Model::CAUCHY, surface, geometries, noise).predict()?;
         println!("angles of incidence {theta_i:?}:");
         for (parameter, error) in &prediction.errors {
-            let text = error.map_or_else(|| "undetermined".to_owned(), |error| with_error(surface[*parameter], error));
-            println!("  {:>4} = {text}", parameter.symbol());
+            let (value, error) = with_error(surface[*parameter], *error);
+            println!("  {:>4} = {value} ± {}", parameter.symbol(), error.as_deref().unwrap_or("undetermined"));
         }
         prediction.undetermined.iter().for_each(|direction| println!("  {direction}"));
     }

@@ -44,7 +44,7 @@
 //! let request = GradientRequest { by: [Parameter::N, Parameter::Kd].into_iter().collect(), brdf: true, dolp: true };
 //! let (reflection, gradient) = surface.reflection_and_gradient(&Facet::new(geometry), request);
 //! // More diffuse light, less polarisation.
-//! assert!(gradient.dolp[Parameter::Kd as usize] < 0.0);
+//! assert!(gradient.dolp[Parameter::Kd] < 0.0);
 //! let mueller = surface.mueller(geometry);
 //! assert!((mueller.element(0, 0) - reflection.brdf).abs() <= 1e-12 * reflection.brdf);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

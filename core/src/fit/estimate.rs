@@ -2,6 +2,7 @@
 
 use crate::fit::intervals::linear::UndeterminedDirection;
 use crate::model::Parameter;
+use crate::rounding::with_error;
 use serde::Serialize;
 use std::fmt;
 
@@ -17,7 +18,7 @@ pub enum Edge {
 
 /// One parameter of the model after a fit.
 ///
-/// `Display` rounds the value by its standard error: `2.07 ± 0.02`, `undetermined`, `at lower bound 0`, `1 (fixed)`.
+/// `Display` rounds the value by its standard error: `2.071 ± 0.021`, `undetermined`, `at lower bound 0`, `1 (fixed)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
@@ -78,37 +79,12 @@ impl fmt::Display for Estimate {
             EstimateStatus::Fixed => write!(f, "{} (fixed)", self.value),
             EstimateStatus::AtBound(Edge::Lower) => write!(f, "at lower bound {}", self.value),
             EstimateStatus::AtBound(Edge::Upper) => write!(f, "at upper bound {}", self.value),
-            EstimateStatus::Determined(error) => f.write_str(&with_error(self.value, error)),
+            EstimateStatus::Determined(error) => {
+                let (value, error) = with_error(self.value, Some(error));
+                write!(f, "{value} ± {}", error.as_deref().unwrap_or("0"))
+            }
             EstimateStatus::NoDegreesOfFreedom => write!(f, "{} (no degrees of freedom)", self.value),
             EstimateStatus::Undetermined => f.write_str("undetermined"),
-        }
-    }
-}
-
-/// A value and its standard error, both to the last digit that the error leaves: one digit of the error, two if it begins with 1.
-///
-/// ```
-/// use pbrdf::fit::with_error;
-///
-/// assert_eq!(with_error(2.0713, 0.0213), "2.07 ± 0.02");
-/// assert_eq!(with_error(2.0713, 0.0123), "2.071 ± 0.012");
-/// assert_eq!(with_error(2071.3, 213.0), "2100 ± 200");
-/// ```
-#[must_use]
-pub fn with_error(value: f64, error: f64) -> String {
-    if !(error > 0.0 && error.is_finite() && value.is_finite()) {
-        return format!("{value} ± {error}");
-    }
-    // Rounded to two digits first: 0.0999 is 0.10, and its digits are those of 0.1.
-    let two_digits = format!("{error:.1e}");
-    let (mantissa, exponent) = two_digits.split_once('e').unwrap_or((&two_digits, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let last = if mantissa.starts_with('1') { exponent - 1 } else { exponent };
-    match usize::try_from(-last) {
-        Ok(decimals) => format!("{value:.decimals$} ± {error:.decimals$}"),
-        Err(_) => {
-            let unit = libm::pow(10.0, f64::from(last));
-            format!("{} ± {}", (value / unit).round() * unit, (error / unit).round() * unit)
         }
     }
 }
@@ -165,24 +141,8 @@ pub fn symbols(parameters: &[Parameter]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Edge, Estimate, with_error};
+    use super::{Edge, Estimate};
     use crate::model::Parameter;
-
-    #[test]
-    fn a_value_is_rounded_by_its_error() {
-        let cases = [
-            (2.0713, 0.0213, "2.07 ± 0.02"),
-            (2.0713, 0.0195, "2.07 ± 0.02"),
-            (2.0713, 0.0194, "2.071 ± 0.019"),
-            (2.0713, 0.0999, "2.07 ± 0.10"),
-            (-0.5, 3.0, "-0 ± 3"),
-            (12_345.0, 678.0, "12300 ± 700"),
-            (1e-5, 2.3e-7, "0.0000100 ± 0.0000002"),
-        ];
-        for (value, error, text) in cases {
-            assert_eq!(with_error(value, error), text);
-        }
-    }
 
     #[test]
     fn an_estimate_says_how_it_is_determined() {
@@ -195,7 +155,8 @@ mod tests {
             at_bound: None,
             determined: true,
         };
-        assert_eq!(free.to_string(), "2.07 ± 0.02");
+        assert_eq!(free.to_string(), "2.071 ± 0.021");
+        assert_eq!(Estimate { std_error: Some(0.0), ..free }.to_string(), "2.0713 ± 0");
         assert_eq!(Estimate { free: false, value: 1.0, ..free }.to_string(), "1 (fixed)");
         assert_eq!(Estimate { at_bound: Some(Edge::Lower), value: 0.0, ..free }.to_string(), "at lower bound 0");
         assert_eq!(Estimate { std_error: None, determined: false, ..free }.to_string(), "undetermined");

@@ -56,7 +56,7 @@ pub use bounds::{Bounds, BoundsError};
 pub use builder::{Fit, FitError};
 pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
 pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
-pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols, with_error};
+pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols};
 pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
