@@ -1,5 +1,7 @@
 //! Predicted standard errors of three choices of angles, before anything is measured.
 
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
+
 use pbrdf::fit::{Design, NoiseModel};
 use pbrdf::measurement::grid_geometries;
 use pbrdf::rounding::with_error;

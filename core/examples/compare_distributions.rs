@@ -1,5 +1,7 @@
 //! Gauss against Cauchy on data of a Cauchy surface: which distribution of slopes describes them better, and by how much.
 
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
+
 use pbrdf::fit::DistributionComparison;
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::{Fit, Model, Parameters, Pbrdf};

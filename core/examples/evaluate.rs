@@ -1,5 +1,7 @@
 //! DoLP and BRDF of a surface in the plane of incidence, with the Fresnel limit that DoLP cannot exceed.
 
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
+
 use pbrdf::optics::Facet;
 use pbrdf::{Geometry, Model, Parameters, Pbrdf};
 

@@ -1,5 +1,7 @@
 //! A fit of simulated DoLP and BRDF: estimates beside the truth, and what the data leave undetermined.
 
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
+
 use pbrdf::fit::Weights;
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::{Fit, Model, Parameter, Parameters, Pbrdf};

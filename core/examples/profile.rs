@@ -1,5 +1,7 @@
 //! The profile likelihood of n beside its linear standard error and the bootstrap's.
 
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
+
 use pbrdf::fit::{Observer, Starts, bootstrap, profile};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::{Fit, Model, Parameter, Parameters, Pbrdf};

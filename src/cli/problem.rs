@@ -3,9 +3,9 @@
 use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError, Starts, free_by_default};
+use pbrdf::fit::{Fit, FitError, FitOptions, Problem, ProblemError, Starts};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{ParameterSet, Parameters, Preset};
+use pbrdf::model::{Parameter, ParameterSet, Preset};
 use std::path::Path;
 
 /// Why there is no problem.
@@ -31,6 +31,15 @@ impl NoProblem {
     }
 }
 
+impl From<FitError> for NoProblem {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Problem(error) => Self::Data(error),
+            error => Self::Usage(error.to_string()),
+        }
+    }
+}
+
 /// How many starts are asked for.
 pub fn starts(arguments: &ProblemArguments) -> Starts {
     match arguments.starts {
@@ -42,46 +51,37 @@ pub fn starts(arguments: &ProblemArguments) -> Starts {
 
 /// The problem of fitting that preset.
 pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
-    let usage = |error: &dyn std::fmt::Display| NoProblem::Usage(error.to_string());
     let model = preset.model.with_dolp_formula(arguments.eq17);
-    let choices = FitOptions {
+    let options = FitOptions {
         weights: arguments.weights,
         brdf_residuals: arguments.brdf_residuals,
         loss: arguments.loss,
         loss_scale: arguments.loss_scale,
         dolp_only: preset.dolp_only,
     };
-    let named = arguments.start.iter().map(|(parameter, _)| parameter).chain(arguments.fix.iter().map(|(parameter, _)| parameter));
-    let named = named.chain(&arguments.free).chain(arguments.bounds.iter().map(|(parameter, ..)| parameter));
+    let started: Vec<Parameter> = arguments.start.iter().map(|&(parameter, _)| parameter).collect();
+    let fixed: Vec<Parameter> = arguments.fix.iter().map(|&(parameter, _)| parameter).collect();
+    let bounded: Vec<Parameter> = arguments.bounds.iter().map(|&(parameter, ..)| parameter).collect();
+    let named = [&started, &fixed, &arguments.free, &bounded].into_iter().flatten();
     let strangers: ParameterSet = named.copied().filter(|&parameter| !model.parameters().contains(parameter)).collect();
     for parameter in strangers {
         output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));
     }
-    let mut bounds = Bounds::default();
-    for &(parameter, low, high) in &arguments.bounds {
-        bounds.set(parameter, low, high).map_err(|error| usage(&error))?;
-    }
-    let mut start = Parameters::default();
-    let mut given = ParameterSet::EMPTY;
-    let fixed_values = arguments.fix.iter().filter_map(|&(parameter, value)| Some((parameter, value?)));
-    for (parameter, value) in arguments.start.iter().copied().chain(fixed_values) {
-        start[parameter] = value;
-        given = given.with(parameter);
-    }
-    let mut free = free_by_default(model, measurement, &choices);
-    for &(parameter, _) in &arguments.fix {
-        free = free.without(parameter);
-    }
-    for &parameter in &arguments.free {
-        free = free.union(ParameterSet::EMPTY.with(parameter).intersection(model.parameters()));
-    }
-    for parameter in free {
-        if !given.contains(parameter) && !bounds.contain(parameter, start[parameter]) {
-            // The user gave bounds but no start; the default start is outside of them.
-            start[parameter] = bounds.at(parameter, 0.5);
-            output::notice(format_args!("{} starts at {}, in the middle of its bounds.", parameter.key(), start[parameter]));
+    let fit = Fit::new(measurement, model).options(options);
+    let fit = arguments.bounds.iter().fold(fit, |fit, &(parameter, low, high)| fit.bound(parameter, low..=high));
+    let fit = arguments.start.iter().fold(fit, |fit, &(parameter, value)| fit.start(parameter, value));
+    let fit = arguments.fix.iter().fold(fit, |fit, &(parameter, value)| match value {
+        Some(value) => fit.fix(parameter, value),
+        None => fit.hold(parameter),
+    });
+    let fit = arguments.free.iter().fold(fit, |fit, &parameter| fit.free(parameter));
+    let problem = fit.problem()?;
+    for &parameter in problem.free() {
+        let start = problem.start()[parameter];
+        let is_given = started.contains(&parameter) || arguments.fix.iter().any(|&(fixed, value)| fixed == parameter && value.is_some());
+        if !is_given && start != parameter.default_value() {
+            output::notice(format_args!("{} starts at {start}, in the middle of its bounds.", parameter.key()));
         }
     }
-    start.validate(model.parameters()).map_err(|error| usage(&error))?;
-    Problem::new(measurement, model, start, free, bounds, choices).map_err(NoProblem::Data)
+    Ok(problem)
 }

@@ -64,6 +64,7 @@ pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, 
 pub use intervals::profile::{Profile, ProfilePoint, profile};
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
+#[cfg(feature = "selftest")]
 pub(crate) use local::sin_squared::SinSquared;
 pub use local::solution::{LocalFit, Solution};
 pub use local::solver::{Effort, fit_local, minimise};

@@ -11,6 +11,7 @@ mod field;
 pub mod formats;
 mod hint;
 mod mapping;
+#[expect(clippy::module_inception, reason = "each type stands in a file of its name, the type of the floor too")]
 mod measurement;
 mod progress;
 mod row;
