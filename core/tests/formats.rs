@@ -30,7 +30,7 @@ fn a_form_is_recognised_by_its_content_alone() {
         (b"theta_i,theta_r,dolp\n30,20,0.1\n".to_vec(), None),
         (Vec::new(), None),
     ] {
-        assert_eq!(recognise(&bytes).map(|format| format.name()), name);
+        assert_eq!(recognise(&bytes).map(pbrdf::measurement::formats::Format::name), name);
         assert!(FORMATS.iter().filter(|format| format.sniff(&bytes)).count() <= 1);
     }
     assert_eq!(extensions()[..5], ["csv", "tsv", "txt", "dat", "pbsdf"]);
