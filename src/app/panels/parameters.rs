@@ -4,7 +4,7 @@ use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
 use crate::app::work::settings::Settings;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};

@@ -28,7 +28,7 @@ use crate::app::storage::{export, settings_file};
 use crate::app::tasks::jobs::Jobs;
 use crate::app::text::help::Help;
 use crate::app::text::i18n;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
 use crate::app::views::benchmarks::Benchmarks;
 use crate::app::views::derived::Derived;

@@ -3,7 +3,7 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::shell::app::App;
 use crate::app::storage::import::{Origin, with_notes};
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::work::design::Span;
 use crate::app::work::document::Document;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};

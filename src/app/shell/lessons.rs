@@ -2,7 +2,7 @@
 
 use crate::app::platform;
 use crate::app::storage::settings_file;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::work::lesson::{Lesson, Step};
 use pbrdf::model::Parameter;
 use std::ops::RangeInclusive;

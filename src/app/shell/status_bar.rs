@@ -5,7 +5,7 @@ use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
 use crate::app::work::workspace::Workspace;
 use egui::accesskit::Live;

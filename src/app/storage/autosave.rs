@@ -8,7 +8,7 @@ use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::RestoredFit;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::Views;
 use crate::app::views::action::Action;
 use crate::app::work::document::Document;

@@ -3,7 +3,8 @@
 use crate::app::shell::app::App;
 use crate::app::storage::session::{SavedFit, Session};
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::{Localized as _, WindowWording};
+use crate::app::text::localized::Localized as _;
+use crate::app::text::messages::WindowWording;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::layout::Layout;

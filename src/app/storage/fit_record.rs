@@ -1,7 +1,7 @@
 //! How a fit came about, as a session tells it: where its starts ended and the way of the winning one. Data and solution do not tell that
 //! again.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::work::fit_history::FitEntry;
 use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse};
 use pbrdf::model::{Parameter, Parameters};

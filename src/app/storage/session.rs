@@ -6,7 +6,7 @@
 
 use crate::app::storage::earlier_keys::{EarlierFile, EarlierKeys};
 use crate::app::storage::fit_record::{FitRecord, FitRecordError, on_one_line};
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::work::document::{Mask, masked_rows};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;

@@ -1,7 +1,7 @@
 //! Sessions on disk.
 
 use crate::app::storage::session::{RestoredFit, SavedFit, Session};
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
 use std::io::Read as _;

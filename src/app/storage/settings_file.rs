@@ -3,7 +3,7 @@
 use crate::app::platform;
 use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::text::i18n::Language;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::work::settings::{SettingsFile, WindowSettings};
 use crate::files::write_file::write_file;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! A job that does not start.
 
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use std::io;
 use tr::tr;
 

@@ -3,5 +3,6 @@
 pub mod glossary;
 pub mod help;
 pub mod i18n;
+pub mod localized;
 pub mod messages;
 pub mod numbers;

@@ -6,7 +6,7 @@ use crate::app::plots::theme::{ALARM, FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelPlot, PanelStyle, Polyline, Range, finite, nice_ceiling, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::short;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::Term;

@@ -4,7 +4,7 @@ use crate::app::plots::axis::decimal;
 use crate::app::plots::{FigurePlot, PanelStyle};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::fit_history::FitEntry;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};

@@ -3,7 +3,8 @@
 use crate::app::plots::PanelStyle;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::{Localized as _, short_method};
+use crate::app::text::localized::Localized as _;
+use crate::app::text::messages::short_method;
 use crate::app::text::numbers::short;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};

@@ -4,7 +4,7 @@ use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};

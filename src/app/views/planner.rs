@@ -5,7 +5,7 @@ use crate::app::plots::theme;
 use crate::app::text::glossary::open_help;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{percent, short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::design::{Plan, STEEPEST, Span};

@@ -2,7 +2,7 @@
 
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::views::action::Action;
 use crate::app::views::benchmarks::BenchmarkView;
 use crate::app::views::context::Cx;

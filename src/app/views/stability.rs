@@ -3,7 +3,7 @@
 
 use crate::app::plots::{PanelStyle, theme};
 use crate::app::tasks::benchmarks::BenchmarkId;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::report::{Heading, pages_ui, run_ui, table_ui};

@@ -1,6 +1,6 @@
 //! What a fit from the window is about: a measurement, the sliders, their bounds, the choices.
 
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;

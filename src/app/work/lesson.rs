@@ -24,7 +24,8 @@
 //! | `move`, `watch`, `why` | step | what to do, what to look at, and the reason |
 
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::{Localized, quoted};
+use crate::app::text::localized::Localized;
+use crate::app::text::messages::quoted;
 use pbrdf::model::{AssignmentError, Parameter, Preset, assignment_from_text, assignments_from_text};
 use pbrdf::optics;
 use pbrdf::optics::{Geometry, Metal};
@@ -371,7 +372,7 @@ fn entries(text: &str) -> Result<Vec<Entry>, LessonError> {
 #[cfg(test)]
 mod tests {
     use super::{Data, Lesson, LessonErrorKind};
-    use crate::app::text::messages::Localized as _;
+    use crate::app::text::localized::Localized as _;
     use pbrdf::model::Parameter;
 
     const SMALL: &str = "# a comment\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n\nstep: Glass\nmodel: fresnel\nset: n=1.5, k=0\nrange: k=0..3, sigma = 0.05 .. 0.5\n\

@@ -1,6 +1,6 @@
 //! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
 
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
 use tr::tr;
 

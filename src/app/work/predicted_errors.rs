@@ -1,6 +1,6 @@
 //! The standard errors that a choice of angles predicts.
 
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::work::design::MOST_PLANNED;
 use crate::app::work::settings::Settings;
 use pbrdf::fit::{Design, DesignPrediction, UndeterminedDirection};

@@ -1,7 +1,7 @@
 //! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
 use crate::app::text::i18n::Language;
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::work::design::Plan;
 use crate::app::work::document::Document;
 use crate::app::work::layout::Layout;

@@ -1,7 +1,7 @@
 //! What a fit from the sliders would determine, before it is made.
 
 use crate::app::text::glossary::open_help;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
 use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};

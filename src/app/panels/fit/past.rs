@@ -1,7 +1,7 @@
 //! The last fits, to look at again and to return to.
 
 use crate::app::text::glossary::delta_e_help;
-use crate::app::text::messages::Localized as _;
+use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use egui::{CollapsingHeader, Grid, Ui};

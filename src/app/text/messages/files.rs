@@ -1,6 +1,6 @@
 //! Messages about files.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::figure::PngError;
 use crate::files::export::{EndingError, Endings};
 use crate::files::open_file::OpenError;

@@ -1,6 +1,6 @@
 //! Messages of `pbrdf::fit`.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use pbrdf::fit::{
     BoundsError, DesignError, DistributionComparison, Evidence, ProblemError, StopReason, Undetermined, UndeterminedDirection,
     UndeterminedReason, Verdict, symbols,

@@ -1,6 +1,6 @@
 //! Messages of `pbrdf::measurement`.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::text::messages::model::quoted;
 use pbrdf::measurement::formats::{ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape};
 use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Hint, ReadError, ReadErrorKind, WavelengthError};

@@ -15,9 +15,3 @@ pub use measurement::advised;
 pub use model::quoted;
 pub use report::WindowWording;
 pub use selftest::short_method;
-
-/// A value that has words in the language of the window.
-pub trait Localized {
-    /// A sentence, or a phrase without a capital and a full stop, as `Display` has it in English.
-    fn localized(&self) -> String;
-}

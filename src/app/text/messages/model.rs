@@ -1,6 +1,6 @@
 //! Messages of `pbrdf::optics` and `pbrdf::model`.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use pbrdf::model::{AssignmentError, Check, Domain, Finding, Parameter, ParameterError};
 use pbrdf::optics::{GeometryError, SlopeDistribution};
 use tr::tr;

@@ -1,7 +1,7 @@
 //! Reports of fits and benchmarks in the language of the window.
 
 use crate::app::text::i18n::{self, Language, label, translated};
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::app::text::messages::selftest::short_method;
 use crate::report::ReportLanguage;
 use pbrdf::fit::{StopReason, Undetermined};

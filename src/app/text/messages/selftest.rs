@@ -1,7 +1,7 @@
 //! Messages of `pbrdf::selftest`.
 
 use crate::app::text::i18n::translated;
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use pbrdf::selftest::{BenchmarkMethod, DARK_BAR, GRADIENT_BAR, Machine, Note, StabilityCase, StabilityOutcome, VALUE_BAR};
 use tr::tr;
 

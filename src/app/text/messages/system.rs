@@ -1,6 +1,6 @@
 //! Messages of the operating system and of JSON.
 
-use crate::app::text::messages::Localized;
+use crate::app::text::localized::Localized;
 use crate::figure::PngError;
 use std::io::ErrorKind;
 use tr::tr;
