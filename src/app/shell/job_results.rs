@@ -105,10 +105,11 @@ fn autosaved(app: &mut App, result: Result<(), String>) {
 }
 
 fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: FinishedFit) {
-    let Document { name, number, .. } = &app.work.document;
-    let (document, number, before) = (name.clone(), *number, app.work.settings.parameters);
+    let Document { name, sha256, measurement, number, .. } = &app.work.document;
+    let (document, sha256, data, number) = (name.clone(), sha256.clone(), measurement.clone(), *number);
+    let before = app.work.settings.parameters;
     // The history numbers its fits.
-    let fit = FitEntry { id: 0, report: *report, problem, before, document, number, generation, mask };
+    let fit = FitEntry { id: 0, report: *report, problem, before, document, sha256, data, number, generation, mask };
     app.work.apply(Edit::AddFit(Box::new(fit)));
     app.jobs.fits.abandon_scan();
 }

@@ -5,19 +5,14 @@ use crate::app::shell::app::{App, SAVE_AFTER};
 use crate::app::shell::docking::Dock;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
-use crate::app::storage::session::RestoredFit;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::Views;
 use crate::app::views::action::Action;
-use crate::app::work::document::Document;
-use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use tr::tr;
 
 /// What the working state depends on.
@@ -144,21 +139,11 @@ impl App {
         self.lessons.open = None;
         self.lesson_session = None;
         let OpenedSession { session, fits } = opened;
-        let measurement = session.measurement.map(Arc::unwrap_or_clone).unwrap_or_default();
-        let document = Document::new(session.name, measurement).of_file(session.sha256);
-        let Document { number, generation, .. } = document;
-        let fits = fits.into_iter().enumerate().rev().map(|(index, RestoredFit { report, problem, before, mask })| {
-            // No generation of this document, where the mask was another one.
-            let generation = if mask == *document.mask() { generation } else { 0 };
-            let fit = FitEntry { id: 0, report, problem, before, document: document.name.clone(), number, generation, mask };
-            (fit, session.shown == Some(index))
-        });
-        let fits: Vec<(FitEntry, bool)> = fits.collect();
-        self.work = Workspace::restored(session.settings, document, fits);
+        self.window.layout = session.layout.clone();
+        self.work = session.into_work(fits);
         self.import = None;
         self.views = Views::default();
         self.jobs.fits.abandon();
-        self.window.layout = session.layout;
         self.panes = Dock::new(&self.window.layout);
     }
 }

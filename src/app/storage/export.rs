@@ -1,23 +1,18 @@
 //! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
 
 use crate::app::shell::app::App;
-use crate::app::storage::session::{SavedFit, Session};
+use crate::app::storage::session::Session;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::WindowWording;
 use crate::app::work::document::Document;
-use crate::app::work::fit_history::{FitEntry, FitHistory};
-use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::Settings;
-use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
 use crate::files::export;
 use crate::files::write_file::write_file;
 use crate::report::{DataSource, FitDocument, write_curves, write_fitted};
 use pbrdf::model::Pbrdf;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use tr::tr;
 
 /// Something that can be written.
@@ -165,29 +160,13 @@ fn report(explorer: &App) -> Result<Write, String> {
 
 /// The session as it is shown, that of a lesson included.
 pub fn session(explorer: &App) -> Session {
-    let App { work: Workspace { settings, document, fit_history, shown_fit: last_fit, .. }, .. } = explorer;
     let layout = explorer.panes.layout().unwrap_or_else(|| explorer.window.layout.clone());
-    session_of(settings, layout, document, fit_history, last_fit.as_ref())
+    Session::of(&explorer.work, layout)
 }
 
 /// The session of the user's own work, which a lesson sets aside.
 pub fn own_session(explorer: &App) -> Session {
-    let Workspace { settings, document, fit_history, shown_fit, .. } = explorer.own_work();
-    session_of(settings, explorer.window.layout.clone(), document, fit_history, shown_fit.as_ref())
-}
-
-fn session_of(settings: &Settings, layout: Layout, document: &Document, fits: &FitHistory, shown: Option<&Arc<FitEntry>>) -> Session {
-    let fits: Vec<&Arc<FitEntry>> = fits.iter().filter(|fit| fit.number == document.number).collect();
-    Session {
-        settings: settings.clone(),
-        layout,
-        name: document.name.clone(),
-        sha256: document.sha256.clone(),
-        measurement: (!document.measurement.rows.is_empty()).then(|| document.measurement.clone()),
-        shown: fits.iter().position(|fit| shown.is_some_and(|shown| Arc::ptr_eq(fit, shown))),
-        fits: fits.into_iter().map(|fit| SavedFit::new(fit)).collect(),
-        left_out: std::sync::Arc::default(),
-    }
+    Session::of(explorer.own_work(), explorer.window.layout.clone())
 }
 
 /// A plot as an image for the clipboard.

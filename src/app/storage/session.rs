@@ -1,16 +1,20 @@
 //! A session as a file: everything that the user set, the data with their masks, and the fits, so that it opens on another machine.
 //!
-//! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurement` and `fits`. The
-//! measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Of a fit the file holds what it was
-//! about, where it ended and how it came about; residuals, errors and what is open follow from that when the file is opened.
+//! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurements` and `fits`.
+//! A measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Beside the open
+//! measurement the list holds those that only fits belong to. Of a fit the file holds which measurement it was about, from where it
+//! began, where it ended and how it came about; residuals and errors follow from that when the file is opened.
+//!
+//! Version 1 has one `measurement` instead of the list, and all fits are about it.
 
 use crate::app::storage::earlier_keys::{EarlierFile, EarlierKeys};
 use crate::app::storage::fit_record::{FitRecord, FitRecordError, on_one_line};
 use crate::app::text::localized::Localized;
-use crate::app::work::document::{Mask, masked_rows};
+use crate::app::work::document::{Document, Mask, masked_rows};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, SettingsError, can_be_set};
+use crate::app::work::workspace::Workspace;
 use crate::files::export::program;
 use pbrdf::fit::{Bounds, BoundsError, Course, FitOptions, FitResult, Observer, Problem, ProblemError, Starts, fit};
 use pbrdf::measurement::{Measurement, ReadError};
@@ -22,8 +26,8 @@ use std::sync::Arc;
 use tr::tr;
 
 const FORMAT: &str = "pbrdf-session";
-/// Files of a later version are refused: they may mean something else.
-const VERSION: u32 = 1;
+/// Files of a later version are refused: they may mean something else. Earlier ones are read.
+const VERSION: u32 = 2;
 
 /// What the first look at a file asks.
 #[derive(Deserialize)]
@@ -41,7 +45,11 @@ struct Contents<F> {
     settings: Settings,
     #[serde(deserialize_with = "Layout::lenient")]
     layout: Layout,
-    measurement: Option<Data>,
+    /// The one of version 1.
+    #[serde(default, skip_serializing)]
+    measurement: Option<Table>,
+    #[serde(default)]
+    measurements: Vec<Table>,
     fits: Vec<F>,
     /// Which of them was shown, from 0.
     #[serde(default = "newest")]
@@ -54,17 +62,27 @@ fn newest() -> Option<usize> {
     Some(0)
 }
 
+/// A measurement in the file.
 #[derive(Serialize, Deserialize)]
-struct Data {
+struct Table {
     name: String,
     sha256: Option<String>,
+    #[serde(default = "yes")]
+    open: bool,
     /// The lines of a measurement file.
     table: Vec<String>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// What a fit was about, and where it ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedFit {
+    /// Which measurement of the session, from 0.
+    #[serde(default)]
+    measurement: usize,
     model: Model,
     start: Parameters,
     free: Vec<Parameter>,
@@ -82,8 +100,21 @@ pub struct SavedFit {
     masked: Option<Vec<usize>>,
 }
 
+/// A measurement of a session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SavedMeasurement {
+    pub name: String,
+    /// Hash of the file that it came from.
+    pub sha256: Option<String>,
+    /// Whether it is open; if not, a fit is about it.
+    pub is_open: bool,
+    pub measurement: Arc<Measurement>,
+}
+
 /// A fit of a session, made again.
 pub struct RestoredFit {
+    /// Which measurement of the session, from 0.
+    pub measurement: usize,
     pub report: FitResult,
     pub problem: Arc<Problem>,
     /// The sliders before it.
@@ -97,11 +128,8 @@ pub struct RestoredFit {
 pub struct Session {
     pub settings: Settings,
     pub layout: Layout,
-    /// Name of the measurement.
-    pub name: String,
-    /// Hash of the file that the measurement came from.
-    pub sha256: Option<String>,
-    pub measurement: Option<Arc<Measurement>>,
+    /// The open one, if there is one, and those that fits are about.
+    pub measurements: Vec<SavedMeasurement>,
     /// The newest first.
     pub fits: Vec<SavedFit>,
     /// Which of them is shown.
@@ -138,6 +166,8 @@ pub enum SavedFitError {
     Json(JsonError),
     Bounds(BoundsError),
     Record(FitRecordError),
+    /// The session has no measurement of its number.
+    Measurement,
     /// Its masked rows are not in their order, or not all in the table.
     Mask,
     Parameters(ParameterError),
@@ -183,6 +213,7 @@ impl Localized for SavedFitError {
             Self::Json(error) => error.localized(),
             Self::Bounds(error) => error.localized(),
             Self::Record(error) => error.localized(),
+            Self::Measurement => tr!("measurement: the session has none of that number"),
             Self::Mask => tr!("masked: the rows are not in their order, or not all in the table"),
             Self::Parameters(error) => error.localized(),
             Self::Problem(error) => error.localized(),
@@ -191,7 +222,8 @@ impl Localized for SavedFitError {
 }
 
 impl SavedFit {
-    pub fn new(fit: &FitEntry) -> Self {
+    /// A fit about the measurement of that number in the session, from 0.
+    pub fn new(fit: &FitEntry, measurement: usize) -> Self {
         let problem = &fit.problem;
         let bounds = problem.free().iter().map(|&parameter| {
             let (low, high) = problem.bounds().of(parameter);
@@ -199,6 +231,7 @@ impl SavedFit {
         });
         let account = FitRecord::new(fit);
         Self {
+            measurement,
             masked: account.is_none().then(|| fit.mask.to_vec()),
             model: problem.model(),
             start: *problem.start(),
@@ -211,8 +244,8 @@ impl SavedFit {
         }
     }
 
-    /// A fit of a file, if it can be one of this measurement.
-    fn read(value: serde_json::Value, measurement: &Measurement) -> Result<Self, SavedFitError> {
+    /// A fit of a file, if it can be one of its measurement.
+    fn read(value: serde_json::Value, measurements: &[SavedMeasurement]) -> Result<Self, SavedFitError> {
         let earlier = EarlierKeys::deserialize(&value).map_err(|error| SavedFitError::Json(error.into()));
         let mut recipe: Self = serde_path_to_error::deserialize(value).map_err(|error| SavedFitError::Json(error.into()))?;
         earlier?.apply(&mut recipe.model);
@@ -224,7 +257,8 @@ impl SavedFit {
         if let Some(account) = recipe.account.take_if(|account| account.is_empty()) {
             recipe.masked = Some(account.into_mask());
         }
-        recipe.problem(measurement).map(|_| recipe)
+        let measurement = measurements.get(recipe.measurement).ok_or(SavedFitError::Measurement)?;
+        recipe.problem(&measurement.measurement).map(|_| recipe)
     }
 
     /// The rows that were masked, where the file tells.
@@ -264,14 +298,15 @@ impl SavedFit {
     }
 
     /// The fit again. None where the data of the session are no longer such that there is one.
-    pub fn again(&self, measurement: &Measurement) -> Option<RestoredFit> {
+    pub fn again(&self, measurements: &[SavedMeasurement]) -> Option<RestoredFit> {
+        let measurement = &measurements.get(self.measurement)?.measurement;
         let problem = self.problem(measurement).ok()?;
         let report = match &self.account {
             Some(account) => account.report(&problem, &self.free)?,
             None => self.without_account(&problem),
         };
         let mask = self.mask().map_or_else(|| masked_rows(&measurement.rows), Mask::from);
-        Some(RestoredFit { report, problem: Arc::new(problem), before: self.before, mask })
+        Some(RestoredFit { measurement: self.measurement, report, problem: Arc::new(problem), before: self.before, mask })
     }
 
     /// From its solution, where it stays; how it got there is not known.
@@ -292,7 +327,62 @@ fn is_mask(rows: &[usize], of: usize) -> bool {
     rows.is_sorted_by(|one, next| one < next) && rows.last().is_none_or(|&last| last < of)
 }
 
+/// Rows of closed measurements that a session keeps for their fits; fits of older ones are left out.
+const MOST_CLOSED_ROWS: usize = 20_000;
+
 impl Session {
+    /// The work as it is now, with its fits and the data that they were made from.
+    pub fn of(work: &Workspace, layout: Layout) -> Self {
+        let Workspace { settings, document, fit_history, shown_fit, .. } = work;
+        let mut measurements = Vec::new();
+        let mut numbers = Vec::new();
+        if !document.measurement.rows.is_empty() {
+            let (name, sha256, measurement) = (document.name.clone(), document.sha256.clone(), document.measurement.clone());
+            measurements.push(SavedMeasurement { name, sha256, is_open: true, measurement });
+            numbers.push(document.number);
+        }
+        let (mut fits, mut shown, mut rows) = (Vec::new(), None, 0);
+        for fit in fit_history.iter() {
+            let index = numbers.iter().position(|number| *number == fit.number).unwrap_or_else(|| {
+                numbers.push(fit.number);
+                numbers.len() - 1
+            });
+            if index == measurements.len() {
+                rows += fit.data.rows.len();
+                if rows > MOST_CLOSED_ROWS {
+                    break;
+                }
+                let (name, sha256, measurement) = (fit.document.clone(), fit.sha256.clone(), fit.data.clone());
+                measurements.push(SavedMeasurement { name, sha256, is_open: false, measurement });
+            }
+            if shown_fit.as_ref().is_some_and(|shown| Arc::ptr_eq(fit, shown)) {
+                shown = Some(fits.len());
+            }
+            fits.push(SavedFit::new(fit, index));
+        }
+        Self { settings: settings.clone(), layout, measurements, fits, shown, left_out: Arc::default() }
+    }
+
+    /// The work that it holds, with its fits restored.
+    pub fn into_work(self, fits: Vec<RestoredFit>) -> Workspace {
+        let document = |saved: SavedMeasurement| Document::new(saved.name, Arc::unwrap_or_clone(saved.measurement)).of_file(saved.sha256);
+        let open = self.measurements.iter().position(|saved| saved.is_open);
+        let mut documents: Vec<Document> = self.measurements.into_iter().map(document).collect();
+        let entry = |fit: RestoredFit| {
+            let Document { ref name, ref sha256, ref measurement, number, generation, .. } = documents[fit.measurement];
+            // A fit with another mask is of no generation of its measurement.
+            let generation = if fit.mask == *documents[fit.measurement].mask() { generation } else { 0 };
+            let RestoredFit { report, problem, before, mask, .. } = fit;
+            let (document, sha256, data) = (name.clone(), sha256.clone(), measurement.clone());
+            FitEntry { id: 0, report, problem, before, document, sha256, data, number, generation, mask }
+        };
+        let shown = self.shown;
+        let entries = fits.into_iter().enumerate().rev().map(|(index, fit)| (entry(fit), shown == Some(index)));
+        let entries: Vec<(FitEntry, bool)> = entries.collect();
+        let open = open.map_or_else(|| Document::new(String::new(), Measurement::default()), |open| documents.swap_remove(open));
+        Workspace::restored(self.settings, open, entries)
+    }
+
     /// Writes it: one key, and one row of the table, a line.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let table = |measurement: &Arc<Measurement>| -> io::Result<Vec<String>> {
@@ -300,16 +390,18 @@ impl Session {
             measurement.write(&mut bytes)?;
             Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
         };
-        let data = |measurement| -> io::Result<Data> {
-            Ok(Data { name: self.name.clone(), sha256: self.sha256.clone(), table: table(measurement)? })
-        };
+        let measurements = self.measurements.iter().map(|saved| -> io::Result<Table> {
+            let SavedMeasurement { name, sha256, is_open, measurement } = saved;
+            Ok(Table { name: name.clone(), sha256: sha256.clone(), open: *is_open, table: table(measurement)? })
+        });
         let contents = Contents {
             format: FORMAT.to_owned(),
             version: VERSION,
             program: program(),
             settings: self.settings.clone(),
             layout: self.layout.clone(),
-            measurement: self.measurement.as_ref().map(data).transpose()?,
+            measurement: None,
+            measurements: measurements.collect::<io::Result<_>>()?,
             fits: self.fits.iter().collect(),
             shown: self.shown,
         };
@@ -321,7 +413,7 @@ impl Session {
     pub fn read(text: &str) -> Result<Self, SessionError> {
         let header: Header = serde_json::from_str(text).map_err(|error| SessionError::Json(error.into()))?;
         match (header.format.as_deref(), header.version) {
-            (Some(FORMAT), Some(VERSION)) => {}
+            (Some(FORMAT), Some(1..=VERSION)) => {}
             (Some(FORMAT), Some(found)) => return Err(SessionError::Version { found }),
             _ => return Err(SessionError::Format),
         }
@@ -333,18 +425,16 @@ impl Session {
         if let Some(fault) = contents.settings.fault() {
             return Err(SessionError::Settings(fault));
         }
-        let (name, sha256, measurement) = match contents.measurement {
-            Some(Data { name, sha256, table }) => {
-                let text = table.join("\n");
-                (name, sha256, Some(Measurement::read(text.as_bytes()).map_err(SessionError::Measurement)?))
-            }
-            None => (String::new(), None, None),
-        };
-        let measurement = measurement.map(Arc::new);
-        let Contents { settings, layout, fits: stored, shown: stored_shown, .. } = contents;
+        let Contents { settings, layout, measurement, measurements, fits: stored, shown: stored_shown, .. } = contents;
+        let tables = measurement.into_iter().chain(measurements);
+        let measurements = tables.map(|Table { name, sha256, open, table }| -> Result<SavedMeasurement, ReadError> {
+            let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
+            Ok(SavedMeasurement { name, sha256, is_open: open, measurement })
+        });
+        let measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
         let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
         for (index, value) in stored.into_iter().enumerate() {
-            match SavedFit::read(value, measurement.as_deref().unwrap_or(&Measurement::default())) {
+            match SavedFit::read(value, &measurements) {
                 Ok(recipe) => {
                     shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
                     fits.push(recipe);
@@ -352,6 +442,6 @@ impl Session {
                 Err(error) => left_out.push((index + 1, error)),
             }
         }
-        Ok(Self { settings, layout, name, sha256, measurement, fits, shown, left_out: left_out.into() })
+        Ok(Self { settings, layout, measurements, fits, shown, left_out: left_out.into() })
     }
 }

@@ -1,6 +1,6 @@
 //! Sessions on disk.
 
-use crate::app::storage::session::{RestoredFit, SavedFit, Session};
+use crate::app::storage::session::{RestoredFit, Session};
 use crate::app::text::localized::Localized as _;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
@@ -30,8 +30,7 @@ impl OpenedSession {
 
     /// Restores the fits that the data of the session still allow.
     pub fn new(session: Session) -> Self {
-        let restore = |fit: &SavedFit| fit.again(session.measurement.as_ref()?);
-        let fits = session.fits.iter().filter_map(restore).collect();
+        let fits = session.fits.iter().filter_map(|fit| fit.again(&session.measurements)).collect();
         Self { session, fits }
     }
 }

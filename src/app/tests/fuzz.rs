@@ -17,7 +17,7 @@ use crate::app::shell::lessons::Lessons;
 use crate::app::storage::export;
 use crate::app::storage::import;
 use crate::app::storage::import::Loaded;
-use crate::app::storage::session::Session;
+use crate::app::storage::session::{SavedMeasurement, Session};
 use crate::app::storage::session_file::OpenedSession;
 use crate::app::storage::settings_file;
 use crate::app::tests::{explorer, wait};
@@ -34,7 +34,6 @@ use pbrdf::measurement::formats::{ImportError, ImportOptions, Imported};
 use pbrdf::model::{Parameter, ParameterSet, Parameters};
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
 
 const TABLE: &str = "# material: steel\n# wavelength_nm: 650\ntheta_i,theta_r,dolp,dolp_sigma,brdf,masked\n30,20,0.1,0.01,2,0\n30,25,0.2,,1e-3,1\n30,-20,0,0.02,0.5,0\n40,20,0.3,0.01,,0\n40,30,0.4,0.01,1,0\n40,50,0.5,0.01,3,0\n";
 
@@ -81,15 +80,17 @@ fn opened(bytes: &[u8]) -> Option<OpenedSession> {
 #[test]
 fn sessions() {
     let whole = session();
-    let bare = Session { measurement: None, fits: Vec::new(), layout: Layout::PaneId(PaneId::ALL[0]), ..whole.clone() };
+    let bare = Session { measurements: Vec::new(), fits: Vec::new(), layout: Layout::PaneId(PaneId::ALL[0]), ..whole.clone() };
     fuzz("session", &[text(&whole), text(&bare)], |bytes| {
         let Some(opened) = opened(bytes) else { return false };
-        let Session { settings, layout, name, measurement, fits, .. } = &opened.session;
+        let Session { settings, layout, measurements, fits, .. } = &opened.session;
         let again = Session::read(&String::from_utf8(text(&opened.session)).expect("JSON")).expect("what was written");
-        assert_eq!((&again.settings, &again.layout, &again.name, &again.fits), (settings, layout, name, fits));
+        assert_eq!((&again.settings, &again.layout, &again.fits), (settings, layout, fits));
         // Numbers of lines and ignored columns are those of the new table.
-        let rows = |measurement: &Option<Arc<Measurement>>| measurement.as_ref().map(|measurement| measurement.rows.clone());
-        assert_eq!(rows(&again.measurement), rows(measurement));
+        let data = |saved: &[SavedMeasurement]| -> Vec<_> {
+            saved.iter().map(|saved| (saved.name.clone(), saved.is_open, saved.measurement.rows.clone())).collect()
+        };
+        assert_eq!(data(&again.measurements), data(measurements));
         true
     });
 }

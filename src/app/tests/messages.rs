@@ -481,9 +481,10 @@ fn without_account(explorer: &mut App) {
     let fit = explorer.work.shown_fit.as_ref().expect("a fit");
     let mut report = fit.report.clone();
     report.course.minima.clear();
-    let FitEntry { id, ref problem, before, ref document, number, generation, ref mask, .. } = **fit;
+    let FitEntry { id, ref problem, before, ref document, ref sha256, ref data, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
-    explorer.work.shown_fit = Some(Arc::new(FitEntry { id, report, problem, before, document, number, generation, mask }));
+    let (sha256, data) = (sha256.clone(), data.clone());
+    explorer.work.shown_fit = Some(Arc::new(FitEntry { id, report, problem, before, document, sha256, data, number, generation, mask }));
 }
 
 /// What is English in the report of a fit.

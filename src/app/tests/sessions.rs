@@ -11,7 +11,7 @@ use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use pbrdf::fit::Loss;
+use pbrdf::fit::{Loss, Starts};
 use pbrdf::model::{DolpFormula, Parameter};
 use std::path::{Path, PathBuf};
 use std::process::{Command as Process, Stdio};
@@ -188,7 +188,7 @@ fn a_session_is_readable_row_by_row() {
     let mut bytes = Vec::new();
     export::session(explorer(&mut harness)).write(&mut bytes).expect("memory");
     let text = String::from_utf8(bytes).expect("text");
-    assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 1,\n"));
+    assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 2,\n"));
     assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
     assert!(text.lines().all(|line| line.len() < 300));
 }
@@ -209,7 +209,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         ("{}".to_owned(), "no session"),
         ("theta_i,theta_r,dolp\n30,20,0.1\n".to_owned(), "line 1"),
         (good[..good.len() / 2].to_owned(), "line"),
-        (good.replacen("\"version\": 1", "\"version\": 99", 1), "version 99"),
+        (good.replacen("\"version\": 2", "\"version\": 99", 1), "version 99"),
         (good.replacen(&parameter("sigma"), "\"sigma\": 1e999", 1), "out of range"),
         (good.replacen(&parameter("sigma"), "\"sigma\": null", 1), "settings.parameters.sigma"),
         (good.replacen(&parameter("sigma"), "\"sigma\": -3.0", 1), "settings.parameters: sigma = -3"),
@@ -385,7 +385,34 @@ fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
             // The state before the first save of all.
             _ => {}
         }
-        assert_eq!(session.measurement.expect("its data").rows, explorer(&mut source).work.document.measurement.rows);
+        assert_eq!(session.measurements[0].measurement.rows, explorer(&mut source).work.document.measurement.rows);
     }
     assert!(seen.iter().all(|&times| times > 0), "both states were seen, {seen:?}: the kills met a process at work");
+}
+
+#[test]
+fn fits_of_a_measurement_that_is_no_longer_open_come_back_with_their_data() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let working = folder.path().join("working.pbrdf.json");
+    let mut first = harness();
+    explorer(&mut first).work.settings.starts = Starts::One;
+    order(&mut first, Action::OpenExample(1));
+    order(&mut first, Action::Mask { rows: vec![3], masked: true });
+    order(&mut first, Action::StartFit);
+    order(&mut first, Action::OpenExample(2));
+    order(&mut first, Action::StartFit);
+    explorer(&mut first).working_file = Some(working.clone());
+    explorer(&mut first).autosave_now();
+    let mut second = harness();
+    explorer(&mut second).working_file = Some(working);
+    explorer(&mut second).resume();
+    wait(&mut second);
+    let (first, second) = (&explorer(&mut first).work, &explorer(&mut second).work);
+    assert_eq!(second.document.name, first.document.name);
+    assert_eq!((first.fit_history.len(), second.fit_history.len()), (2, 2));
+    for (old, new) in first.fit_history.iter().zip(second.fit_history.iter()) {
+        assert_eq!((&new.document, &new.mask, &new.data.rows), (&old.document, &old.mask, &old.data.rows));
+        assert_eq!(new.report.parameters, old.report.parameters);
+        assert_eq!(new.number == second.document.number, old.number == first.document.number);
+    }
 }

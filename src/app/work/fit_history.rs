@@ -2,6 +2,7 @@
 
 use crate::app::work::document::Mask;
 use pbrdf::fit::{FitResult, Problem};
+use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameters;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -17,6 +18,10 @@ pub struct FitEntry {
     pub before: Parameters,
     /// The measurement's name.
     pub document: String,
+    /// SHA-256 of the measurement's file, where there is one.
+    pub sha256: Option<String>,
+    /// The rows of the measurement; [`Self::mask`] says which were masked.
+    pub data: Arc<Measurement>,
     /// Which measurement of the session it was.
     pub number: u64,
     /// The state of that measurement: its mask may have changed since.
