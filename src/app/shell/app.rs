@@ -3,6 +3,7 @@
 use crate::app::jobs::spawner::Spawner;
 use crate::app::panels;
 use crate::app::platform::Instant;
+use crate::app::shell::autosave::AutosaveKey;
 use crate::app::shell::command_palette::{Palette, palette_ui};
 use crate::app::shell::commands;
 use crate::app::shell::docking::{Dock, panes_ui};
@@ -22,7 +23,6 @@ use crate::app::shell::path_entry::{OverwritePrompt, PathEntry};
 use crate::app::shell::status_bar::{notices_ui, status_ui};
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Toasts;
-use crate::app::storage::autosave::AutosaveKey;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::{export, settings_file};
 use crate::app::tasks::jobs::Jobs;
@@ -379,7 +379,7 @@ impl App {
     fn export(&mut self, what: ExportKind, path: PathBuf) -> Result<(), String> {
         what.check(&path)?;
         let figure = if let ExportKind::Plot(pane) = what { self.figure(pane) } else { None };
-        let write = what.taken_from(self, figure)?;
+        let write = what.snapshot(&self.work, self.shown_layout(), figure)?;
         self.jobs.files.export(what, path, write)
     }
 

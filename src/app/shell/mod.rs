@@ -1,6 +1,7 @@
 //! The window as a whole: app, commands, docking, dialogs, toasts, theme, lessons.
 
 pub mod app;
+pub mod autosave;
 pub mod command_palette;
 pub mod commands;
 pub mod docking;

@@ -1,6 +1,5 @@
 //! What leaves the window as a file or to the clipboard: plots, curves, fits, sessions.
 
-use crate::app::shell::app::App;
 use crate::app::storage::session::Session;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -88,11 +87,11 @@ impl ExportKind {
         fits.map_err(|reason| tr!("{}.", reason.localized()))
     }
 
-    /// What is needed to write it, taken from the window as it is now, and of a plot its figure.
+    /// A snapshot of the work that writes itself: the work may change while it is written. A plot is its figure, a session has the layout.
     ///
     /// # Errors
     /// There is nothing to write; the error is a sentence.
-    pub fn taken_from(self, explorer: &App, figure: Option<Figure>) -> Result<Write, String> {
+    pub fn snapshot(self, work: &Workspace, layout: Layout, figure: Option<Figure>) -> Result<Write, String> {
         match self {
             Self::Plot(_) => {
                 let figure = figure.ok_or_else(|| tr!("There is no plot to export."))?;
@@ -102,20 +101,20 @@ impl ExportKind {
                 }))
             }
             Self::Curves => {
-                let surface = surface(explorer)?;
-                let series = explorer.work.document.series.clone();
-                let backscatter = explorer.work.settings.show_backscatter || explorer.work.document.has_backscatter();
+                let surface = surface(work)?;
+                let series = work.document.series.clone();
+                let backscatter = work.settings.show_backscatter || work.document.has_backscatter();
                 Ok(written(move |out| write_curves(&surface, &series, backscatter, out)))
             }
             Self::Fitted => {
-                let fit = explorer.work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
+                let fit = work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (choices, measurement) = (*fit.problem.options(), explorer.work.document.measurement.clone());
+                let (choices, measurement) = (*fit.problem.options(), work.document.measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.dolp_only, out)))
             }
-            Self::Report => report(explorer),
+            Self::Report => report(work),
             Self::Session => {
-                let session = session(explorer);
+                let session = Session::of(work, layout);
                 Ok(written(move |out| session.write(out)))
             }
         }
@@ -132,15 +131,14 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
     Box::new(move |path| write_file(path, body).map_err(|error| failure(path, &error)))
 }
 
-fn surface(explorer: &App) -> Result<Pbrdf, String> {
-    Pbrdf::new(explorer.work.settings.model, explorer.work.settings.parameters)
-        .map_err(|error| tr!("There are no curves: {}.", error.localized()))
+fn surface(work: &Workspace) -> Result<Pbrdf, String> {
+    Pbrdf::new(work.settings.model, work.settings.parameters).map_err(|error| tr!("There are no curves: {}.", error.localized()))
 }
 
-fn report(explorer: &App) -> Result<Write, String> {
-    let fit = explorer.work.shown_fit.clone().ok_or_else(|| translated(NO_FIT))?;
+fn report(work: &Workspace) -> Result<Write, String> {
+    let fit = work.shown_fit.clone().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
-    let (measurement, document) = (explorer.work.document.measurement.clone(), &explorer.work.document);
+    let (measurement, document) = (work.document.measurement.clone(), &work.document);
     let source = DataSource { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
@@ -156,17 +154,6 @@ fn report(explorer: &App) -> Result<Write, String> {
         };
         export::write_report(path, kind, &fit.document()).map_err(|error| failure(path, &error))
     }))
-}
-
-/// The session as it is shown, that of a lesson included.
-pub fn session(explorer: &App) -> Session {
-    let layout = explorer.panes.layout().unwrap_or_else(|| explorer.window.layout.clone());
-    Session::of(&explorer.work, layout)
-}
-
-/// The session of the user's own work, which a lesson sets aside.
-pub fn own_session(explorer: &App) -> Session {
-    Session::of(explorer.own_work(), explorer.window.layout.clone())
 }
 
 /// A plot as an image for the clipboard.

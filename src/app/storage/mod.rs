@@ -1,6 +1,5 @@
 //! What is kept or leaves the program: sessions, autosave, settings, imports, exports.
 
-pub mod autosave;
 mod earlier_keys;
 pub mod export;
 pub mod fit_record;

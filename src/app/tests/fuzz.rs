@@ -70,7 +70,7 @@ fn session() -> Session {
     let mut harness = small();
     let explorer = explorer(&mut harness);
     explorer.work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
-    export::session(explorer)
+    explorer.session()
 }
 
 fn opened(bytes: &[u8]) -> Option<OpenedSession> {

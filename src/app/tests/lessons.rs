@@ -442,7 +442,7 @@ fn what_was_said_before_a_session_is_opened_is_still_there_after() {
     let path = folder.path().join("working.pbrdf.json");
     let mut harness = harness();
     let mut bytes = Vec::new();
-    crate::app::storage::export::session(explorer(&mut harness)).write(&mut bytes).expect("memory takes everything");
+    explorer(&mut harness).session().write(&mut bytes).expect("memory takes everything");
     std::fs::write(&path, bytes).expect("a writable folder");
     let state = explorer(&mut harness);
     state.say("The settings are damaged.".to_owned());

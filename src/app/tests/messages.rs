@@ -468,7 +468,7 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
         let mut left = Vec::new();
         // The second time it does not know how it came about, like one out of an old session.
         for _ in 0..2 {
-            ExportKind::Report.taken_from(explorer(&mut harness), None).expect("a report")(&path).expect("a file");
+            ExportKind::Report.snapshot(&explorer(&mut harness).work, Layout::default(), None).expect("a report")(&path).expect("a file");
             left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).work.document));
             without_account(explorer(&mut harness));
         }

@@ -113,7 +113,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
 fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     let mut source = worked_in();
     let mut bytes = Vec::new();
-    export::session(explorer(&mut source)).write(&mut bytes).expect("memory");
+    explorer(&mut source).session().write(&mut bytes).expect("memory");
     let mut old: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
     old.as_object_mut().expect("a session").remove("shown");
     old["fits"][0].as_object_mut().expect("a fit").remove("account").expect("an account");
@@ -186,7 +186,7 @@ fn saving_again_goes_into_the_same_file() {
 fn a_session_is_readable_row_by_row() {
     let mut harness = worked_in();
     let mut bytes = Vec::new();
-    export::session(explorer(&mut harness)).write(&mut bytes).expect("memory");
+    explorer(&mut harness).session().write(&mut bytes).expect("memory");
     let text = String::from_utf8(bytes).expect("text");
     assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 2,\n"));
     assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
@@ -333,7 +333,7 @@ fn the_working_state_is_kept_and_comes_back() {
 fn a_full_disk_leaves_the_old_session() {
     // /dev/full takes nothing; a folder that is not there cannot take a temporary file either.
     let mut harness = worked_in();
-    let session = export::session(explorer(&mut harness));
+    let session = explorer(&mut harness).session();
     if Path::new("/dev/full").exists() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }

@@ -3,8 +3,8 @@
 use crate::app::platform::Instant;
 use crate::app::shell::app::{App, SAVE_AFTER};
 use crate::app::shell::docking::Dock;
-use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
+use crate::app::storage::session::Session;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -28,6 +28,21 @@ pub struct AutosaveKey {
 const MOST_ROWS: usize = 20_000;
 
 impl App {
+    /// The session as it is shown, that of a lesson included.
+    pub fn session(&self) -> Session {
+        Session::of(&self.work, self.shown_layout())
+    }
+
+    /// The session of the user's own work, which a lesson sets aside.
+    fn own_session(&self) -> Session {
+        Session::of(self.own_work(), self.window.layout.clone())
+    }
+
+    /// The layout as it is shown, that of a lesson included.
+    pub fn shown_layout(&self) -> Layout {
+        self.panes.layout().unwrap_or_else(|| self.window.layout.clone())
+    }
+
     /// Goes on where the program ended the last time, if it left something.
     pub fn resume(&mut self) {
         if let Some(path) = self.working_file.clone().filter(|path| path.exists()) {
@@ -64,7 +79,7 @@ impl App {
         }
         self.unsaved_since = None;
         self.autosaved = Some(working);
-        if let Err(sentence) = self.jobs.files.autosave(path, export::own_session(self)) {
+        if let Err(sentence) = self.jobs.files.autosave(path, self.own_session()) {
             self.say(sentence);
         }
     }
@@ -72,7 +87,7 @@ impl App {
     /// Writes the working state before the window closes.
     pub fn autosave_now(&mut self) {
         if let Some((path, working)) = self.due()
-            && save_session(&path, &export::own_session(self)).is_ok()
+            && save_session(&path, &self.own_session()).is_ok()
         {
             self.autosaved = Some(working);
         }
