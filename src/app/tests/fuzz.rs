@@ -14,7 +14,6 @@ mod damage;
 use crate::app::shell::app::App;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::Lessons;
-use crate::app::storage::export;
 use crate::app::storage::import;
 use crate::app::storage::import::Loaded;
 use crate::app::storage::session::{SavedMeasurement, Session};

@@ -14,6 +14,7 @@ use crate::app::text::messages::{advised, short_method};
 use crate::app::views::action::Action;
 use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::layout::Layout;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
 use crate::app::work::settings::SettingsError;
 use crate::figure::PngError;

@@ -1,7 +1,6 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
 use crate::app::shell::app::App;
-use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::session_file::save_session;

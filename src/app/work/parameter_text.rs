@@ -76,7 +76,7 @@ mod tests {
             ("m=3", "\"m\" is no parameter"),
             ("n=abc", "not a finite number"),
             ("n=1, k=-2", "k = -2 is not allowed"),
-            ("q=1", "> 1"),
+            ("q=1", "from 1.000000000001 to 1e12"),
         ] {
             let sentence = read(given, Parameters::default()).expect_err("this is not a set of parameters");
             assert!(sentence.contains(expected), "{given:?}: {sentence}");
