@@ -198,7 +198,12 @@ mod tests {
     #[test]
     fn every_text_of_the_window_is_translated() {
         let catalogue = Catalogue::from_po(CHINESE).expect("the catalogue is well-formed");
-        let of = |source: &str| TEXTS.iter().flat_map(|words| literals_after(source, words)).collect::<Vec<_>>();
+        // Chinese has no singular: the text of many is looked up.
+        let is_singular = |source: &str, text: &str| source.contains(&format!("{text:?} | \""));
+        let of = |source: &str| -> Vec<String> {
+            let texts = TEXTS.iter().flat_map(|words| literals_after(source, words));
+            texts.filter(|text| !is_singular(source, text)).collect()
+        };
         let texts: BTreeSet<String> = of_window().iter().flat_map(|(_, source)| of(source)).filter(|text| !text.is_empty()).collect();
         let missing: Vec<String> = texts.into_iter().filter(|text| !catalogue.chinese.contains_key(text)).collect();
         assert!(missing.is_empty(), "not in assets/locales/zh_CN.po: {missing:#?}");
