@@ -194,6 +194,6 @@ pub mod fit;
 pub mod measurement;
 pub mod model;
 pub mod optics;
-pub mod rounding;
+pub use fit::rounding;
 #[cfg(feature = "selftest")]
 pub mod selftest;

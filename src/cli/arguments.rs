@@ -13,7 +13,8 @@ use std::path::PathBuf;
 ///
 /// Without a command it opens the window.
 #[derive(Debug, Parser)]
-#[command(version, about, args_conflicts_with_subcommands = true)]
+// Help is wrapped nowhere, whatever features of clap other packages of a build ask for.
+#[command(version, about, args_conflicts_with_subcommands = true, term_width = 0)]
 pub struct Arguments {
     /// What to do without a window.
     #[command(subcommand)]

@@ -1,8 +1,8 @@
 //! One parameter after a fit: its value, and how well the data determine it.
 
 use crate::fit::intervals::linear::UndeterminedDirection;
+use crate::fit::rounding::with_error;
 use crate::model::Parameter;
-use crate::rounding::with_error;
 use serde::Serialize;
 use std::fmt;
 

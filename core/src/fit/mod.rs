@@ -48,6 +48,7 @@ mod observations;
 mod observer;
 mod options;
 mod result;
+pub mod rounding;
 mod solve;
 mod stop_reason;
 

@@ -29,6 +29,7 @@ const MOST_ROWS: usize = 20_000;
 
 impl App {
     /// The session as it is shown, that of a lesson included.
+    #[cfg(test)]
     pub fn session(&self) -> Session {
         Session::of(&self.work, self.shown_layout())
     }

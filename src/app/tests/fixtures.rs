@@ -15,8 +15,9 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Relative difference that arithmetic in another order may make.
-const TOLERANCE: f64 = 1e-9;
+/// Relative difference that arithmetic in another order may make. Fits without a record of how they
+/// came about are made again; where the data determine little they end elsewhere in a flat valley.
+const TOLERANCE: f64 = 1e-7;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/v0.1")

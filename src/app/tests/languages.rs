@@ -54,6 +54,7 @@ pub(crate) fn written(harness: &Harness<'static, Option<App>>) -> BTreeSet<Strin
 /// Words that are the same in both languages: names of quantities, people and units, keys of parameters, columns and models, of licences
 /// and this program, and two texts of the toolkit that only a screen reader sees.
 const SAME: &[&str] = &[
+    "AVX2",
     "arctan",
     "AICc",
     "Apache",

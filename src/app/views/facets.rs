@@ -33,9 +33,12 @@ pub struct FacetsView {
     tilts: AutoRange,
     /// Of the densities, in logarithms where those are drawn.
     range: AutoRange,
-    /// Of both by their stamps; whether densities are logarithmic; how the model masks; the axes; the language.
-    plot: FigurePlot<([u64; 2], bool, Masking, [Option<Range>; 2], Language)>,
+    plot: FigurePlot<PlotKey>,
 }
+
+/// Stamps of densities and masking, whether densities are logarithmic, how the model masks, the
+/// axes, the language.
+type PlotKey = ([u64; 2], bool, Masking, [Option<Range>; 2], Language);
 
 /// σ, q, the model's own distribution and whether the other one has the same median slope.
 type DensityKey = (f64, f64, SlopeDistribution, bool);

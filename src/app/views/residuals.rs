@@ -19,12 +19,18 @@ use tr::tr;
 #[derive(Default)]
 pub struct ResidualStrip {
     /// DoLP of the model less the measured one, of each series; masked points left out.
-    pub of_series: Memo<(Parameters, Model, u64), Vec<Vec<[f64; 2]>>>,
+    pub of_series: Memo<(Parameters, Model, u64), Vec<Curve>>,
     range: AutoRange,
-    /// Of the residuals, which series are hidden, the axis of θr, that of the residuals, the language.
-    plot: FigurePlot<(u64, Vec<bool>, Range, Option<Range>, Language)>,
+    plot: FigurePlot<PlotKey>,
     is_there: bool,
 }
+
+/// θr in degrees and the residual of DoLP, point by point.
+type Curve = Vec<[f64; 2]>;
+
+/// Stamp of the residuals, which series are hidden, the axis of θr, that of the residuals, the
+/// language.
+type PlotKey = (u64, Vec<bool>, Range, Option<Range>, Language);
 
 /// Half the axis where a fit has been exact from the first.
 const EXACT: f64 = 0.01;

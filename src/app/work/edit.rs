@@ -8,7 +8,6 @@ use crate::app::work::model_fit::ModelFit;
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use pbrdf::fit::{FitOptions, FitResult, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
-use std::sync::Arc;
 
 /// One change of the work, in terms of what a user does; [`Workspace::apply`] carries it out.
 ///
@@ -65,7 +64,6 @@ pub enum Edit {
     AddFit(Box<FitEntry>),
     /// Takes the free parameters of a fit that ran while sliders moved.
     Refit(Box<FitResult>),
-    ShowFit(Option<Arc<FitEntry>>),
     /// Values and model of something that was looked at. A live refit does not begin there.
     TakeValues {
         parameters: Parameters,
@@ -81,11 +79,6 @@ pub enum Edit {
     SetModelComparison(Vec<ModelFit>),
     /// Takes the values and the model of that row of the comparison.
     UseModelFit(usize),
-    /// What the next profile and bootstrap are about.
-    SetScan {
-        parameter: Option<Parameter>,
-        replicates: usize,
-    },
     SetProfile(Option<ProfileCurve>),
     SetBootstrap(Option<Bootstrap>),
     Undo,

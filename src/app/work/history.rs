@@ -18,11 +18,6 @@ impl<S> Default for History<S> {
 }
 
 impl<S: PartialEq + Clone> History<S> {
-    /// Where things are at rest.
-    pub fn current(&self) -> Option<&S> {
-        self.current.as_ref()
-    }
-
     /// Takes down where things have come to rest, if that is somewhere new.
     pub fn rest(&mut self, at: S) {
         if self.current.as_ref() == Some(&at) {

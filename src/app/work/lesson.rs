@@ -52,6 +52,7 @@ impl Wording {
     }
 
     /// Whether the text is there in that language.
+    #[cfg(test)]
     #[must_use]
     pub fn is_translated(&self, language: &str) -> bool {
         self.translations.iter().any(|(other, _)| other == language)

@@ -90,6 +90,7 @@ impl Workspace {
     }
 
     /// Another number after every change, and none twice in a run of the program: work of the same revision is the same work.
+    #[cfg(test)]
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -123,10 +124,6 @@ impl Workspace {
                 self.last_refit_at = None;
             }
             Edit::Open(document) => self.open(*document),
-            Edit::SetScan { parameter, replicates } => {
-                self.diagnostics.parameter = parameter;
-                self.diagnostics.replicates = replicates;
-            }
             Edit::SetProfile(profile) => self.diagnostics.profile = profile,
             Edit::SetBootstrap(scatter) => self.diagnostics.scatter = scatter,
             Edit::SetModelComparison(fits) => self.model_comparison = fits,
@@ -138,7 +135,6 @@ impl Workspace {
                 self.show_fit(Some(fit));
             }
             Edit::Refit(report) => self.take_refit(&report),
-            Edit::ShowFit(fit) => self.show_fit(fit),
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
             Edit::UseFit => {
                 if let Some(FitResult { parameters, model, .. }) = self.shown_fit.as_ref().map(|fit| &fit.report) {
