@@ -13,8 +13,7 @@ use std::path::PathBuf;
 ///
 /// Without a command it opens the window.
 #[derive(Debug, Parser)]
-// Help is wrapped nowhere, whatever features of clap other packages of a build ask for.
-#[command(version, about, args_conflicts_with_subcommands = true, term_width = 0)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
     /// What to do without a window.
     #[command(subcommand)]
