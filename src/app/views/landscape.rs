@@ -4,12 +4,15 @@
 mod axes;
 mod describe;
 mod drawn;
+mod key;
 mod legend;
 mod map;
 mod marks;
+mod state;
+
+pub use state::LandscapeView;
 
 use crate::app::jobs::async_memo::AsyncMemo;
-use crate::app::jobs::memo::Memo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
@@ -17,12 +20,13 @@ use crate::app::work::settings::{LandscapeAxes, Settings};
 use crate::figure::Figure;
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::LandscapeImage;
-use egui::{ComboBox, Role, TextureHandle, Ui, WidgetInfo, vec2};
+use egui::{ComboBox, Role, Ui, WidgetInfo, vec2};
 use egui_plot::PlotPoint;
+use key::LandscapeKey;
 use map::map_ui;
 use marks::{Marks, MarksKey};
-use pbrdf::fit::{FitOptions, LandscapeAxis, Loss};
-use pbrdf::model::{Model, Parameter, Parameters};
+use pbrdf::fit::Loss;
+use pbrdf::model::Parameter;
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -33,41 +37,6 @@ pub static SPEC: PaneSpec = PaneSpec {
     has_figure: true,
     new: || Box::new(LandscapeView::default()),
 };
-
-/// What the pane keeps.
-#[derive(Default)]
-pub struct LandscapeView {
-    job: AsyncMemo<Key, Option<LandscapeImage>>,
-    textured: Memo<Key, ()>,
-    texture: Option<TextureHandle>,
-    marks: Memo<MarksKey, Marks>,
-    /// The parameters of the axes and what is seen of them, once the plot was drawn.
-    seen: Option<(Parameter, Parameter, [Range; 2])>,
-    /// What the next frame shows, where that is somewhere else.
-    wanted: Option<[Range; 2]>,
-}
-
-/// What a landscape depends on: everything but where the sliders of its own two parameters stand.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Key {
-    generation: u64,
-    others: Parameters,
-    model: Model,
-    choices: FitOptions,
-    /// Where the residuals are looked at that set the scale of a robust loss.
-    scale_at: Option<Parameters>,
-    pub across: LandscapeAxis,
-    pub up: LandscapeAxis,
-}
-
-impl Key {
-    /// Whether the landscape of these inputs is worth waiting for while other ones are wanted: under a moving slider each coarse one
-    /// is a picture on the way. A fine one, or one of other data, is not.
-    fn is_of_use(&self, wanted: &Self, coarse: &Self) -> bool {
-        let subject = |key: &Self| (key.generation, key.model, key.choices, key.across.parameter, key.up.parameter, key.across.count);
-        self == wanted || subject(self) == subject(coarse)
-    }
-}
 
 /// Nodes along a side, at rest and while a slider moves.
 const FINE: usize = 256;
@@ -107,7 +76,7 @@ impl View for LandscapeView {
         let key = |fine: bool| {
             let count = if fine { nodes(rows, FINE, EVALUATIONS[0]) } else { nodes(rows, COARSE, EVALUATIONS[1]) };
             let (across, up) = (axis_over(across, x, count)?, axis_over(up, y, count)?);
-            Some(Key { generation: document.generation, others, model, choices, scale_at, across, up })
+            Some(LandscapeKey { generation: document.generation, others, model, choices, scale_at, across, up })
         };
         let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
@@ -226,7 +195,7 @@ impl LandscapeView {
     }
 
     /// The inputs of the newest landscape.
-    pub fn key(&self) -> Option<&Key> {
+    pub fn key(&self) -> Option<&LandscapeKey> {
         self.job.key()
     }
 
@@ -247,7 +216,7 @@ impl LandscapeView {
 
 #[cfg(test)]
 mod tests {
-    use super::{Key, nodes};
+    use super::{LandscapeKey, nodes};
     use pbrdf::fit::{FitOptions, LandscapeAxis};
     use pbrdf::model::{Model, Parameter, Parameters};
     use pbrdf::optics::SlopeDistribution;
@@ -259,7 +228,7 @@ mod tests {
             let others = Parameters { sigma, ..Parameters::default() };
             let model = Model::full(SlopeDistribution::Cauchy);
             let (across, up) = (axis(Parameter::N), axis(Parameter::K));
-            Key { generation, others, model, choices: FitOptions::default(), scale_at: None, across, up }
+            LandscapeKey { generation, others, model, choices: FitOptions::default(), scale_at: None, across, up }
         };
         let (fine, coarse) = (key(1, 0.3, 256), key(1, 0.3, 128));
         assert!(fine.is_of_use(&fine, &coarse) && key(1, 0.2, 128).is_of_use(&coarse, &coarse));

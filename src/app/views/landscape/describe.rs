@@ -5,8 +5,9 @@ use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
 use crate::app::views::context::Cx;
 use crate::app::views::landscape::axes::{coordinate, value};
 use crate::app::views::landscape::drawn::LandscapeImage;
+use crate::app::views::landscape::key::LandscapeKey;
 use crate::app::views::landscape::marks::metal_name;
-use crate::app::views::landscape::{Key, LandscapeView};
+use crate::app::views::landscape::state::LandscapeView;
 use crate::app::work::settings::Settings;
 use crate::figure::{Axis, Dash, Figure, HeatMap, Panel, Point, Rgb, Series, Symbol};
 use egui_plot::PlotPoint;
@@ -48,7 +49,7 @@ fn axis(nodes: LandscapeAxis) -> Axis {
 }
 
 /// The nodes are in the middle of cells; those at the ends stand half outside the axes.
-fn heat_map(drawn: &LandscapeImage, key: &Key) -> HeatMap {
+fn heat_map(drawn: &LandscapeImage, key: &LandscapeKey) -> HeatMap {
     let edges = |nodes: LandscapeAxis| -> Vec<f64> {
         let [low, high] = [nodes.low, nodes.high].map(|value| coordinate(nodes.parameter, value));
         #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]

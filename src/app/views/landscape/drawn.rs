@@ -3,8 +3,8 @@
 use crate::app::jobs::async_memo::Stopped;
 use crate::app::plots::contours::Heights;
 use crate::app::plots::{ColorScale, Range, ink_on};
-use crate::app::views::landscape::Key;
 use crate::app::views::landscape::axes::coordinate;
+use crate::app::views::landscape::key::LandscapeKey;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::settings::Settings;
 use crate::figure::ColorMap;
@@ -32,7 +32,7 @@ const LINES: usize = 12;
 
 impl LandscapeImage {
     /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
-    pub fn new(mut settings: Settings, measurement: &Measurement, key: &Key, stopped: Stopped<'_>) -> Option<Self> {
+    pub fn new(mut settings: Settings, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
         // Where its own two sliders stand is no matter, not even if that is nowhere.
         for axis in [key.across, key.up] {
@@ -84,7 +84,7 @@ fn title(problem: &Problem) -> &'static str {
 }
 
 /// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
-fn contours(heights: &[f64], key: &Key, scale: ColorScale) -> Vec<(Color32, Vec<Vec<PlotPoint>>)> {
+fn contours(heights: &[f64], key: &LandscapeKey, scale: ColorScale) -> Vec<(Color32, Vec<Vec<PlotPoint>>)> {
     let Range { low, high } = scale.range;
     let levels = |factors: &[f64]| -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, reason = "a few decades")]

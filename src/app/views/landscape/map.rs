@@ -2,11 +2,11 @@
 
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::{BAR_ROOM, line, plot};
-use crate::app::views::landscape::LandscapeView;
 use crate::app::views::landscape::axes::{coordinate, grid, logarithmic};
 use crate::app::views::landscape::drawn::LandscapeImage;
 use crate::app::views::landscape::legend::legend_ui;
 use crate::app::views::landscape::marks::{marks_in, sliders_in};
+use crate::app::views::landscape::state::LandscapeView;
 use crate::app::work::settings::Settings;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
