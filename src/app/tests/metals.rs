@@ -1,4 +1,4 @@
-//! MetalSelection metals: sources side by side, sliders that take their n and k, and finishes.
+//! Tabulated metals: sources side by side, sliders that take their n and k, and finishes.
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};

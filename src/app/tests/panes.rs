@@ -1,4 +1,4 @@
-//! Dock: each opens, what is not on screen is not computed, and the layout survives a restart.
+//! Panes: each opens, what is not on screen is not computed, and the layout survives a restart.
 
 use crate::app::plots::theme;
 use crate::app::shell::app::App;

@@ -96,7 +96,7 @@ pub struct LandscapeAxes {
     pub paths: bool,
     /// Where the starts of the shown fit ended.
     pub minima: bool,
-    /// MetalSelection metals, where the axes are n and k.
+    /// Tabulated metals, where the axes are n and k.
     pub metals: bool,
 }
 
