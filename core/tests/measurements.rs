@@ -1,7 +1,7 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement::{Mapping, Measurement, ReadError, append_columns, exact, unwatched};
+use pbrdf::measurement::{ImportNote, LineList, Mapping, Measurement, ReadError, append_columns, shortest, unwatched, write_measurements};
 use std::ops::ControlFlow;
 
 fn read(text: impl AsRef<[u8]>) -> Result<Measurement, ReadError> {
@@ -66,7 +66,6 @@ fn what_does_not_fit_is_refused_with_its_place() {
     let head = "# a: b\ntheta_i,theta_r,dphi,dolp,dolp_sigma,masked\n";
     for (row, place, reason) in [
         ("30,20,180,abc,0.1,0", "line 3, column 4 (dolp)", "found \"abc\""),
-        ("30,20,180,NaN,0.1,0", "line 3, column 4 (dolp)", "found NaN"),
         ("30,20,180,inf,0.1,0", "line 3, column 4 (dolp)", "found inf"),
         ("30,20,180,1e999,0.1,0", "line 3, column 4 (dolp)", "found 1e999"),
         ("30,20,180,1.01,0.1,0", "line 3, column 4 (dolp)", "from 0 to 1"),
@@ -74,7 +73,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
         ("30,20,180,0.5,0,0", "line 3, column 5 (dolp_sigma)", "above 0"),
         ("30,20,180,0.5,-1,0", "line 3, column 5 (dolp_sigma)", "above 0"),
         ("30,20,180,0.5,0.1,2", "line 3, column 6 (masked)", "0 or 1"),
-        ("30,20,180,,,0", "line 3", "neither DoLP nor BRDF"),
+        ("30,20,180,,,0", "line 2", "no row has a value"),
         (",20,180,0.5,0.1,0", "line 3, column 1 (theta_i)", "empty"),
         ("30,,180,0.5,0.1,0", "line 3, column 2 (theta_r)", "empty"),
         ("30,20,,0.5,0.1,0", "line 3, column 3 (dphi)", "empty"),
@@ -168,11 +167,96 @@ fn what_is_written_reads_back_the_same() {
 }
 
 #[test]
-fn numbers_are_written_with_seventeen_digits() {
-    for number in [0.1, 1.0 / 3.0, 5e-324, f64::MAX, 30.0] {
-        let text = exact(number);
-        assert_eq!(text.parse(), Ok(number));
-        assert_eq!(text.split('e').next().map(|digits| digits.replace(['.', '-'], "").len()), Some(17));
+fn numbers_are_written_in_the_shortest_form_that_reads_back() {
+    for (number, text) in [
+        (0.1, "0.1"),
+        (1.0 / 3.0, "0.3333333333333333"),
+        (30.0, "30"),
+        (-0.0, "0"),
+        (1e-7, "1e-7"),
+        (2.5e300, "2.5e300"),
+        (5e-324, "5e-324"),
+        (f64::MAX, "1.7976931348623157e308"),
+    ] {
+        assert_eq!((shortest(number).as_str(), text.parse()), (text, Ok(number)));
+    }
+}
+
+const SETS: &str = "# operator: JL\nset,wavelength_nm,theta_i,theta_r,dolp\nplate; \"a\",450,40,20,0.1\nb,650,40,20,0.2\nplate; \"a\",450,40,25,0.3\nb,550,40,20,0.4\n";
+
+#[test]
+fn a_table_holds_several_measurements() {
+    let text = SETS.replace("plate; \"a\"", "\"plate; a\"");
+    let all = Measurement::read_sets(text.as_bytes(), &mut unwatched).expect("a good table");
+    let told: Vec<_> = all.iter().map(|one| (one.name.as_str(), one.wavelength_nm(), one.rows.len(), one.metadata("operator"))).collect();
+    let operator = Some("JL");
+    assert_eq!(told, [("plate; a", Some(450.0), 2, operator), ("b", Some(650.0), 1, operator), ("b", Some(550.0), 1, operator)]);
+    assert_eq!(accepted(&text).rows.len(), 4);
+    let mut written = Vec::new();
+    write_measurements(&all, &mut written).expect("memory takes everything");
+    let mut again = Measurement::read_sets(&written[..], &mut unwatched).expect("what was written");
+    for (again, one) in again.iter_mut().zip(&all) {
+        again.lines.clone_from(&one.lines);
+    }
+    assert_eq!(again, all);
+    let error = Measurement::read_sets(&b"wavelength_nm,theta_i,theta_r,dolp\n0,40,20,0.1\n"[..], &mut unwatched).expect_err("0 nm");
+    assert!(error.to_string().contains("line 2, column 1 (wavelength_nm): found 0"), "{error}");
+}
+
+#[test]
+fn words_for_what_was_not_measured_mask_their_row() {
+    for word in ["nan", "NaN", "NA", "N/A", "n.a.", "#N/A", "#DIV/0!", "-", "--", ""] {
+        let measurement =
+            accepted(format!("theta_i,theta_r,dolp,dolp_sigma,brdf\n30,20,0.1,,1\n30,25,{word},0.1,{word}\n30,30,{word},NaN,2\n"));
+        let rows: Vec<_> = measurement.rows.iter().map(|row| (row.dolp.is_some(), row.brdf.is_some(), row.masked)).collect();
+        assert_eq!(rows, [(true, true, false), (false, false, true), (false, true, false)], "{word}");
+        let lines: Vec<u64> = if word.is_empty() { vec![3] } else { vec![3, 4] };
+        assert_eq!(measurement.notes, [ImportNote::NotMeasured(LineList { count: lines.len(), first: lines })], "{word}");
+    }
+    let error = read("theta_i,theta_r,dolp\n30,20,NaN\n30,25,-\n").expect_err("nothing is measured").to_string();
+    assert!(error.contains("no row has a value of DoLP or BRDF"), "{error}");
+}
+
+#[test]
+fn a_masked_row_may_hold_what_is_impossible() {
+    let measurement = accepted("theta_i,theta_r,dolp,masked\n30,5,-0.0012,1\n30,20,0.1,0\n30,-90,0.2,1\n");
+    assert_eq!((measurement.rows[0].dolp, measurement.rows[0].masked), (None, true));
+    assert_eq!((measurement.rows.len(), measurement.beyond_horizon[0].theta_r), (2, -90.0));
+    let lines = |line| LineList { count: 1, first: vec![line] };
+    assert_eq!(measurement.notes, [ImportNote::NotMeasured(lines(2)), ImportNote::BeyondHorizon(lines(4))]);
+    let mut written = Vec::new();
+    measurement.write(&mut written).expect("memory takes everything");
+    let again = accepted(&written);
+    assert_eq!((again.rows, again.beyond_horizon), (measurement.rows, measurement.beyond_horizon));
+}
+
+#[test]
+fn rows_of_nothing_but_separators_are_skipped_with_a_notice() {
+    let measurement = accepted("theta_i,theta_r,dolp\n30,20,0.1\n,,\n30,25,0.2\n , ,\n");
+    assert_eq!((measurement.rows.len(), measurement.lines.clone()), (2, vec![2, 4]));
+    assert_eq!(measurement.notes, [ImportNote::BlankRows(LineList { count: 2, first: vec![3, 5] })]);
+}
+
+#[test]
+fn a_column_has_one_decimal_mark() {
+    for (text, place) in [
+        ("theta_i;theta_r;brdf\n30;20;87,3\n30;28;532,5\n30;30;1.234\n", "line 4, column 3 (brdf): found \"1.234\""),
+        ("theta_i\ttheta_r\tbrdf\n30\t20\t87.3\n30\t30\t\"1,234\"\n", "line 3, column 3 (brdf): found \"1,234\""),
+    ] {
+        let error = read(text).expect_err(text).to_string();
+        assert!(error.starts_with(place) && error.contains("1.234 with a decimal mark and 1234 with a thousands separator"), "{error}");
+    }
+}
+
+#[test]
+fn a_header_may_hold_a_number_and_separators_in_quotes() {
+    let measurement = accepted("theta_i,theta_r,dolp,550\n30,20,0.1,7\n");
+    assert_eq!((measurement.rows.len(), measurement.ignored_columns), (1, vec!["550".to_owned()]));
+    for (text, name) in [
+        ("theta_i,theta_r,dolp,\"remark; free text\"\n30,20,0.1,ok\n", "remark; free text"),
+        ("theta_i;theta_r;dolp;\"remark, free text\"\n30;20;0,1;ok\n", "remark, free text"),
+    ] {
+        assert_eq!(accepted(text).ignored_columns, [name]);
     }
 }
 
@@ -180,7 +264,7 @@ fn numbers_are_written_with_seventeen_digits() {
 fn appended_columns_leave_the_rest_as_it_was() {
     let text = "\u{feff}# a: b\r\ntheta_i;dolp;theta_r\r\n\r\n30;0,1;20\r\n# c\r\n30;0,2;25";
     let mut out = Vec::new();
-    append_columns(text.as_bytes(), &["x", "y"], &[vec!["1".into(), String::new()], vec!["2".into(), "3".into()]], &mut out)
+    append_columns(text.as_bytes(), &["x", "y"], &[4, 6], &[vec!["1".into(), String::new()], vec!["2".into(), "3".into()]], &mut out)
         .expect("memory takes everything");
     let expected = "\u{feff}# a: b\r\ntheta_i;dolp;theta_r;x;y\r\n\r\n30;0,1;20;1;\r\n# c\r\n30;0,2;25;2;3\n";
     assert_eq!(String::from_utf8_lossy(&out), expected);

@@ -3,7 +3,7 @@
 use crate::cli::arguments::EvaluateArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, exact};
+use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, shortest};
 use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf, PerParameter};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
 use std::io::{self, Write};
@@ -75,7 +75,7 @@ fn evaluate(arguments: &EvaluateArguments, surface: &Pbrdf, geometry: Geometry, 
         numbers.extend(gradient.dolp);
     }
     for (i, number) in numbers.into_iter().enumerate() {
-        write!(line, "{}{}", if i == 0 { "" } else { "," }, exact(number))?;
+        write!(line, "{}{}", if i == 0 { "" } else { "," }, shortest(number))?;
     }
     writeln!(line)
 }

@@ -44,7 +44,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     if let Some(path) = &arguments.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
         let cells = fitted_cells(&measurement, &surface, arguments.model.dolp_only);
-        output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &cells, out))?;
+        output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &measurement.lines, &cells, out))?;
     }
     write_documents(arguments, &bytes, &measurement, &problem, &report)?;
     if arguments.json {

@@ -59,7 +59,7 @@ fn with_constants(task: &ImportArguments, columns: &Mapping) -> Result<Mapping, 
 fn mapped(task: &ImportArguments, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
     let mapping = with_constants(task, mapping)?;
     let measurement = mapping.read_table(bytes, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
-    input::notice_ignored_columns(&task.input, &measurement);
+    input::notice_of_reading(&task.input, &measurement);
     Ok(measurement)
 }
 

@@ -40,12 +40,15 @@ pub fn while_reading() -> impl FnMut(f64) -> ControlFlow<()> {
 /// A measurement, with a notice of the columns that are not used.
 pub fn measurement(path: &Path, bytes: &[u8]) -> Result<Measurement, Failure> {
     let measurement = Measurement::read_with(bytes, &mut while_reading()).map_err(|error| measurement_failure(path, bytes, &error))?;
-    notice_ignored_columns(path, &measurement);
+    notice_of_reading(path, &measurement);
     Ok(measurement)
 }
 
-/// A notice of the columns of a file that its measurement does not use.
-pub fn notice_ignored_columns(path: &Path, measurement: &Measurement) {
+/// What the reader of a file has to say: the columns that no row uses, and its notices.
+pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
+    for note in &measurement.notes {
+        notice(format_args!("{}: {note}.", path.display()));
+    }
     if !measurement.ignored_columns.is_empty() {
         let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
         notice(format_args!("{}: {note}.", path.display()));

@@ -1,6 +1,6 @@
 //! The model along a series: DoLP, Fresnel limit, BRDF and its terms against θr.
 
-use pbrdf::measurement::{IncidenceSeries, exact};
+use pbrdf::measurement::{IncidenceSeries, shortest};
 use pbrdf::model::{Pbrdf, Reflection};
 use pbrdf::optics::Facet;
 use std::io::{self, Write};
@@ -62,7 +62,7 @@ pub fn write_curves(surface: &Pbrdf, series: &[IncidenceSeries], backscatter: bo
             let CurvePoint { theta_r, reflection: Reflection { brdf, dolp, specular, diffuse, volume, .. }, limit } = point;
             let angles = [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0, theta_r];
             let numbers = angles.into_iter().chain([dolp, limit, brdf, specular, diffuse, volume]);
-            let cells: Vec<String> = numbers.map(exact).collect();
+            let cells: Vec<String> = numbers.map(shortest).collect();
             writeln!(out, "{}", cells.join(","))?;
         }
     }

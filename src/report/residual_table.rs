@@ -1,6 +1,6 @@
 //! A fitted model beside the measured values: columns for a table.
 
-use pbrdf::measurement::{Measurement, append_columns, exact};
+use pbrdf::measurement::{Measurement, append_columns, shortest};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 use std::io::{self, Write};
@@ -12,7 +12,8 @@ pub const FITTED_COLUMNS: [&str; 4] = ["dolp_model", "dolp_residual", "brdf_mode
 /// measured, or that a model of DoLP alone does not predict, has empty cells.
 #[must_use]
 pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool) -> Vec<Vec<String>> {
-    let pair = |model: f64, measured: Option<f64>| [exact(model), measured.map_or_else(String::new, |measured| exact(model - measured))];
+    let pair =
+        |model: f64, measured: Option<f64>| [shortest(model), measured.map_or_else(String::new, |measured| shortest(model - measured))];
     let cells = measurement.rows.iter().map(|row| {
         let reflection = surface.reflection(&Facet::new(row.geometry));
         let dolp = pair(reflection.dolp, row.dolp.map(|dolp| dolp.value));
@@ -30,5 +31,6 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool)
 pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool, out: impl Write) -> io::Result<()> {
     let mut table = Vec::new();
     measurement.write(&mut table)?;
-    append_columns(&table, &FITTED_COLUMNS, &fitted_cells(measurement, surface, dolp_only), out)
+    let lines = Measurement::read(&table[..]).map_err(io::Error::other)?.lines;
+    append_columns(&table, &FITTED_COLUMNS, &lines, &fitted_cells(measurement, surface, dolp_only), out)
 }

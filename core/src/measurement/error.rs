@@ -87,12 +87,9 @@ pub enum ReadErrorKind {
         /// What was expected.
         expected: Expected,
     },
-    /// A row that measures nothing.
-    #[error("neither DoLP nor BRDF is given in this row")]
+    /// No row measures anything.
+    #[error("no row has a value of DoLP or BRDF")]
     NoData,
-    /// A standard deviation of nothing.
-    #[error("a standard deviation stands beside an empty value")]
-    SigmaWithoutValue,
     /// Text in place of a number.
     #[error("found {found:?}, expected {expected}")]
     NotANumber {
@@ -100,6 +97,19 @@ pub enum ReadErrorKind {
         found: String,
         /// What was expected.
         expected: Expected,
+    },
+    /// Both decimal marks in one column.
+    #[error(
+        "found {found:?} where line {other_line} has {other:?}: it is {} with a decimal mark and {} with a thousands separator",
+        readings(.found).0, readings(.found).1
+    )]
+    TwoDecimalMarks {
+        /// The cell.
+        found: String,
+        /// An earlier cell of the column, with the other mark.
+        other: String,
+        /// Its line.
+        other_line: u64,
     },
     /// A number outside its range, infinite, or not a number at all.
     #[error("found {found}, expected {expected}")]
@@ -207,8 +217,20 @@ impl ReadErrorKind {
     }
 }
 
-/// What laboratories write for a value that was not measured.
-const NOT_MEASURED: [&str; 9] = ["nan", "na", "n/a", "n.a.", "#n/a", "#div/0!", "-", "--", "null"];
+/// Words for "not measured", in small letters.
+const NOT_MEASURED: [&str; 13] = ["", "nan", "na", "n/a", "n.a.", "#n/a", "#div/0!", "-", "--", "–", "—", "null", "none"];
+
+/// Whether a cell is empty or holds a word for "not measured".
+#[must_use]
+pub fn is_not_measured(cell: &str) -> bool {
+    // Longer than any of the words: not worth the small letters.
+    cell.len() <= 8 && NOT_MEASURED.contains(&cell.trim().to_lowercase().as_str())
+}
+
+/// How a number with one decimal mark or thousands separator reads as either.
+pub(crate) fn readings(number: &str) -> (String, String) {
+    (number.replace(',', "."), number.replace([',', '.'], ""))
+}
 
 impl ReadError {
     /// Whether a table fails for the names of its columns alone, so that it may be a foreign one.
@@ -226,6 +248,7 @@ impl ReadError {
             }
             ReadErrorKind::RowLength { found, expected, separator: ',' } if found > expected => Some(Hint::SeparateBySemicolons),
             ReadErrorKind::NotANumber { found, expected } | ReadErrorKind::OutOfRange { found, expected } => cell_hint(found, *expected),
+            ReadErrorKind::TwoDecimalMarks { .. } => Some(Hint::NameThousands),
             ReadErrorKind::Nul | ReadErrorKind::Utf16 => Some(Hint::SaveAsUtf8),
             _ => None,
         }
@@ -237,14 +260,11 @@ const PERCENT_FROM: f64 = 2.0;
 
 /// What helps where a cell is not what was expected.
 fn cell_hint(found: &str, expected: Expected) -> Option<Hint> {
-    if expected.may_be_empty() && NOT_MEASURED.contains(&found.to_lowercase().as_str()) {
-        Some(Hint::LeaveEmpty)
-    } else if expected == Expected::Dolp && found.replace(',', ".").parse().is_ok_and(|value: f64| (PERCENT_FROM..=100.0).contains(&value))
-    {
-        Some(Hint::NameDolpPercent)
-    } else if found.contains(',') && found.contains('.') {
-        Some(Hint::OneDecimalMark)
-    } else {
-        None
+    let number = found.replace(',', ".").parse::<f64>().ok().filter(|number| number.is_finite());
+    match (expected, number) {
+        (Expected::Dolp, Some(PERCENT_FROM..=100.0)) => Some(Hint::NameDolpPercent),
+        (Expected::Dolp | Expected::DolpPercent | Expected::Brdf, Some(_)) => Some(Hint::LeaveOut),
+        _ if found.contains(',') && found.contains('.') => Some(Hint::NameThousands),
+        _ => None,
     }
 }

@@ -55,14 +55,6 @@ pub enum Expected {
     Line(&'static str),
 }
 
-impl Expected {
-    /// Whether the cell may be empty: something measured or its standard deviation.
-    #[must_use]
-    pub fn may_be_empty(self) -> bool {
-        matches!(self, Self::Dolp | Self::DolpPercent | Self::Brdf | Self::Sigma)
-    }
-}
-
 impl std::fmt::Display for Expected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {

@@ -7,12 +7,12 @@ pub enum Hint {
     Import,
     /// Numbers up to 100 are no DoLP, but may be percent.
     NameDolpPercent,
-    /// A cell of a value that was not measured is empty.
-    LeaveEmpty,
+    /// One decimal mark, or `--thousands`.
+    NameThousands,
+    /// A row that is to be left out is a comment.
+    LeaveOut,
     /// Save as plain text.
     SaveAsUtf8,
-    /// Decimal point or decimal comma, and no thousands separators.
-    OneDecimalMark,
     /// Decimal commas need another separator between the cells.
     SeparateBySemicolons,
 }
@@ -22,9 +22,9 @@ impl std::fmt::Display for Hint {
         f.write_str(match self {
             Self::Import => "a file of another form becomes a measurement by the command import",
             Self::NameDolpPercent => "if the column holds percent, name it dolp_percent, or map it as dolp=COLUMN:percent",
-            Self::LeaveEmpty => "leave the cell empty where nothing was measured",
+            Self::NameThousands => "write one decimal mark, or name the thousands separator: import FILE --thousands .",
+            Self::LeaveOut => "a row with # before it, or with 1 in a column masked, is left out",
             Self::SaveAsUtf8 => "save the file as CSV in UTF-8",
-            Self::OneDecimalMark => "write numbers with one decimal mark and without thousands separators",
             Self::SeparateBySemicolons => "if commas are decimal marks, separate the cells by semicolons",
         })
     }

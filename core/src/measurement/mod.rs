@@ -13,6 +13,7 @@ mod hint;
 mod mapping;
 #[expect(clippy::module_inception, reason = "each type stands in a file of its name, the type of the floor too")]
 mod measurement;
+mod note;
 mod progress;
 mod row;
 mod rows;
@@ -24,16 +25,17 @@ mod tensor;
 mod wavelength;
 
 pub use ellipsometry::{Depolarisation, Ellipsometry, PsiDelta, SpecularDolp};
-pub use error::{ColumnPlace, ReadError, ReadErrorKind};
+pub use error::{ColumnPlace, ReadError, ReadErrorKind, is_not_measured};
 pub use expected::Expected;
 pub use field::{Field, Unit};
 pub use formats::{
-    TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, append_columns, exact,
-    is_tensor, is_woollam, write_tensor,
+    TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, append_columns,
+    is_tensor, is_woollam, shortest, write_measurements, write_tensor,
 };
 pub use hint::Hint;
 pub use mapping::{ColumnChoice, MappedColumn, Mapping, MappingError};
-pub use measurement::Measurement;
+pub use measurement::{BeyondHorizon, Measurement};
+pub use note::{ImportNote, LineList};
 pub use progress::{Progress, unwatched};
 pub use row::{Quantity, Row};
 pub use rusinkiewicz::rusinkiewicz;

@@ -1,10 +1,12 @@
 //! Turns the records of a table into rows of a measurement.
 
+use crate::measurement::note::{ImportNote, LineList};
 use crate::measurement::{
-    ColumnChoice, Expected, Field, MappedColumn, Mapping, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Record, Row, Table,
-    Unit,
+    BeyondHorizon, ColumnChoice, Expected, Field, MappedColumn, Mapping, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Record,
+    Row, Table, Unit,
 };
 use crate::optics::Geometry;
+use std::collections::HashMap;
 
 /// Which column holds what.
 pub(crate) struct RowReader {
@@ -14,6 +16,21 @@ pub(crate) struct RowReader {
     dolp: Option<QuantitySource>,
     brdf: Option<QuantitySource>,
     masked: Option<usize>,
+    set: Option<usize>,
+    wavelength_nm: Option<usize>,
+}
+
+/// A row as it is read, at any angle of view.
+struct RawRow {
+    theta_i: f64,
+    /// Negative on the backscatter side.
+    theta_r: f64,
+    dphi: f64,
+    dolp: Option<Quantity>,
+    brdf: Option<Quantity>,
+    masked: bool,
+    /// Whether a word stands for a value, no value is there, or an impossible one is masked.
+    lacks_value: bool,
 }
 
 /// Where an angle stands, and in which unit.
@@ -63,7 +80,16 @@ impl RowReader {
         }
         let degrees = |column| AngleSource::Column { column, unit: Unit::Native };
         let (theta_i, theta_r) = (degrees(theta_i), degrees(theta_r));
-        Ok(Self { theta_i, theta_r, dphi: table.find("dphi")?.map(degrees), dolp, brdf, masked: table.find("masked")? })
+        Ok(Self {
+            theta_i,
+            theta_r,
+            dphi: table.find("dphi")?.map(degrees),
+            dolp,
+            brdf,
+            masked: table.find("masked")?,
+            set: table.find("set")?,
+            wavelength_nm: table.find("wavelength_nm")?,
+        })
     }
 
     /// The reader of the columns that a mapping names.
@@ -82,27 +108,83 @@ impl RowReader {
             return Err(table.header_error(ReadErrorKind::NoQuantityMapped));
         }
         let masked = place(mapping, Field::Masked, table)?.map(|(column, _)| column);
-        Ok(Self { theta_i: require(Field::ThetaI)?, theta_r: require(Field::ThetaR)?, dphi: angle(Field::Dphi)?, dolp, brdf, masked })
+        Ok(Self {
+            theta_i: require(Field::ThetaI)?,
+            theta_r: require(Field::ThetaR)?,
+            dphi: angle(Field::Dphi)?,
+            dolp,
+            brdf,
+            masked,
+            set: None,
+            wavelength_nm: None,
+        })
     }
 
-    /// All rows of the table as a measurement.
-    pub(crate) fn read(&self, table: &Table, ignored_columns: Vec<String>, progress: Progress<'_>) -> Result<Measurement, ReadError> {
-        let (mut rows, mut lines) = (Vec::new(), Vec::new());
-        table.for_each(progress, |record| {
-            rows.push(self.row(record)?);
-            lines.push(record.line());
+    /// All rows of the table as one measurement, or with `split` one for each value of the columns
+    /// `set` and `wavelength_nm`, in the order of the file.
+    pub(crate) fn read(
+        &self,
+        table: &Table,
+        ignored_columns: &[String],
+        split: bool,
+        progress: Progress<'_>,
+    ) -> Result<Vec<Measurement>, ReadError> {
+        let empty =
+            Measurement { metadata: table.metadata().to_vec(), ignored_columns: ignored_columns.to_vec(), ..Measurement::default() };
+        let mut found = vec![empty.clone()];
+        let mut places: HashMap<(String, String), usize> = HashMap::new();
+        let (mut without_value, mut beyond, mut has_value) = (LineList::default(), LineList::default(), false);
+        let blank = table.for_each(progress, |record| {
+            let row = self.row(record)?;
+            let place = if split { self.place(record, &mut places)? } else { 0 };
+            if place == found.len() {
+                found.push(empty.clone());
+            }
+            has_value |= row.dolp.is_some() || row.brdf.is_some();
+            if row.lacks_value {
+                without_value.push(record.line());
+            }
+            if row.theta_r.abs() >= 90.0 {
+                beyond.push(record.line());
+            }
+            row.add_to(&mut found[place], record.line());
             Ok(())
         })?;
-        Ok(Measurement { metadata: table.metadata().to_vec(), rows, lines, ignored_columns })
+        if !has_value {
+            return Err(table.header_error(ReadErrorKind::NoData));
+        }
+        for ((set, wavelength), place) in places {
+            let measurement = &mut found[place];
+            if self.wavelength_nm.is_some() {
+                measurement.metadata.retain(|(key, _)| key != "wavelength_nm");
+            }
+            if !wavelength.is_empty() {
+                measurement.metadata.push(("wavelength_nm".to_owned(), wavelength));
+            }
+            measurement.name = set;
+        }
+        let notes = [ImportNote::NotMeasured(without_value), ImportNote::BeyondHorizon(beyond), ImportNote::BlankRows(blank)];
+        found[0].notes.extend(notes.into_iter().filter(|note| note.lines().is_some_and(|lines| lines.count > 0)));
+        Ok(found)
     }
 
-    fn row(&self, record: &Record<'_>) -> Result<Row, ReadError> {
-        let geometry = self.geometry(record)?;
-        let dolp = self.dolp.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
-        let brdf = self.brdf.as_ref().map(|source| source.quantity(record)).transpose()?.flatten();
-        if dolp.is_none() && brdf.is_none() {
-            return Err(record.row_error(ReadErrorKind::NoData));
+    /// Index of the measurement of a row; the number of measurements for a new one.
+    fn place(&self, record: &Record<'_>, places: &mut HashMap<(String, String), usize>) -> Result<usize, ReadError> {
+        let set = self.set.map_or_else(String::new, |column| record.text(column));
+        let mut wavelength = String::new();
+        if let Some(column) = self.wavelength_nm
+            && let Some(nm) = record.optional(column, Expected::Wavelength)?
+        {
+            if nm <= 0.0 {
+                return Err(record.out_of_range(column, Expected::Wavelength));
+            }
+            wavelength = nm.to_string();
         }
+        let next = places.len();
+        Ok(*places.entry((set, wavelength)).or_insert(next))
+    }
+
+    fn row(&self, record: &Record<'_>) -> Result<RawRow, ReadError> {
         let masked = match self.masked {
             Some(column) => match record.optional(column, Expected::Mask)? {
                 None | Some(0.0) => false,
@@ -111,24 +193,50 @@ impl RowReader {
             },
             None => false,
         };
-        Ok(Row { geometry, dolp, brdf, masked })
+        let (theta_i, theta_r, dphi) = self.angles(record, masked)?;
+        let mut lacks_value = false;
+        let mut quantity = |source: &Option<QuantitySource>| -> Result<Option<Quantity>, ReadError> {
+            let Some(source) = source else { return Ok(None) };
+            let quantity = source.quantity(record, masked)?;
+            // An empty cell beside a value needs no notice.
+            lacks_value |= quantity.is_none() && !record.is_empty(source.value);
+            Ok(quantity)
+        };
+        let (dolp, brdf) = (quantity(&self.dolp)?, quantity(&self.brdf)?);
+        let is_empty = dolp.is_none() && brdf.is_none();
+        Ok(RawRow { theta_i, theta_r, dphi, dolp, brdf, masked: masked || is_empty, lacks_value: lacks_value || is_empty })
     }
 
-    fn geometry(&self, record: &Record<'_>) -> Result<Geometry, ReadError> {
+    /// θi, signed θr and Δφ in degrees, with |θr| from 90° on in a masked row.
+    fn angles(&self, record: &Record<'_>, masked: bool) -> Result<(f64, f64, f64), ReadError> {
         let theta_i = self.theta_i.degrees(record, Expected::ThetaI)?;
         if !(0.0..90.0).contains(&theta_i) {
             return Err(self.theta_i.out_of_range(record, Expected::ThetaI));
         }
         let theta_r = self.theta_r.degrees(record, Expected::ThetaR)?;
-        if theta_r.abs() >= 90.0 {
+        if theta_r.abs() >= 90.0 && !masked {
             return Err(self.theta_r.out_of_range(record, Expected::ThetaR));
         }
         let dphi = self.dphi.map_or(Ok(180.0), |angle| angle.degrees(record, Expected::Dphi))?;
         if theta_r < 0.0 && dphi != 180.0 {
             return Err(self.theta_r.error(record, |found| ReadErrorKind::NegativeThetaR { found, dphi }));
         }
+        Ok((theta_i, theta_r, dphi))
+    }
+}
+
+impl RawRow {
+    fn add_to(self, measurement: &mut Measurement, line: u64) {
+        let Self { theta_i, theta_r, dphi, dolp, brdf, masked, .. } = self;
         let geometry = if theta_r < 0.0 { Geometry::in_plane(theta_i, theta_r) } else { Geometry::new(theta_i, theta_r, dphi) };
-        geometry.map_err(|_| self.theta_r.out_of_range(record, Expected::ThetaR))
+        match geometry {
+            Ok(geometry) => {
+                measurement.rows.push(Row { geometry, dolp, brdf, masked });
+                measurement.lines.push(line);
+            }
+            // The angles were checked when they were read: θr alone is beyond.
+            Err(_) => measurement.beyond_horizon.push(BeyondHorizon { theta_i, theta_r, dphi, dolp, brdf }),
+        }
     }
 }
 
@@ -167,25 +275,24 @@ impl QuantitySource {
         Self { value, sigma: sigma.map(|(column, _)| column), per_unit: per_unit(unit), sigma_per_unit, maximum, expected }
     }
 
-    fn quantity(&self, record: &Record<'_>) -> Result<Option<Quantity>, ReadError> {
-        let value = record.optional(self.value, self.expected)?;
-        if value.is_some_and(|value| !(0.0..=self.maximum).contains(&value)) {
-            return Err(record.out_of_range(self.value, self.expected));
+    /// The quantity, if it was measured; in a masked row a value outside its range is none.
+    fn quantity(&self, record: &Record<'_>, masked: bool) -> Result<Option<Quantity>, ReadError> {
+        if record.is_not_measured(self.value) {
+            return Ok(None);
+        }
+        let value = record.number(self.value, self.expected)?;
+        if !(0.0..=self.maximum).contains(&value) {
+            return if masked { Ok(None) } else { Err(record.out_of_range(self.value, self.expected)) };
         }
         let mut sigma = None;
-        if let Some(column) = self.sigma {
+        if let Some(column) = self.sigma.filter(|&column| !record.is_not_measured(column)) {
             sigma = record.optional(column, Expected::Sigma)?;
             if sigma.is_some_and(|sigma| sigma <= 0.0) {
                 return Err(record.out_of_range(column, Expected::Sigma));
             }
-            if value.is_none() && sigma.is_some() {
-                return Err(record.error(column, ReadErrorKind::SigmaWithoutValue));
-            }
         }
-        Ok(value.map(|value| Quantity {
-            value: value / self.per_unit,
-            sigma: sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0),
-        }))
+        let sigma = sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0);
+        Ok(Some(Quantity { value: value / self.per_unit, sigma }))
     }
 }
 

@@ -93,7 +93,7 @@ impl Simulation {
                 masked: false,
             }
         });
-        Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), lines: Vec::new(), ignored_columns: Vec::new() })
+        Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), ..Measurement::default() })
     }
 
     /// Metadata: that the rows are simulated, the model, its parameters, the noise and the seed.

@@ -4,7 +4,9 @@
 //! understood. Lines that begin with `#` may stand anywhere; `# key: value` is metadata. Byte order
 //! mark, CRLF, and any encoding inside comments are accepted. A quoted cell ends on its own line.
 
-use crate::measurement::{ColumnPlace, Expected, Progress, ReadError, ReadErrorKind};
+use crate::measurement::note::LineList;
+use crate::measurement::{ColumnPlace, Expected, Progress, ReadError, ReadErrorKind, is_not_measured};
+use std::cell::RefCell;
 use std::io::Read;
 
 /// A table in memory whose header is read.
@@ -16,6 +18,8 @@ pub struct Table {
     has_header: bool,
     is_foreign: bool,
     metadata: Vec<(String, String)>,
+    /// The first cell of each column with a decimal point or comma, where both may be decimal marks.
+    decimal_marks: RefCell<Vec<Option<(u64, String)>>>,
 }
 
 /// One row of a table, which knows the names of its cells for errors.
@@ -62,8 +66,16 @@ impl Table {
             // A lone carriage return ended the lines of old Macs.
             bytes.iter_mut().filter(|byte| **byte == b'\r').for_each(|byte| *byte = b'\n');
         }
-        let mut table =
-            Self { delimiter: b',', header: Vec::new(), header_line: 0, has_header: true, is_foreign, metadata: Vec::new(), bytes };
+        let mut table = Self {
+            delimiter: b',',
+            header: Vec::new(),
+            header_line: 0,
+            has_header: true,
+            is_foreign,
+            metadata: Vec::new(),
+            decimal_marks: RefCell::default(),
+            bytes,
+        };
         table.scan()?;
         Ok(table)
     }
@@ -123,7 +135,7 @@ impl Table {
         let numbers = header.iter().filter(|cell| cell.replace(',', ".").parse::<f64>().is_ok()).count();
         if self.is_foreign {
             self.has_header = 2 * numbers <= header.len();
-        } else if numbers > 0 {
+        } else if 2 * numbers >= header.len() {
             let found = header.into_iter().next().unwrap_or_default();
             return Err(ReadErrorKind::NoHeader { found }.at_line(self.header_line));
         }
@@ -200,12 +212,18 @@ impl Table {
         position.line() + skipped.map_or(0, |skipped| skipped as u64)
     }
 
-    /// Hands every row to `visit` and reports to `progress`.
+    /// Hands every row to `visit` and reports to `progress`; returns the rows in which every cell is
+    /// empty, which are skipped.
     ///
     /// # Errors
     /// A row of another length than the header, no row at all, an error of `visit`, or a stop by
     /// `progress`.
-    pub fn for_each(&self, progress: Progress<'_>, mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>) -> Result<(), ReadError> {
+    pub fn for_each(
+        &self,
+        progress: Progress<'_>,
+        mut visit: impl FnMut(&Record<'_>) -> Result<(), ReadError>,
+    ) -> Result<LineList, ReadError> {
+        let mut blank = LineList::default();
         let mut reader = self.csv_reader();
         let mut cells = csv::ByteRecord::new();
         if self.has_header {
@@ -214,6 +232,10 @@ impl Table {
         let mut rows = 0_u64;
         while read_record(&mut reader, &mut cells)? {
             let line = self.line_of(&cells);
+            if cells.iter().all(<[u8]>::is_empty) {
+                blank.push(line);
+                continue;
+            }
             if cells.len() != self.header.len() {
                 let separator = char::from(self.delimiter);
                 return Err(ReadErrorKind::RowLength { found: cells.len(), expected: self.header.len(), separator }.at_line(line));
@@ -228,7 +250,7 @@ impl Table {
                 }
             }
         }
-        if rows == 0 { Err(self.header_error(ReadErrorKind::HeaderOnly)) } else { Ok(()) }
+        if rows == 0 { Err(self.header_error(ReadErrorKind::HeaderOnly)) } else { Ok(blank) }
     }
 }
 
@@ -239,7 +261,8 @@ fn read_record(reader: &mut csv::Reader<&[u8]>, record: &mut csv::ByteRecord) ->
 
 /// The separator of a table with that header.
 pub(crate) fn separator_of(header: &[u8]) -> u8 {
-    [b';', b'\t', b','].into_iter().find(|byte| header.contains(byte)).unwrap_or(b',')
+    let outside_quotes: Vec<u8> = header.split(|&byte| byte == b'"').step_by(2).flatten().copied().collect();
+    [b';', b'\t', b','].into_iter().find(|byte| outside_quotes.contains(byte)).unwrap_or(b',')
 }
 
 /// Key and value of a comment line, if it has that form.
@@ -283,6 +306,12 @@ impl Record<'_> {
         self.cells[column].is_empty()
     }
 
+    /// Whether a cell is empty or holds a word for "not measured".
+    #[must_use]
+    pub fn is_not_measured(&self, column: usize) -> bool {
+        std::str::from_utf8(&self.cells[column]).is_ok_and(is_not_measured)
+    }
+
     /// An error at a cell of this row.
     #[must_use]
     pub fn error(&self, column: usize, kind: ReadErrorKind) -> ReadError {
@@ -310,9 +339,30 @@ impl Record<'_> {
         if cell.is_empty() {
             return Err(self.error(column, ReadErrorKind::EmptyCell { expected }));
         }
+        self.check_decimal_mark(column)?;
         let number =
             self.parse(cell).ok_or_else(|| self.error(column, ReadErrorKind::NotANumber { found: self.text(column), expected }))?;
         if number.is_finite() { Ok(number) } else { Err(self.out_of_range(column, expected)) }
+    }
+
+    /// Refuses the second decimal mark of a column: 87,3 and 1.234 leave open what the latter is.
+    fn check_decimal_mark(&self, column: usize) -> Result<(), ReadError> {
+        let cell = &self.cells[column];
+        let mark_in = |cell: &[u8]| cell.iter().copied().find(|byte| matches!(byte, b',' | b'.'));
+        let Some(mark) = mark_in(cell).filter(|_| self.table.delimiter != b',') else { return Ok(()) };
+        let mut marks = self.table.decimal_marks.borrow_mut();
+        if marks.len() <= column {
+            marks.resize(self.cells.len(), None);
+        }
+        match &marks[column] {
+            None => marks[column] = Some((self.line, self.text(column))),
+            Some((line, other)) if mark_in(other.as_bytes()) != Some(mark) => {
+                let kind = ReadErrorKind::TwoDecimalMarks { found: self.text(column), other: other.clone(), other_line: *line };
+                return Err(self.error(column, kind));
+            }
+            Some(_) => {}
+        }
+        Ok(())
     }
 
     fn parse(&self, cell: &[u8]) -> Option<f64> {

@@ -170,6 +170,9 @@ impl App {
     /// Puts a measurement in the place of the active one.
     pub(crate) fn open(&mut self, document: Document) {
         self.import = None;
+        for note in &document.measurement.notes {
+            self.say(format!("{}: {}", document.name, note.localized()));
+        }
         if !document.measurement.ignored_columns.is_empty() {
             let note = ImportNote::IgnoredColumns { names: document.measurement.ignored_columns.clone() };
             self.say(format!("{}: {note}.", document.name));

@@ -26,7 +26,9 @@ use pbrdf::fit::{
 use pbrdf::measurement::formats::{
     ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape, TensorType,
 };
-use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Field, Hint, Measurement, ReadError, ReadErrorKind, WavelengthError};
+use pbrdf::measurement::{
+    ColumnChoice, ColumnPlace, Expected, Field, Hint, LineList, Measurement, ReadError, ReadErrorKind, WavelengthError,
+};
 use pbrdf::model::{Check, Domain, FINISHES, Finding, PRESETS, Parameter, ParameterError, Preset, assignments_from_text};
 use pbrdf::optics::{GeometryError, metals};
 use pbrdf::selftest::{BenchmarkMethod, Cost, Host, Machine, Stability, StabilityOutcome};
@@ -69,7 +71,7 @@ fn errors_of_tables_are_said_in_chinese() {
             E::RowLength { found: 2, expected: 3, separator: ',' },
             E::EmptyCell { expected: Expected::Mask },
             E::NoData,
-            E::SigmaWithoutValue,
+            E::TwoDecimalMarks { found: text(), other: text(), other_line: 2 },
             E::NotANumber { found: text(), expected: Expected::Mask },
             E::OutOfRange { found: text(), expected: Expected::Mask },
             E::NegativeThetaR { found: "-3".to_owned(), dphi: 90.0 },
@@ -126,7 +128,7 @@ fn what_is_expected_and_what_helps_is_said_in_chinese() {
         E::Line("1 2 3"),
     ]);
     use Hint as H;
-    assert_localized([H::Import, H::NameDolpPercent, H::LeaveEmpty, H::SaveAsUtf8, H::OneDecimalMark, H::SeparateBySemicolons]);
+    assert_localized([H::Import, H::NameDolpPercent, H::LeaveOut, H::SaveAsUtf8, H::NameThousands, H::SeparateBySemicolons]);
     let error = Measurement::read(&b"theta_i,theta_r,dolp\n10,0,50\n"[..]).expect_err("percent");
     assert_eq!(
         advised(&error, error.hint()),
@@ -135,6 +137,9 @@ fn what_is_expected_and_what_helps_is_said_in_chinese() {
     assert_localized([
         ImportNote::IgnoredColumns { names: vec![String::new()] },
         ImportNote::IgnoredColumns { names: vec!["a".to_owned(), "b".to_owned()] },
+        ImportNote::NotMeasured(LineList { count: 7, first: vec![1, 2, 3, 4, 5] }),
+        ImportNote::BeyondHorizon(LineList { count: 1, first: vec![1] }),
+        ImportNote::BlankRows(LineList { count: 2, first: vec![1, 2] }),
         ImportNote::IgnoredRows { name: "a".to_owned(), count: 2 },
         ImportNote::DepolarisationNotApplied { count: 2 },
         ImportNote::NearestWavelength { wanted_nm: 650.0, taken_nm: vec![649.5] },

@@ -1,7 +1,7 @@
 //! Why a foreign file is no measurement.
 
-use super::note::ImportNote;
 use super::pbsdf::TensorError;
+use crate::measurement::note::ImportNote;
 use crate::measurement::{Hint, ReadError, ReadErrorKind, WavelengthError};
 use crate::optics::GeometryError;
 

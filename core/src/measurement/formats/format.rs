@@ -1,8 +1,8 @@
 //! What every form of foreign file has in common.
 
 use super::error::ImportError;
-use super::note::ImportNote;
 use super::question::{ImportOptions, Question};
+use crate::measurement::note::ImportNote;
 use crate::measurement::{Measurement, Progress, unwatched};
 
 /// A form of files that is recognised by its content.

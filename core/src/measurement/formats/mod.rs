@@ -7,7 +7,6 @@
 mod error;
 mod format;
 mod native;
-mod note;
 mod pbsdf;
 mod pgii;
 mod question;
@@ -16,10 +15,10 @@ mod table;
 mod text_line;
 mod woollam;
 
+pub use crate::measurement::note::{ImportNote, LineList};
 pub use error::ImportError;
 pub use format::{ForeignFile, Format, Imported};
-pub use native::{append_columns, exact};
-pub use note::ImportNote;
+pub use native::{append_columns, shortest, write_measurements};
 pub use pbsdf::{
     TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, is_tensor, write_tensor,
 };

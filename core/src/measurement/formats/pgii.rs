@@ -9,9 +9,9 @@
 
 use super::error::ImportError;
 use super::format::{ForeignFile, Format, Imported};
-use super::note::ImportNote;
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
+use crate::measurement::note::ImportNote;
 use crate::measurement::{Expected, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Row};
 use crate::optics::{Degrees, Geometry};
 

@@ -98,7 +98,7 @@ impl Mapping {
             used.extend(place(self, field, &table)?.map(|(index, _)| index));
         }
         let others = (0..table.header().len()).filter(|index| !used.contains(index));
-        let ignored_columns = others.map(|index| table.title(index)).collect();
-        rows.read(&table, ignored_columns, progress)
+        let ignored_columns: Vec<String> = others.map(|index| table.title(index)).collect();
+        rows.read(&table, &ignored_columns, false, progress).map(|mut all| all.swap_remove(0))
     }
 }

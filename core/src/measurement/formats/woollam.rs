@@ -10,9 +10,9 @@
 
 use super::error::ImportError;
 use super::format::{ForeignFile, Format, Imported};
-use super::note::ImportNote;
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
+use crate::measurement::note::ImportNote;
 use crate::measurement::{Depolarisation, Ellipsometry, Expected, Progress, PsiDelta, ReadError, ReadErrorKind, SpecularDolp, unwatched};
 use std::io::Read;
 

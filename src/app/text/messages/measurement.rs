@@ -3,7 +3,7 @@
 use crate::app::text::localized::Localized;
 use crate::app::text::messages::model::quoted;
 use pbrdf::measurement::formats::{ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape};
-use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Hint, ReadError, ReadErrorKind, WavelengthError};
+use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Hint, LineList, ReadError, ReadErrorKind, WavelengthError};
 use tr::tr;
 
 impl Localized for Expected {
@@ -42,9 +42,9 @@ impl Localized for Hint {
         match self {
             Self::Import => tr!("a table of another form needs at least two columns of numbers"),
             Self::NameDolpPercent => tr!("if the column holds percent, name it dolp_percent"),
-            Self::LeaveEmpty => tr!("leave the cell empty where nothing was measured"),
+            Self::NameThousands => tr!("write one decimal mark, and no thousands separators"),
+            Self::LeaveOut => tr!("a row with # before it, or with 1 in a column masked, is left out"),
             Self::SaveAsUtf8 => tr!("save the file as CSV in UTF-8"),
-            Self::OneDecimalMark => tr!("write numbers with one decimal mark and without thousands separators"),
             Self::SeparateBySemicolons => tr!("if commas are decimal marks, separate the cells by semicolons"),
         }
     }
@@ -84,8 +84,10 @@ impl Localized for ReadErrorKind {
             }
             Self::RowLength { found, expected, .. } => tr!("the row has {0} cells; expected {1}, as in the header", found, expected),
             Self::EmptyCell { expected } => tr!("the cell is empty; expected {}", expected.localized()),
-            Self::NoData => tr!("neither DoLP nor BRDF is given in this row"),
-            Self::SigmaWithoutValue => tr!("a standard deviation stands beside an empty value"),
+            Self::NoData => tr!("no row has a value of DoLP or BRDF"),
+            Self::TwoDecimalMarks { found, other, other_line } => {
+                tr!("found {0} where line {1} has {2}: two decimal marks in one column", quoted(found), other_line, quoted(other))
+            }
             Self::NotANumber { found, expected } | Self::Unexpected { found, expected } => {
                 tr!("found {0}, expected {1}", quoted(found), expected.localized())
             }
@@ -233,6 +235,13 @@ pub fn advised(error: &impl Localized, hint: Option<Hint>) -> String {
     }
 }
 
+/// `3 rows (lines 4, 7, 9)`.
+impl Localized for LineList {
+    fn localized(&self) -> String {
+        tr!("one row (line {0})" | "{n} rows (lines {0})" % self.count, self.numbers())
+    }
+}
+
 /// A sentence, with a capital and a full stop.
 impl Localized for ImportNote {
     fn localized(&self) -> String {
@@ -242,6 +251,11 @@ impl Localized for ImportNote {
                 let list = names.iter().map(named).collect::<Vec<_>>().join(", ");
                 if names.len() == 1 { tr!("Ignored the column {}.", list) } else { tr!("Ignored the columns {}.", list) }
             }
+            Self::NotMeasured(lines) => {
+                tr!("{}: without a value; they are kept, and masked where nothing else was measured.", lines.localized())
+            }
+            Self::BeyondHorizon(lines) => tr!("{}: at |θr| ≥ 90°; they are kept as masked.", lines.localized()),
+            Self::BlankRows(lines) => tr!("{}: without any cell filled; they are skipped.", lines.localized()),
             Self::IgnoredRows { name, count } => tr!("Ignored {0} rows of {1}.", count, name),
             Self::DepolarisationNotApplied { .. } => tr!("Depolarisation (dpolE) is named in the metadata, not applied to DoLP."),
             Self::NearestWavelength { wanted_nm, taken_nm } => {

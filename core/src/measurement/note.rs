@@ -1,6 +1,44 @@
-//! What an import has to say besides its measurement.
+//! What a reader has to say besides its measurements.
 
-/// A notice about an import: nothing is left out or changed silently.
+/// Lines of a file, counted; the first ones by their numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct LineList {
+    /// How many.
+    pub count: usize,
+    /// The first ones, from 1.
+    pub first: Vec<u64>,
+}
+
+/// Lines that a notice names.
+const NAMED_LINES: usize = 5;
+
+impl LineList {
+    /// Adds a line.
+    pub(crate) fn push(&mut self, line: u64) {
+        self.count += 1;
+        if self.first.len() < NAMED_LINES {
+            self.first.push(line);
+        }
+    }
+
+    /// Their numbers, with an ellipsis where there are more.
+    #[must_use]
+    pub fn numbers(&self) -> String {
+        let numbers: Vec<String> = self.first.iter().map(u64::to_string).collect();
+        let more = if self.count > self.first.len() { ", …" } else { "" };
+        format!("{}{more}", numbers.join(", "))
+    }
+}
+
+/// `3 rows (lines 4, 7, 9)`.
+impl std::fmt::Display for LineList {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (rows, lines) = if self.count == 1 { ("row", "line") } else { ("rows", "lines") };
+        write!(f, "{} {rows} ({lines} {})", self.count, self.numbers())
+    }
+}
+
+/// A notice of a reader: nothing is left out or changed silently.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ImportNote {
     /// Columns that the measurement does not use.
@@ -8,6 +46,12 @@ pub enum ImportNote {
         /// Their names in the order of the file; empty for a column without a name.
         names: Vec<String>,
     },
+    /// Cells that hold a word for "not measured", nothing, or in a masked row an impossible value.
+    NotMeasured(LineList),
+    /// Rows at |θr| ≥ 90°, kept as masked.
+    BeyondHorizon(LineList),
+    /// Rows in which every cell is empty.
+    BlankRows(LineList),
     /// Rows of a quantity that the measurement does not use.
     IgnoredRows {
         /// The quantity.
@@ -60,6 +104,15 @@ pub enum ImportNote {
 }
 
 impl ImportNote {
+    /// The lines that the notice is about, where it names lines.
+    #[must_use]
+    pub fn lines(&self) -> Option<&LineList> {
+        match self {
+            Self::NotMeasured(lines) | Self::BeyondHorizon(lines) | Self::BlankRows(lines) => Some(lines),
+            _ => None,
+        }
+    }
+
     /// The notice where the wavelengths taken are not the one asked for.
     pub(crate) fn nearest(wanted_nm: Option<f64>, taken_nm: &[f64]) -> Option<Self> {
         let wanted_nm = wanted_nm.filter(|wanted| taken_nm != [*wanted])?;
@@ -76,6 +129,11 @@ impl std::fmt::Display for ImportNote {
                 let noun = if names.len() == 1 { "column" } else { "columns" };
                 write!(f, "ignored the {noun} {}", names.iter().map(named).collect::<Vec<_>>().join(", "))
             }
+            Self::NotMeasured(lines) => {
+                write!(f, "{lines} without a value; they are kept, and masked where nothing else was measured")
+            }
+            Self::BeyondHorizon(lines) => write!(f, "{lines} at |θr| ≥ 90°; they are kept as masked"),
+            Self::BlankRows(lines) => write!(f, "{lines} without any cell filled; they are skipped"),
             Self::IgnoredRows { name, count } => write!(f, "ignored {count} rows of {name}"),
             Self::DepolarisationNotApplied { count } => {
                 write!(f, "{count} rows of depolarisation (dpolE) are named in the metadata, not applied to DoLP")
