@@ -10,7 +10,7 @@ use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::settings::Settings;
 use egui::{Align, Checkbox, CollapsingHeader, Key, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
-use pbrdf::measurement::{Quantity, Row, exact};
+use pbrdf::measurement::{Quantity, Row, shortest};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use std::ops::Range;
@@ -88,7 +88,7 @@ pub fn table_text(settings: &Settings, document: &Document) -> String {
     for (index, row) in measurement.rows.iter().enumerate() {
         let geometry = row.geometry;
         let mut cells = vec![(index + 1).to_string(), u8::from(row.masked).to_string()];
-        cells.extend([geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0].map(exact));
+        cells.extend([geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0].map(shortest));
         let reflection = surface.as_ref().map(|surface| surface.reflection(&Facet::new(geometry)));
         let dolp = (row.dolp, reflection.map(|reflection| reflection.dolp));
         let brdf = (row.brdf, reflection.map(|reflection| reflection.brdf));
@@ -96,7 +96,7 @@ pub fn table_text(settings: &Settings, document: &Document) -> String {
             let value = measured.map(|measured| measured.value);
             let residual = value.zip(model).map(|(value, model)| model - value);
             let numbers = [value, measured.and_then(|measured| measured.sigma), model, residual];
-            cells.extend(numbers.map(|number| number.map_or_else(String::new, exact)));
+            cells.extend(numbers.map(|number| number.map_or_else(String::new, shortest)));
         }
         lines.push(cells.join("\t"));
     }
