@@ -2,6 +2,8 @@
 
 use crate::app::platform;
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::resume;
+use crate::app::shell::app::open::begin;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
 use crate::app::text::help::TITLE;
@@ -26,16 +28,16 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let create: eframe::AppCreator<'_> = Box::new(|context| {
         STARTED.store(true, Ordering::Relaxed);
         let mut app = App::new(&context.egui_ctx, stored);
-        app.settings_file = settings_file::path();
+        app.persistence.settings_path = settings_file::path();
         app.jobs.files.ask = ask_user;
         if let Some(notice) = notice {
-            app.say(notice);
+            app.toasts.error(notice);
         }
-        app.working_file = settings_file::working_path();
+        app.persistence.autosave_path = settings_file::working_path();
         let restores = file.is_none();
-        app.begin(file);
+        begin(&mut app, file);
         if restores {
-            app.resume();
+            resume(&mut app);
         }
         Ok(Box::new(app))
     });

@@ -193,7 +193,8 @@ pub enum Dash {
 }
 
 /// How a point looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Symbol {
     /// A disc.
     #[default]

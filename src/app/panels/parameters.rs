@@ -6,38 +6,57 @@ use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
+use crate::app::views::Cx;
+use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
 use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, Preset};
+use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
 
 /// What sliders reach.
-pub type SliderRange<'a> = dyn Fn(Parameter) -> RangeInclusive<f64> + 'a;
+type SliderRanges = PerParameter<RangeInclusive<f64>>;
 
 /// The panel; what is refused, and why, is added to `refusals`.
-pub fn parameters_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
+pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &SliderRanges, ui: &mut Ui) {
+    let before = cx.work.surface();
+    let mut surface = before.clone();
+    let show_bounds = cx.work.settings().show_bounds;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
-        preset_ui(settings, ui);
-        bounds_switch_ui(settings, ui);
+        preset_ui(&mut surface, ui);
+        bounds_switch_ui(cx, &mut surface, ui);
         ui.separator();
-        specular_ui(settings, refusals, range, ui);
-        diffuse_ui(settings, refusals, range, ui);
-        volume_ui(settings, refusals, range, ui);
-        geometry_ui(settings, ui);
+        let mut sliders = Sliders { surface: &mut surface, show_bounds, refusals, ranges };
+        specular_ui(&mut sliders, ui);
+        diffuse_ui(&mut sliders, ui);
+        volume_ui(&mut sliders, ui);
+        geometry_ui(cx, ui);
         ui.add_space(4.0);
         if ui.button(tr!("Reset all parameters")).on_hover_right(ui, tr!("All nine parameters to their defaults")).clicked() {
-            settings.parameters = Parameters::default();
+            surface.parameters = Parameters::default();
         }
     });
+    if surface != *before {
+        cx.edits.push(Edit::SetSurface(Box::new(surface)));
+    }
+}
+
+/// What the groups of sliders share.
+struct Sliders<'a> {
+    /// A copy, which becomes an edit.
+    surface: &'a mut Surface,
+    show_bounds: bool,
+    refusals: &'a mut Vec<String>,
+    ranges: &'a SliderRanges,
 }
 
 /// The named models; whatever the switches below say, if they match none.
-fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
-    let current = Preset::of(settings.model);
+fn preset_ui(surface: &mut Surface, ui: &mut Ui) {
+    let current = Preset::of(surface.model);
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Model"));
         let combo = egui::ComboBox::from_id_salt("preset")
@@ -47,7 +66,7 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
             for preset in &PRESETS {
                 let chosen = current.is_some_and(|current| current.key == preset.key);
                 if ui.selectable_label(chosen, translated(preset.name)).on_hover_text(translated(preset.citation)).clicked() {
-                    settings.model = preset.model.with_dolp_formula(settings.model.dolp_formula);
+                    surface.model = preset.model.with_dolp_formula(surface.model.dolp_formula);
                 }
             }
         });
@@ -58,29 +77,30 @@ fn preset_ui(settings: &mut Settings, ui: &mut Ui) {
     });
 }
 
-fn bounds_switch_ui(settings: &mut Settings, ui: &mut Ui) {
+fn bounds_switch_ui(cx: &mut Cx<'_>, surface: &mut Surface, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.show_bounds, tr!("Bounds of fits")).on_hover_right(
+        cx.switch_ui(Switch::Bounds, tr!("Bounds of fits"), ui).on_hover_right(
             ui,
             tr!("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"),
         );
-        if !settings.bounds.is_empty()
+        if !surface.bounds.is_empty()
             && ui.button(tr!("Reset bounds")).on_hover_right(ui, tr!("All bounds back to the sliders' ranges")).clicked()
         {
-            settings.bounds.clear();
+            surface.bounds.clear();
         }
     });
 }
 
-fn specular_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
+fn specular_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
+    let surface = &mut *sliders.surface;
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.model.specular, tr!("Specular lobe"))
+        ui.checkbox(&mut surface.model.specular, tr!("Specular lobe"))
             .on_hover_right(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
     });
-    if settings.model.specular {
+    if surface.model.specular {
         ui.horizontal(|ui| {
             for (distribution, name) in [(SlopeDistribution::Gauss, tr!("Gauss")), (SlopeDistribution::Cauchy, tr!("Cauchy"))] {
-                ui.radio_value(&mut settings.model.distribution, distribution, name).on_hover_right(
+                ui.radio_value(&mut surface.model.distribution, distribution, name).on_hover_right(
                     ui,
                     match distribution {
                         SlopeDistribution::Gauss => tr!("Gaussian facet slopes, Eq. (5): Beckmann"),
@@ -88,60 +108,64 @@ fn specular_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &Slid
                     },
                 );
             }
-            let mut masks = settings.model.masking == Masking::VGroove;
+            let mut masks = surface.model.masking == Masking::VGroove;
             ui.checkbox(&mut masks, tr!("Masking")).on_hover_right(ui, tr!("V-groove masking–shadowing, Eq. (6)"));
-            settings.model.masking = if masks { Masking::VGroove } else { Masking::None };
+            surface.model.masking = if masks { Masking::VGroove } else { Masking::None };
         });
         let mut shown = vec![Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Ks];
-        if settings.model.distribution == SlopeDistribution::Cauchy {
+        if surface.model.distribution == SlopeDistribution::Cauchy {
             shown.push(Parameter::Q);
         }
-        sliders_ui(settings, refusals, range, ui, "specular", &shown);
+        sliders_ui(sliders, ui, "specular", &shown);
     }
     ui.separator();
 }
 
-fn diffuse_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
-    let mut present = settings.model.diffuse != Diffuse::Absent;
+fn diffuse_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
+    let surface = &mut *sliders.surface;
+    let mut present = surface.model.diffuse != Diffuse::Absent;
     let switch =
         ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_right(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
     if switch.changed() {
-        settings.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
+        surface.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
     }
     if present {
         ui.horizontal(|ui| {
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_right(ui, "(cos θi cos θr)^c / π");
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_right(ui, tr!("1/π in all directions: c = 0"));
-            ui.radio_value(&mut settings.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
+            ui.radio_value(&mut surface.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_right(ui, "(cos θi cos θr)^c / π");
+            ui.radio_value(&mut surface.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_right(ui, tr!("1/π in all directions: c = 0"));
+            ui.radio_value(&mut surface.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
                 .on_hover_right(ui, tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
         });
-        let shown: &[Parameter] = match settings.model.diffuse {
+        let shown: &[Parameter] = match surface.model.diffuse {
             Diffuse::Absent | Diffuse::Hyde => &[],
             Diffuse::Lambert => &[Parameter::Kd],
             Diffuse::Minnaert => &[Parameter::Kd, Parameter::C],
         };
-        sliders_ui(settings, refusals, range, ui, "diffuse", shown);
+        sliders_ui(sliders, ui, "diffuse", shown);
     }
     ui.separator();
 }
 
-fn volume_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: &SliderRange<'_>, ui: &mut Ui) {
-    ui.checkbox(&mut settings.model.volume, tr!("Volume lobe"))
+fn volume_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
+    let surface = &mut *sliders.surface;
+    ui.checkbox(&mut surface.model.volume, tr!("Volume lobe"))
         .on_hover_right(ui, tr!("Gaussian in θr around the normal, Eq. (13): depolarises, and is not reciprocal"));
-    if settings.model.volume {
-        sliders_ui(settings, refusals, range, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
+    if surface.model.volume {
+        sliders_ui(sliders, ui, "volume", &[Parameter::Kv, Parameter::SigmaV]);
     }
     ui.separator();
 }
 
-fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
+fn geometry_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     ui.strong(tr!("Lobes are seen at"));
+    let defaults = Settings::default();
+    let before = (cx.work.settings().theta_i, cx.work.settings().dphi);
+    let (mut theta_i, mut dphi) = before;
     Grid::new("geometry").num_columns(3).show(ui, |ui| {
-        let defaults = Settings::default();
         let angles: [(&mut f64, f64, std::ops::RangeInclusive<f64>, &str, String); 2] = [
-            (&mut settings.theta_i, defaults.theta_i, 0.0..=89.9, "θi", tr!("Angle of incidence of the lobes, degrees")),
+            (&mut theta_i, defaults.theta_i, 0.0..=89.9, "θi", tr!("Angle of incidence of the lobes, degrees")),
             (
-                &mut settings.dphi,
+                &mut dphi,
                 defaults.dphi,
                 0.0..=360.0,
                 "Δφ",
@@ -162,6 +186,9 @@ fn geometry_ui(settings: &mut Settings, ui: &mut Ui) {
             ui.end_row();
         }
     });
+    if (theta_i, dphi) != before {
+        cx.edits.push(Edit::SetDirection { theta_i, dphi });
+    }
 }
 
 /// The name of a slider; a double click on it resets what it names.
@@ -176,20 +203,14 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
     twice && responses.iter().any(|response| response.contains_pointer())
 }
 
-fn sliders_ui(
-    settings: &mut Settings,
-    refusals: &mut Vec<String>,
-    range: &SliderRange<'_>,
-    ui: &mut Ui,
-    id: &str,
-    parameters: &[Parameter],
-) {
+fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
+    let Sliders { surface, show_bounds, refusals, ranges } = sliders;
     Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(settings, refusals, range(parameter), ui, parameter);
+            slider_ui(surface, refusals, ranges[parameter].clone(), ui, parameter);
             ui.end_row();
-            if settings.show_bounds {
-                bounds_ui(settings, refusals, ui, parameter);
+            if *show_bounds {
+                bounds_ui(surface, refusals, ui, parameter);
                 ui.end_row();
             }
         }
@@ -197,8 +218,8 @@ fn sliders_ui(
 }
 
 /// Name, slider, typed value with unit; lock and reset.
-fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
-    let outside = !range.contains(&settings.parameters[parameter]);
+fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
+    let outside = !range.contains(&surface.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it, with Shift by a tenth.",
         translated(parameter.name()),
@@ -209,7 +230,7 @@ fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeIn
     );
     let label = name_ui(ui, parameter.symbol(), &help);
 
-    let value = &mut settings.parameters[parameter];
+    let value = &mut surface.parameters[parameter];
     let before = *value;
     let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
     if parameter.is_logarithmic() {
@@ -265,19 +286,19 @@ fn slider_ui(settings: &mut Settings, refusals: &mut Vec<String>, range: RangeIn
     if let Some(sentence) = refused.into_inner() {
         refusals.push(sentence);
     }
-    lock_and_reset_ui(settings, outside, ui, parameter);
+    lock_and_reset_ui(surface, outside, ui, parameter);
 }
 
 /// Whether a fit leaves the parameter alone, and the way back to its default.
-fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parameter: Parameter) {
-    let mut locked = settings.locked.contains(parameter);
+fn lock_and_reset_ui(surface: &mut Surface, outside: bool, ui: &mut Ui, parameter: Parameter) {
+    let mut locked = surface.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_right(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
     if lock.changed() {
-        settings.locked = if locked { settings.locked.with(parameter) } else { settings.locked.without(parameter) };
+        surface.locked = if locked { surface.locked.with(parameter) } else { surface.locked.without(parameter) };
     }
 
-    let is_default = settings.parameters[parameter] == parameter.default_value();
+    let is_default = surface.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
     let text = egui::RichText::new(if outside { tr!("outside") } else { tr!("reset") }).color(color);
     let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_right(
@@ -290,14 +311,14 @@ fn lock_and_reset_ui(settings: &mut Settings, outside: bool, ui: &mut Ui, parame
     );
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, !is_default, tr!("Reset {}", parameter.key())));
     if reset.clicked() {
-        settings.parameters[parameter] = parameter.default_value();
+        surface.parameters[parameter] = parameter.default_value();
     }
 }
 
 /// The lower bound under the slider, the upper one under the value.
-fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, parameter: Parameter) {
-    let (low, high) = settings.bounds_of(parameter);
-    let own = settings.has_own_bounds(parameter);
+fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, ui: &mut Ui, parameter: Parameter) {
+    let (low, high) = surface.bounds_of(parameter);
+    let own = surface.has_own_bounds(parameter);
     let color = if own { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
     let mut wanted = (low, high);
     let refused = RefCell::new(None);
@@ -331,7 +352,7 @@ fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, p
         response.on_hover_right(ui, tr!("{0} of {1} in fits: {2}", name, parameter.symbol(), parameter.domain().localized()));
     }
     if wanted != (low, high)
-        && let Err(error) = settings.set_bounds(parameter, wanted.0, wanted.1)
+        && let Err(error) = surface.set_bounds(parameter, wanted.0, wanted.1)
     {
         refusals.push(tr!("The bounds stay as they are: {}.", error.localized()));
     }
@@ -342,7 +363,7 @@ fn bounds_ui(settings: &mut Settings, refusals: &mut Vec<String>, ui: &mut Ui, p
     let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_right(ui, tr!("back to the slider's range"));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
-        settings.reset_bounds(parameter);
+        surface.reset_bounds(parameter);
     }
 }
 

@@ -3,42 +3,23 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Availability, Command};
+use crate::app::shell::dialogs::Dialogs;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::action::Action;
 use egui::{Key, Modifiers, Role, Ui};
 use tr::tr;
 
-/// What the palette keeps while it is open.
-#[derive(Debug, Default)]
-pub struct Palette {
-    is_open: bool,
-    filter: String,
-    chosen: usize,
-}
-
-impl Palette {
-    /// Opens it empty.
-    pub fn open(&mut self) {
-        *self = Self { is_open: true, ..Self::default() };
-    }
-
-    #[cfg(test)]
-    pub fn is_open(&self) -> bool {
-        self.is_open
-    }
-}
-
 /// Height that the list has at most.
 const LIST_HEIGHT: f32 = 400.0;
 
 /// Draws the palette, if it is open, and orders what is chosen.
-pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
-    if !explorer.palette.is_open {
+pub fn palette_ui(app: &mut App, ui: &mut Ui) {
+    if !app.dialogs.palette.is_open {
         return;
     }
-    let items = matching(found(explorer), english_names(explorer), &explorer.palette.filter);
-    let App { palette, actions: commands, .. } = explorer;
+    let items = matching(found(app), english_names(app), &app.dialogs.palette.filter);
+    let App { dialogs: Dialogs { palette, .. }, actions, .. } = app;
     let area = egui::Modal::default_area(egui::Id::unique("palette")).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 80.0));
     let response = egui::Modal::new(egui::Id::unique("palette")).area(area).show(ui.ctx(), |ui| {
         ui.set_width(520.0);
@@ -76,7 +57,7 @@ pub fn palette_ui(explorer: &mut App, ui: &mut Ui) {
     if let Some(item) =
         response.inner.and_then(|chosen| items.get(chosen)).map(|found| &found.item).filter(|item| item.status != Availability::Impossible)
     {
-        commands.push(item.action.clone());
+        actions.push(item.action.clone());
         palette.is_open = false;
         ui.ctx().request_repaint();
     } else if response.should_close() {
@@ -119,8 +100,8 @@ impl Found {
 }
 
 /// Every command, as the menus have them.
-fn found(explorer: &App) -> Vec<Found> {
-    let mut items = commands::items(explorer);
+fn found(app: &App) -> Vec<Found> {
+    let mut items = commands::items(app);
     items.sort_by_key(|item| (item.menu, item.action == Action::Quit));
     let found = |item: Command| {
         let alias = if let Action::SetLanguage(language) = item.action { language.english_name() } else { "" };
@@ -130,8 +111,8 @@ fn found(explorer: &App) -> Vec<Found> {
 }
 
 /// The names of all commands in English, where the window speaks another language.
-fn english_names(explorer: &App) -> Option<Vec<Name>> {
-    let names = || found(explorer).into_iter().map(|found| found.name).collect();
+fn english_names(app: &App) -> Option<Vec<Name>> {
+    let names = || found(app).into_iter().map(|found| found.name).collect();
     (i18n::current() != Language::English).then(|| i18n::in_english(names))
 }
 

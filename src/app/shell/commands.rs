@@ -10,8 +10,8 @@ use crate::app::text::i18n::translated;
 use crate::app::views;
 use crate::app::views::action::Action;
 use crate::app::views::spec;
-use crate::app::work::document::EXAMPLES;
 use crate::app::work::edit::Switch;
+use crate::app::work::open_measurement::EXAMPLES;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
 use egui::{Key, KeyboardShortcut, Modifiers};
@@ -152,66 +152,66 @@ static ENTRIES: &[Entry] = &[
     row(Action::ChooseExport(ExportKind::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
         always),
     row(Action::ChooseExport(ExportKind::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
-        |e| only_if(e.work.shown_fit.is_some())),
+        |app| only_if(app.work.shown_fit().is_some())),
     row(Action::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
-        |e| only_if(e.work.shown_fit.is_some())),
-    row(Action::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |e| only_if(e.jobs.files.reading_fraction().is_some())),
+        |app| only_if(app.work.shown_fit().is_some())),
+    row(Action::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |app| only_if(app.jobs.files.reading_fraction().is_some())),
     row(Action::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Action::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
-        |e| only_if(e.work.undo.can_undo())),
-    row(Action::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |e| only_if(e.work.undo.can_redo())),
+        |app| only_if(app.work.can_undo())),
+    row(Action::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |app| only_if(app.work.can_redo())),
     row(Action::CopyParameters, Menu::Edit, "Copy parameters", "All nine as text: n=2, k=3, …", ctrl_shift(Key::C), always),
     row(Action::RequestPaste, Menu::Edit, "Paste parameters", "From text such as n=2.07, k=2.9; those that it does not name stay",
         ctrl_shift(Key::V), always),
     row(Action::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
     row(Action::CopyTable, Menu::Edit, "Copy data table", "Every row as the pane Data shows it, with tabs between cells as spreadsheets want them", None, always),
     row(Action::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
-        plain(Key::F5), |e| only_if(!e.jobs.fits.fit.is_running())),
-    row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |e| only_if(e.jobs.fits.fit.is_running())),
-    row(Action::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |e| only_if(e.work.shown_fit.is_some())),
+        plain(Key::F5), |app| only_if(!app.jobs.fits.fit.is_running())),
+    row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |app| only_if(app.jobs.fits.fit.is_running())),
+    row(Action::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |app| only_if(app.work.shown_fit().is_some())),
     row(Action::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
-        |e| only_if(e.work.shown_fit.is_some())),
+        |app| only_if(app.work.shown_fit().is_some())),
     row(Action::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
-        |e| only_if(e.work.fit_history.len() > 1)),
+        |app| only_if(app.work.fit_history().len() > 1)),
     row(Action::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
-        |e| only_if(!e.jobs.fits.compare.is_running())),
+        |app| only_if(!app.jobs.fits.compare.is_running())),
     row(Action::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
-        |e| only_if(e.jobs.fits.compare.is_running())),
+        |app| only_if(app.jobs.fits.compare.is_running())),
     row(Action::MakeReport(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
-        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::ErrorVsTime))),
+        "Evaluations against 60 digits, fits against their truth; up to a minute", None, |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::ErrorVsTime))),
     row(Action::MakeReport(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
-        None, |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::Stability))),
+        None, |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::Stability))),
     row(Action::MakeReport(BenchmarkId::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
-        |e| only_if(e.jobs.benchmarks.can_start(BenchmarkId::Cost))),
+        |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::Cost))),
     row(Action::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
-        |e| only_if(e.jobs.benchmarks.is_running())),
+        |app| only_if(app.jobs.benchmarks.is_running())),
     row(Action::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
-        |e| only_if(e.work.shown_fit.is_some() && !e.jobs.fits.is_scanning())),
+        |app| only_if(app.work.shown_fit().is_some() && !app.jobs.fits.is_scanning())),
     row(Action::CancelScan, Menu::Fit, "Stop profile or bootstrap", "What is done so far is shown", None,
-        |e| only_if(e.jobs.fits.is_scanning())),
+        |app| only_if(app.jobs.fits.is_scanning())),
     row(Action::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
-        "Fixed parameters follow their sliders, the others are fitted again at once", None, |e| switch(e.work.settings.refit_live)),
+        "Fixed parameters follow their sliders, the others are fitted again at once", None, |app| switch(app.work.settings().refit_live)),
     row(Action::ResetLayout, Menu::View, "Reset layout", "All panes where they were at first", None, always),
     row(Action::Toggle(Switch::LogBrdf), Menu::View, "Logarithmic lobes", "BRDF against a logarithmic axis", ctrl(Key::L),
-        |e| switch(e.work.settings.log_brdf)),
+        |app| switch(app.work.settings().log_brdf)),
     row(Action::Toggle(Switch::Limit), Menu::View, "Show Fresnel limit", "DoLP without any depolarising term", None,
-        |e| switch(e.work.settings.show_limit)),
+        |app| switch(app.work.settings().show_limit)),
     row(Action::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
-        ctrl(Key::B), |e| switch(e.work.settings.show_backscatter)),
+        ctrl(Key::B), |app| switch(app.work.settings().show_backscatter)),
     row(Action::ToggleFrameTimes, Menu::View, "Frame times", "How long drawing takes, in the status line", None,
-        |e| switch(e.window.show_frame_times)),
+        |app| switch(app.window.show_frame_times)),
     row(Action::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
-        |e| only_if(e.lessons.open.is_some())),
+        |app| only_if(app.lessons.session.is_some())),
     row(Action::KeepLesson, Menu::Lesson, "Keep what the lesson shows", "Close the lesson and go on from here; your work of before is given up",
-        None, |e| only_if(e.lessons.open.is_some())),
+        None, |app| only_if(app.lessons.session.is_some())),
     row(Action::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
     row(Action::ShowHelp(Help::FirstSteps), Menu::Help, "First steps…", "From a file to a fit, step by step", plain(Key::F1), always),
     row(Action::ShowHelp(Help::Words), Menu::Help, "Words…", "What the words and signs of this window mean", None, always),
     row(Action::ShowHelp(Help::About), Menu::Help, "About pbrdf-explorer…", "Version, licence, the paper of the model, and where settings are kept",
         None, always),
-    row(Action::DismissNotices, Menu::None, "Dismiss notices", "Away with the sentences over the plots", plain(Key::Escape),
-        |e| only_if(!e.notices.is_empty())),
+    row(Action::DismissToasts, Menu::None, "Dismiss notices", "Away with the sentences over the plots", plain(Key::Escape),
+        |app| only_if(!app.toasts.is_empty())),
 ];
 
 /// A command without keys.
@@ -247,14 +247,14 @@ fn plots(on_screen: &[PaneId]) -> impl Iterator<Item = Command> {
 }
 
 /// Every command that there is at the moment.
-pub fn items(explorer: &App) -> Vec<Command> {
+pub fn items(app: &App) -> Vec<Command> {
     let fixed = ENTRIES.iter().map(|entry| Command {
         action: entry.action.clone(),
         menu: entry.menu,
         text: translated(entry.text).into(),
         tooltip: translated(entry.tooltip).into(),
         shortcut: entry.shortcut,
-        status: (entry.status)(explorer),
+        status: (entry.status)(app),
     });
     let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
         item(
@@ -265,7 +265,7 @@ pub fn items(explorer: &App) -> Vec<Command> {
             Availability::Possible,
         )
     });
-    let recent = explorer.window.recent.iter().map(|path| {
+    let recent = app.window.recent.iter().map(|path| {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         item(Action::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Availability::Possible)
     });
@@ -274,14 +274,14 @@ pub fn items(explorer: &App) -> Vec<Command> {
         Menu::Recent,
         tr!("Forget recent files").into(),
         tr!("Empty this list; the files stay").into(),
-        only_if(!explorer.window.recent.is_empty()),
+        only_if(!app.window.recent.is_empty()),
     );
     let code = i18n::current().code();
-    let lessons = explorer.lessons.all.iter().enumerate().map(|(i, lesson)| {
+    let lessons = app.lessons.all.iter().enumerate().map(|(i, lesson)| {
         let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
         item(Action::ShowStep(i, 0), Menu::Lesson, text.into(), about.into(), Availability::Possible)
     });
-    let on_screen = explorer.panes.on_screen();
+    let on_screen = app.dock.on_screen();
     let panes = PaneId::ALL.iter().map(|&pane| Command {
         shortcut: spec(pane).shortcut.and_then(ctrl),
         ..item(
@@ -292,18 +292,18 @@ pub fn items(explorer: &App) -> Vec<Command> {
             switch(on_screen.contains(&pane)),
         )
     });
-    let current = Preset::of(explorer.work.settings.model).map(|preset| preset.key);
+    let current = Preset::of(app.work.surface().model).map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
         let text = tr!("Model: {}", translated(preset.name));
         item(Action::UseModel(preset.key), Menu::None, text.into(), translated(preset.citation).into(), switch(current == Some(preset.key)))
     });
     let themes = Theme::ALL.into_iter().map(|theme| {
         let tooltip = tr!("Colours of the window").into();
-        item(Action::SetTheme(theme), Menu::Theme, translated(theme.name()).into(), tooltip, switch(explorer.window.theme == theme))
+        item(Action::SetTheme(theme), Menu::Theme, translated(theme.name()).into(), tooltip, switch(app.window.theme == theme))
     });
     let languages = Language::ALL.into_iter().map(|language| {
         let tooltip = tr!("Language of the window").into();
-        item(Action::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(explorer.window.language == language))
+        item(Action::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(app.window.language == language))
     });
     fixed
         .chain(plots(&on_screen))
@@ -320,19 +320,19 @@ pub fn items(explorer: &App) -> Vec<Command> {
 }
 
 /// The command whose keys are pressed, if it is possible now.
-pub fn pressed(explorer: &App, ctx: &egui::Context) -> Option<Action> {
+pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
     let any_key = ctx.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Key { pressed: true, .. })));
     if !any_key {
         return None;
     }
-    if explorer.work.undo.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
+    if app.work.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
         // As other programs have it.
         return Some(Action::Redo);
     }
-    let mut items = items(explorer);
+    let mut items = items(app);
     // Escape leaves what lies above first, and is nobody's while there is nothing to dismiss.
     let is_covered = ctx.memory(|memory| memory.top_modal_layer().is_some()) || egui::Popup::is_any_open(ctx);
-    items.retain(|item| item.action != Action::DismissNotices || (item.status == Availability::Possible && !is_covered));
+    items.retain(|item| item.action != Action::DismissToasts || (item.status == Availability::Possible && !is_covered));
     // The longer shortcut first: egui takes the shorter one for a part of it.
     items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
     let hit = |item: &Command| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));

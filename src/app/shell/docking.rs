@@ -1,17 +1,20 @@
 //! The tiles that the panes in the middle lie in.
 
+use crate::app::shell::tiles::{layout_of, tree_of};
 use crate::app::text::i18n::translated;
 use crate::app::views::action::Action;
 use crate::app::views::{Cx, Views, spec};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
 use egui::{Ui, WidgetText};
-use egui_tiles::{Behavior, Container, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{Behavior, Container, EditAction, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 use tr::tr;
 
 /// The panes and where they lie.
 pub struct Dock {
     tree: Tree<PaneId>,
+    /// Whether the arrangement is another one than [`Dock::take_edit`] told last.
+    is_edited: bool,
     /// Those that the frame before drew.
     drawn: Vec<PaneId>,
     /// Those whose tabs are being brought into view, and for how many frames still.
@@ -23,12 +26,17 @@ const SCROLLING: u8 = 4;
 
 impl Dock {
     pub fn new(layout: &Layout) -> Self {
-        Self { tree: layout.tree(), drawn: Vec::new(), scrolling: Vec::new() }
+        Self { tree: tree_of(layout), is_edited: false, drawn: Vec::new(), scrolling: Vec::new() }
     }
 
     /// The arrangement; none where all panes are closed.
     pub fn layout(&self) -> Option<Layout> {
-        Layout::of(&self.tree)
+        layout_of(&self.tree)
+    }
+
+    /// The arrangement, once after it has changed; while all panes are closed, that of before is the one to keep.
+    pub fn take_edit(&mut self) -> Option<Layout> {
+        std::mem::take(&mut self.is_edited).then(|| self.layout()).flatten()
     }
 
     /// Those that the next frame draws.
@@ -65,6 +73,7 @@ impl Dock {
         if self.tree.tiles.find_pane(&pane).is_none() {
             self.insert(pane);
         }
+        self.is_edited = true;
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(other) if *other == pane));
     }
 
@@ -116,6 +125,7 @@ impl Dock {
     pub fn close(&mut self, pane: PaneId) {
         if let Some(tile) = self.tree.tiles.find_pane(&pane) {
             self.tree.remove_recursively(tile);
+            self.is_edited = true;
         }
     }
 }
@@ -142,14 +152,15 @@ pub fn panes_ui(dock: &mut Dock, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui
         return;
     }
     dock.note_fresh_tabs();
-    let Dock { tree, scrolling, .. } = dock;
-    tree.ui(&mut PaneBehavior { views, cx, scrolling }, ui);
+    let Dock { tree, is_edited, scrolling, .. } = dock;
+    tree.ui(&mut PaneBehavior { views, cx, is_edited, scrolling }, ui);
 }
 
 /// How tiles look and behave.
 struct PaneBehavior<'a, 'c> {
     views: &'a mut Views,
     cx: &'a mut Cx<'c>,
+    is_edited: &'a mut bool,
     scrolling: &'a mut Vec<(PaneId, u8)>,
 }
 
@@ -213,6 +224,10 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
                 .on_hover_text(tr!("In the plot: drag to move, Ctrl+wheel to zoom, a double click shows all"))
                 .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         }
+    }
+
+    fn on_edit(&mut self, _action: EditAction) {
+        *self.is_edited = true;
     }
 
     fn simplification_options(&self) -> SimplificationOptions {

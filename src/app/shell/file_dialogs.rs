@@ -3,12 +3,12 @@
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::file_request::FileRequest;
 use crate::app::views::action::Action;
-use crate::app::work::document::Document;
+use crate::app::work::open_measurement::OpenMeasurement;
 use std::path::PathBuf;
 use tr::tr;
 
 /// What a command asks the user for.
-pub fn request_for(document: &Document, command: &Action) -> Option<FileRequest> {
+pub fn request_for(document: &OpenMeasurement, command: &Action) -> Option<FileRequest> {
     match command {
         Action::ChooseMeasurement => Some(FileRequest::Open),
         Action::ChooseSession => Some(FileRequest::OpenSession),

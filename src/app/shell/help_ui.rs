@@ -15,8 +15,8 @@ const WORD_WIDTH: f32 = 130.0;
 const MEANING_WIDTH: f32 = WIDTH - WORD_WIDTH - 30.0;
 const HEIGHT: f32 = 480.0;
 
-pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
-    let Some(page) = explorer.help else { return };
+pub fn help_ui(app: &mut App, ui: &mut Ui) {
+    let Some(page) = app.dialogs.help else { return };
     let response = egui::Modal::new(egui::Id::unique("help")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
         ui.heading(translated(page.heading()));
@@ -24,7 +24,7 @@ pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
         ScrollArea::vertical().max_height(HEIGHT.min(ui.ctx().content_rect().height() - 160.0)).show(ui, |ui| match page {
             Help::FirstSteps => first_steps_ui(ui),
             Help::Words => words_ui(ui),
-            Help::About => about_ui(explorer, ui),
+            Help::About => about_ui(app, ui),
         });
         ui.separator();
         let close = ui.button(tr!("Close"));
@@ -34,7 +34,7 @@ pub fn help_ui(explorer: &mut App, ui: &mut Ui) {
         close.clicked()
     });
     if response.inner || response.should_close() {
-        explorer.actions.push(Action::CloseHelp);
+        app.actions.push(Action::CloseHelp);
     }
 }
 
@@ -64,7 +64,7 @@ fn words_ui(ui: &mut Ui) {
     });
 }
 
-fn about_ui(explorer: &App, ui: &mut Ui) {
+fn about_ui(app: &App, ui: &mut Ui) {
     let line = |ui: &mut Ui, text: String| ui.add(Label::new(text).wrap());
     line(ui, format!("{TITLE} · {}", tr!("version {}", env!("CARGO_PKG_VERSION"))));
     line(ui, tr!("Licence: MIT or Apache-2.0, at your option"));
@@ -75,6 +75,6 @@ fn about_ui(explorer: &App, ui: &mut Ui) {
     line(ui, tr!("Cite it for the model, and this program by name and version."));
     ui.add_space(8.0);
     let place = |path: Option<&Path>| path.map_or_else(|| tr!("nowhere"), |path| path.display().to_string());
-    line(ui, tr!("Settings are kept in: {}", place(explorer.settings_file.as_deref())));
-    line(ui, tr!("What was open when the window closed is kept in: {}", place(explorer.working_file.as_deref())));
+    line(ui, tr!("Settings are kept in: {}", place(app.persistence.settings_path.as_deref())));
+    line(ui, tr!("What was open when the window closed is kept in: {}", place(app.persistence.autosave_path.as_deref())));
 }

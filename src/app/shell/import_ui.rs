@@ -2,13 +2,14 @@
 
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
+use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::import_dialog::{ImportDialog, Slices};
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::advised;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
-use crate::app::work::design::Span;
+use crate::app::work::design::AngleRange;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample};
 use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
@@ -24,8 +25,8 @@ const SHOWN: usize = 5;
 /// With more wavelengths there is a slider in place of a list.
 const LISTED: usize = 12;
 
-pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { import: Some(import), jobs, actions: commands, .. } = explorer else { return };
+pub fn import_ui(app: &mut App, ui: &mut Ui) {
+    let App { dialogs: Dialogs { import: Some(import), .. }, jobs, actions, .. } = app else { return };
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         ui.heading(tr!("Import {}", import.origin.name));
@@ -41,7 +42,7 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
             } else {
                 let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
                 if open.clicked() {
-                    commands.push(Action::ImportDialog);
+                    actions.push(Action::ImportDialog);
                 }
                 // Enter opens.
                 if is_sound && ui.memory(|memory| memory.focused().is_none()) {
@@ -49,13 +50,13 @@ pub fn import_ui(explorer: &mut App, ui: &mut Ui) {
                 }
             }
             if ui.button(tr!("Cancel")).on_hover_text(tr!("What is open stays")).clicked() {
-                commands.push(Action::CancelImport);
+                actions.push(Action::CancelImport);
             }
         });
     });
     // A click beside the dialog would lose the options.
     if response.should_close() && !response.backdrop_response.clicked() {
-        commands.push(Action::CancelImport);
+        actions.push(Action::CancelImport);
     }
 }
 
@@ -121,7 +122,7 @@ fn slices_ui(Slices { theta_i, theta_r }: &mut Slices, options: &mut ImportOptio
     });
 }
 
-fn span_ui(span: &mut Span, name: &str, least: f64, ui: &mut Ui) {
+fn span_ui(span: &mut AngleRange, name: &str, least: f64, ui: &mut Ui) {
     ui.label(name);
     let field = |ui: &mut Ui, value: &mut f64, range: std::ops::RangeInclusive<f64>, what: String| {
         let response = ui.add(DragValue::new(value).range(range).speed(0.5).max_decimals(3).suffix("°"));

@@ -11,15 +11,15 @@ use tr::tr;
 const HEIGHT: f32 = 172.0;
 
 /// The panel, while a lesson is open.
-pub fn lesson_panel(explorer: &mut App, ui: &mut Ui) {
-    if explorer.lessons.current().is_some() {
-        egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(explorer, ui));
+pub fn lesson_panel(app: &mut App, ui: &mut Ui) {
+    if app.lessons.current().is_some() {
+        egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(app, ui));
     }
 }
 
-fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
-    let App { lessons, actions: commands, .. } = explorer;
-    let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open) else { return };
+fn lesson_ui(app: &mut App, ui: &mut Ui) {
+    let App { lessons, actions, .. } = app;
+    let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open()) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
     ui.horizontal(|ui| {
@@ -31,12 +31,12 @@ fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
             });
         });
     });
-    buttons_ui(number, index, count, commands, ui);
+    buttons_ui(number, index, count, actions, ui);
     ui.horizontal(|ui| {
         ui.weak(tr!("Your own work comes back when you close the lesson."));
         let help = tr!("Close the lesson and go on from here; your work of before is given up");
         if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
-            commands.push(Action::KeepLesson);
+            actions.push(Action::KeepLesson);
         }
     });
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
@@ -53,21 +53,21 @@ fn lesson_ui(explorer: &mut App, ui: &mut Ui) {
 }
 
 /// Forth, back, and out.
-fn buttons_ui(lesson: usize, step: usize, count: usize, commands: &mut Vec<Action>, ui: &mut Ui) {
+fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
-            commands.push(Action::ShowStep(lesson, step - 1));
+            actions.push(Action::ShowStep(lesson, step - 1));
         }
         if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
-            commands.push(Action::ShowStep(lesson, step));
+            actions.push(Action::ShowStep(lesson, step));
         }
         let (name, command) =
             if step + 1 < count { (tr!("Next step"), Action::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Action::CloseLesson) };
         if ui.button(name).clicked() {
-            commands.push(command);
+            actions.push(command);
         }
         if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
-            commands.push(Action::CloseLesson);
+            actions.push(Action::CloseLesson);
         }
     });
 }

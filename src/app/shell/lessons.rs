@@ -1,10 +1,13 @@
-//! The lessons: those that are bundled, those in the user's own folder, and where in one of them the user is.
+//! The lessons: those that are bundled, those in the user's own folder, and the one that is open.
+//!
+//! A lesson works on a workspace of its own; the user's workspace is saved meanwhile and comes back when the lesson ends.
 
 use crate::app::platform;
 use crate::app::storage::settings_file;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::lesson::{Lesson, Step};
-use pbrdf::model::Parameter;
+use crate::app::work::workspace::Workspace;
+use pbrdf::model::{Parameter, PerParameter};
 use std::ops::RangeInclusive;
 use std::path::Path;
 use tr::tr;
@@ -29,12 +32,20 @@ const BUNDLED: [&str; 12] = [
 const MOST: usize = 100;
 const LARGEST: u64 = 1 << 18;
 
-/// All lessons, and which step of which is open.
+/// All lessons, and the one that is open.
 #[derive(Default)]
 pub struct Lessons {
     pub all: Vec<Lesson>,
-    /// Lesson and step.
-    pub open: Option<(usize, usize)>,
+    pub session: Option<Box<LessonSession>>,
+}
+
+/// The lesson that is open, and the user's own work meanwhile.
+pub struct LessonSession {
+    /// The lesson by its place in the list.
+    pub lesson: usize,
+    pub step: usize,
+    /// The user's own work as it was when the lesson began.
+    pub saved: Workspace,
 }
 
 impl Lessons {
@@ -48,19 +59,31 @@ impl Lessons {
                 Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
         }
-        (Self { all, open: None }, faults)
+        (Self { all, session: None }, faults)
     }
 
-    /// The ends of a parameter's slider: as the open step wants them, else its own.
-    pub fn range(&self, parameter: Parameter) -> RangeInclusive<f64> {
-        let ranges = self.current().map_or(&[][..], |(_, step)| &step.ranges);
-        let stated = ranges.iter().find(|(other, ..)| *other == parameter);
-        stated.map_or_else(|| parameter.range(), |&(_, low, high)| low..=high)
+    /// The ends of each slider: as the open step wants them, else its own.
+    pub fn ranges(&self) -> PerParameter<RangeInclusive<f64>> {
+        let mut ranges = PerParameter::from_fn(Parameter::range);
+        for &(parameter, low, high) in self.current().map_or(&[][..], |(_, step)| &step.ranges) {
+            ranges[parameter] = low..=high;
+        }
+        ranges
+    }
+
+    /// The places of the open lesson in the list, and of its step.
+    pub fn open(&self) -> Option<(usize, usize)> {
+        self.session.as_ref().map(|session| (session.lesson, session.step))
+    }
+
+    /// The place of the lesson of that title, if it has that step.
+    pub fn find(&self, title: &str, step: usize) -> Option<usize> {
+        self.all.iter().position(|lesson| lesson.title.original() == title && step < lesson.steps.len())
     }
 
     /// The open step with its lesson.
     pub fn current(&self) -> Option<(&Lesson, &Step)> {
-        let (lesson, step) = self.open?;
+        let (lesson, step) = self.open()?;
         let lesson = self.all.get(lesson)?;
         Some((lesson, lesson.steps.get(step)?))
     }
@@ -89,8 +112,8 @@ fn text_files(folder: &Path) -> Vec<std::path::PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::{BUNDLED, Lessons};
-    use crate::app::work::document::EXAMPLES;
     use crate::app::work::lesson::Data;
+    use crate::app::work::open_measurement::EXAMPLES;
 
     #[test]
     fn every_file_of_the_folder_is_bundled() {

@@ -3,29 +3,30 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Availability, Command, Menu};
+use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::path_entry::path_in;
 use crate::app::views::action::Action;
 use egui::containers::menu::MenuConfig;
 use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
 
-pub fn menu_ui(explorer: &mut App, ui: &mut Ui) {
+pub fn menu_ui(app: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
-        bar_menu_ui(tr!("File"), ui, |ui| file_ui(explorer, ui));
+        bar_menu_ui(tr!("File"), ui, |ui| file_ui(app, ui));
         for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
             bar_menu_ui(name, ui, |ui| {
-                let items = commands::items(explorer);
-                items_ui(&items, menu, &mut explorer.actions, ui);
+                let items = commands::items(app);
+                items_ui(&items, menu, &mut app.actions, ui);
             });
         }
-        bar_menu_ui(tr!("View"), ui, |ui| view_ui(explorer, ui));
+        bar_menu_ui(tr!("View"), ui, |ui| view_ui(app, ui));
         bar_menu_ui(tr!("Lessons"), ui, |ui| {
-            let items = commands::items(explorer);
-            items_ui(&items, Menu::Lesson, &mut explorer.actions, ui);
+            let items = commands::items(app);
+            items_ui(&items, Menu::Lesson, &mut app.actions, ui);
         });
         bar_menu_ui(tr!("Help"), ui, |ui| {
-            let items = commands::items(explorer);
-            items_ui(&items, Menu::Help, &mut explorer.actions, ui);
+            let items = commands::items(app);
+            items_ui(&items, Menu::Help, &mut app.actions, ui);
         });
     });
 }
@@ -61,64 +62,64 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     popup.open_memory(set).close_behavior(behavior).info(info).show(content);
 }
 
-fn file_ui(explorer: &mut App, ui: &mut Ui) {
-    let (quit, items): (Vec<Command>, Vec<Command>) = commands::items(explorer).into_iter().partition(|item| item.action == Action::Quit);
-    let App { actions: commands, typed, window, .. } = explorer;
-    items_ui(&items, Menu::File, commands, ui);
+fn file_ui(app: &mut App, ui: &mut Ui) {
+    let (quit, items): (Vec<Command>, Vec<Command>) = commands::items(app).into_iter().partition(|item| item.action == Action::Quit);
+    let App { actions, dialogs: Dialogs { path_entry, .. }, window, .. } = app;
+    items_ui(&items, Menu::File, actions, ui);
     ui.separator();
-    ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, commands, ui));
+    ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, actions, ui));
     ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
-        ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, commands, ui));
+        ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, actions, ui));
     });
     ui.menu_button(tr!("Export"), |ui| {
         let mut chosen = Vec::new();
         items_ui(&items, Menu::Export, &mut chosen, ui);
-        commands.extend(chosen.into_iter().map(|command| match command {
-            Action::ChooseExport(what) => typed.export_command(what).unwrap_or(command),
+        actions.extend(chosen.into_iter().map(|command| match command {
+            Action::ChooseExport(what) => path_entry.export_command(what).unwrap_or(command),
             other => other,
         }));
         ui.separator();
         let label = ui.label(tr!("Or type a path first, and then choose above:"));
-        ui.add(egui::TextEdit::singleline(&mut typed.export).desired_width(260.0)).labelled_by(label.id);
+        ui.add(egui::TextEdit::singleline(&mut path_entry.export).desired_width(260.0)).labelled_by(label.id);
     });
     ui.separator();
     let label = ui.label(tr!("Type a path to open and press Enter:"));
-    let field = ui.add(egui::TextEdit::singleline(&mut typed.open).desired_width(260.0)).labelled_by(label.id);
+    let field = ui.add(egui::TextEdit::singleline(&mut path_entry.open).desired_width(260.0)).labelled_by(label.id);
     if is_entered(&field, ui)
-        && let Some(path) = path_in(&typed.open)
+        && let Some(path) = path_in(&path_entry.open)
     {
-        commands.push(Action::OpenMeasurement(path));
+        actions.push(Action::OpenMeasurement(path));
         ui.close();
     }
     let label = ui.label(tr!("Save to a path (.csv the measurement, .json the session), Enter:"));
-    let field = ui.add(egui::TextEdit::singleline(&mut typed.save).desired_width(260.0)).labelled_by(label.id);
+    let field = ui.add(egui::TextEdit::singleline(&mut path_entry.save).desired_width(260.0)).labelled_by(label.id);
     if is_entered(&field, ui)
-        && let Some(command) = typed.save_command()
+        && let Some(command) = path_entry.save_command()
     {
-        commands.push(command);
+        actions.push(command);
         ui.close();
     }
     ui.separator();
-    items_ui(&quit, Menu::File, commands, ui);
+    items_ui(&quit, Menu::File, actions, ui);
 }
 
 fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
     field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))
 }
 
-fn view_ui(explorer: &mut App, ui: &mut Ui) {
-    let items = commands::items(explorer);
+fn view_ui(app: &mut App, ui: &mut Ui) {
+    let items = commands::items(app);
     ui.weak(tr!("Panes"));
-    items_ui(&items, Menu::PaneId, &mut explorer.actions, ui);
+    items_ui(&items, Menu::PaneId, &mut app.actions, ui);
     ui.separator();
-    items_ui(&items, Menu::View, &mut explorer.actions, ui);
+    items_ui(&items, Menu::View, &mut app.actions, ui);
     ui.separator();
-    ui.menu_button(tr!("Theme"), |ui| items_ui(&items, Menu::Theme, &mut explorer.actions, ui));
-    ui.menu_button(tr!("Language"), |ui| items_ui(&items, Menu::Language, &mut explorer.actions, ui));
+    ui.menu_button(tr!("Theme"), |ui| items_ui(&items, Menu::Theme, &mut app.actions, ui));
+    ui.menu_button(tr!("Language"), |ui| items_ui(&items, Menu::Language, &mut app.actions, ui));
 }
 
 /// The commands of a menu, with their keys; those that are on have a tick.
-fn items_ui(items: &[Command], menu: Menu, commands: &mut Vec<Action>, ui: &mut Ui) {
+fn items_ui(items: &[Command], menu: Menu, actions: &mut Vec<Action>, ui: &mut Ui) {
     for item in items.iter().filter(|item| item.menu == menu) {
         let keys = item.shortcut.map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
         let clicked = match item.status {
@@ -134,7 +135,7 @@ fn items_ui(items: &[Command], menu: Menu, commands: &mut Vec<Action>, ui: &mut 
         };
         let why_disabled = item.why_disabled();
         if clicked.on_hover_text(item.tooltip.as_ref()).on_disabled_hover_text(why_disabled).clicked() {
-            commands.push(item.action.clone());
+            actions.push(item.action.clone());
             ui.close();
         }
     }

@@ -1,23 +1,22 @@
 //! The window as a whole: app, commands, docking, dialogs, toasts, theme, lessons.
 
 pub mod app;
-pub mod autosave;
-pub mod command_palette;
+mod command_palette;
 pub mod commands;
+mod dialogs;
 pub mod docking;
 pub mod file_dialogs;
-pub mod frame_times;
-pub mod help_ui;
-pub mod import_dialog;
-pub mod import_ui;
-pub mod job_results;
-pub mod lesson_session;
-pub mod lesson_step;
-pub mod lesson_ui;
+mod frame_times;
+mod help_ui;
+mod import_dialog;
+mod import_ui;
+mod lesson_ui;
 pub mod lessons;
-pub mod menu_bar;
-pub mod overwrite_ui;
-pub mod path_entry;
-pub mod status_bar;
-pub mod theme;
-pub mod toasts;
+mod menu_bar;
+mod overwrite_ui;
+mod path_entry;
+mod persistence;
+mod status_bar;
+mod theme;
+mod tiles;
+mod toasts;

@@ -1,7 +1,6 @@
 //! Paths typed by hand, for where the desktop has no dialog. A box keeps its path until that has served; a file that is there is
 //! replaced only after a question, which elsewhere the desktop's own dialog asks.
 
-use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::views::action::Action;
 use std::path::{Path, PathBuf};
@@ -12,13 +11,6 @@ pub struct PathEntry {
     pub open: String,
     pub save: String,
     pub export: String,
-}
-
-/// A file that is there, and what would be written in its place.
-#[derive(Debug)]
-pub struct OverwritePrompt {
-    pub path: PathBuf,
-    pub command: Action,
 }
 
 /// The path in a box, if there is one; `~/` is the folder of the user, as in a shell.
@@ -44,34 +36,12 @@ impl PathEntry {
     }
 
     /// Empties the boxes with that path: it was read or written.
-    pub fn served(&mut self, path: &Path) {
+    pub fn clear_if(&mut self, path: &Path) {
         for text in [&mut self.open, &mut self.save, &mut self.export] {
             if path_in(text).is_some_and(|typed| typed == path) {
                 text.clear();
             }
         }
-    }
-}
-
-impl App {
-    /// Writes into a file that was typed, or asks first; or takes the answer.
-    pub(crate) fn write_typed(&mut self, ctx: &egui::Context, command: Action) -> Result<(), String> {
-        let (path, command) = match command {
-            Action::SaveNew(path) => (path.clone(), Action::SaveMeasurement(path)),
-            Action::ExportNew(what, path) => {
-                what.check(&path)?;
-                (path.clone(), Action::Export(what, path))
-            }
-            answer => {
-                let asked = self.replacing.take().filter(|_| answer == Action::Replace);
-                return asked.map_or(Ok(()), |asked| self.execute(ctx, asked.command));
-            }
-        };
-        if path.is_file() {
-            self.replacing = Some(OverwritePrompt { path, command });
-            return Ok(());
-        }
-        self.execute(ctx, command)
     }
 }
 
@@ -100,7 +70,7 @@ mod tests {
             assert_eq!(path_in(text), Some(text.into()));
         }
         let mut typed = PathEntry { open: "~/a.csv".to_owned(), ..PathEntry::default() };
-        typed.served(&home.join("a.csv"));
+        typed.clear_if(&home.join("a.csv"));
         assert_eq!(typed.open, "");
     }
 
@@ -109,7 +79,7 @@ mod tests {
         let mut typed = PathEntry { open: "/a.csv".to_owned(), save: " /b.csv".to_owned(), export: "/c".to_owned() };
         assert_eq!(typed.export_command(ExportKind::Curves), Some(Action::ExportNew(ExportKind::Curves, "/c.csv".into())));
         for path in ["/b.csv", "/c.csv", "/d.csv"] {
-            typed.served(Path::new(path));
+            typed.clear_if(Path::new(path));
         }
         assert_eq!((typed.open.as_str(), typed.save.as_str(), typed.export.as_str()), ("/a.csv", "", ""));
     }

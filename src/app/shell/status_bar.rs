@@ -7,7 +7,6 @@ use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
-use crate::app::work::workspace::Workspace;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
 use std::time::Duration;
@@ -18,8 +17,9 @@ const WIDTH: f32 = 640.0;
 const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
-pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
-    let App { work: Workspace { document, .. }, derived, jobs, actions: commands, window, frame_times, .. } = explorer;
+pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
+    let App { work, derived, jobs, actions, window, frame_times, .. } = app;
+    let open = work.active();
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
             "{}\n{}",
@@ -31,7 +31,7 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
             #[expect(clippy::cast_possible_truncation, reason = "a fraction for a progress bar")]
             ui.add(egui::ProgressBar::new(done as f32).desired_width(160.0).text(tr!("Reading…")));
             if ui.button(tr!("Cancel reading")).clicked() {
-                commands.push(Action::CancelLoading);
+                actions.push(Action::CancelLoading);
             }
             ui.separator();
         }
@@ -39,8 +39,8 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
             ui.label(frame_times.text());
             ui.separator();
         }
-        let description = ui.add(egui::Label::new(document.description()).truncate());
-        if !document.mask().is_empty() {
+        let description = ui.add(egui::Label::new(open.description()).truncate());
+        if !open.mask().is_empty() {
             description.on_hover_text(glossary::mask_help());
         }
         if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out) {
@@ -51,32 +51,32 @@ pub fn status_ui(explorer: &mut App, ui: &mut egui::Ui) {
 }
 
 /// What there is to say, over the foot of the plots: they stay where they are.
-pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
-    let App { notices, actions: commands, derived, .. } = explorer;
+pub fn toasts_ui(app: &mut App, ui: &egui::Ui, room: egui::Rect) {
+    let App { toasts, actions, derived, .. } = app;
     let now = ui.input(|input| input.time);
-    if let Some(seconds) = notices.expire(now) {
+    if let Some(seconds) = toasts.expire(now) {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(seconds));
     }
     let fault = derived.fault().map(|fault| tr!("There is no curve: {}.", fault.localized()));
-    if notices.is_empty() && fault.is_none() {
+    if toasts.is_empty() && fault.is_none() {
         return;
     }
     let width = WIDTH.min(room.width() - 40.0);
-    let id = egui::Id::unique("notices");
+    let id = egui::Id::unique("toasts");
     let before = egui::AreaState::load(ui.ctx(), id).and_then(|state| state.size);
     let area = egui::Area::new(id).order(egui::Order::Middle).pivot(egui::Align2::CENTER_BOTTOM);
     let area = area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room);
     let shown = area.show(ui.ctx(), |ui| {
         let warning = theme::warning(ui.visuals().dark_mode);
-        let transient = fault.is_none() && notices.iter().all(|notice| notice.transient);
+        let transient = fault.is_none() && toasts.iter().all(|toast| toast.transient);
         let color = if transient { ui.visuals().widgets.noninteractive.fg_stroke.color } else { warning };
         egui::Frame::popup(ui.style()).stroke(egui::Stroke::new(1.0, color)).show(ui, |ui| {
             ui.set_width(width);
             if let Some(fault) = fault {
                 ui.add(Label::new(RichText::new(fault).color(warning)).wrap());
             }
-            if !notices.is_empty() {
-                sentences_ui(notices, commands, ui);
+            if !toasts.is_empty() {
+                sentences_ui(toasts, actions, ui);
             }
         });
     });
@@ -87,19 +87,19 @@ pub fn notices_ui(explorer: &mut App, ui: &egui::Ui, room: egui::Rect) {
 }
 
 /// The sentences, and the button that sends them away.
-fn sentences_ui(notices: &Toasts, commands: &mut Vec<Action>, ui: &mut egui::Ui) {
+fn sentences_ui(toasts: &Toasts, actions: &mut Vec<Action>, ui: &mut egui::Ui) {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
         if ui.button(tr!("Dismiss")).on_hover_text(tr!("Also with Escape")).clicked() {
-            commands.push(Action::DismissNotices);
+            actions.push(Action::DismissToasts);
         }
         ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
             // The newest is in sight; several do not cover the window.
             egui::ScrollArea::vertical().max_height(HEIGHT).stick_to_bottom(true).auto_shrink([false, true]).show(ui, |ui| {
-                for notice in notices.iter() {
-                    let label = ui.add(Label::new(RichText::new(&notice.text).color(notice.color(ui.visuals()))).wrap());
+                for toast in toasts.iter() {
+                    let label = ui.add(Label::new(RichText::new(&toast.text).color(toast.color(ui.visuals()))).wrap());
                     // Read out without being asked for.
                     ui.ctx().accesskit_node_builder(label.id, |node| {
-                        node.set_live(if notice.transient { Live::Polite } else { Live::Assertive });
+                        node.set_live(if toast.transient { Live::Polite } else { Live::Assertive });
                     });
                 }
             });

@@ -1,6 +1,16 @@
 //! Fonts and sizes of the window.
 
+use crate::app::work::settings::Theme;
 use crate::figure::CJK;
+
+/// Light, dark, or as the desktop has it.
+pub fn set(ctx: &egui::Context, theme: Theme) {
+    ctx.set_theme(match theme {
+        Theme::System => egui::ThemePreference::System,
+        Theme::Light => egui::ThemePreference::Light,
+        Theme::Dark => egui::ThemePreference::Dark,
+    });
+}
 
 /// Sets fonts, text sizes and colours of both themes.
 pub fn install(ctx: &egui::Context) {

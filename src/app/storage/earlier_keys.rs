@@ -1,6 +1,7 @@
 //! Keys of files of earlier releases that mean the same under another key now.
 
-use crate::app::work::settings::Settings;
+use crate::app::work::layout::Layout;
+use crate::app::work::surface::Surface;
 use pbrdf::model::{DolpFormula, Model};
 use serde::Deserialize;
 
@@ -22,13 +23,27 @@ struct EarlierChoices {
 #[serde(default)]
 pub struct EarlierFile {
     settings: EarlierKeys,
+    window: EarlierWindow,
+}
+
+/// The layout of panes stood under `window.layout` of the settings file.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct EarlierWindow {
+    #[serde(deserialize_with = "Layout::lenient")]
+    layout: Layout,
 }
 
 impl EarlierFile {
     /// Puts the values where they stand now; weights too small for the domain, which earlier releases took, become 0.
-    pub fn apply(&self, settings: &mut Settings) {
-        self.settings.apply(&mut settings.model);
-        settings.parameters = settings.parameters.flushed_to_zero();
+    pub fn apply(&self, surface: &mut Surface) {
+        self.settings.apply(&mut surface.model);
+        surface.parameters = surface.parameters.flushed_to_zero();
+    }
+
+    /// The layout under its earlier key, or the default.
+    pub fn layout(self) -> Layout {
+        self.window.layout
     }
 }
 

@@ -4,8 +4,7 @@ use crate::app::storage::session::Session;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::WindowWording;
-use crate::app::work::document::Document;
-use crate::app::work::layout::Layout;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
@@ -57,7 +56,7 @@ impl ExportKind {
     }
 
     /// A name to begin with.
-    pub fn file_name(self, document: &Document) -> String {
+    pub fn file_name(self, document: &OpenMeasurement) -> String {
         let name = document.file_name();
         let stem = name.trim_end_matches(".csv");
         let what = match self {
@@ -89,11 +88,11 @@ impl ExportKind {
         fits.map_err(|reason| tr!("{}.", reason.localized()))
     }
 
-    /// A snapshot of the work that writes itself: the work may change while it is written. A plot is its figure, a session has the layout.
+    /// A snapshot of the work that writes itself: the work may change while it is written. A plot is its figure.
     ///
     /// # Errors
     /// There is nothing to write; the error is a sentence.
-    pub fn snapshot(self, work: &Workspace, layout: Layout, figure: Option<Figure>) -> Result<Write, String> {
+    pub fn snapshot(self, work: &Workspace, figure: Option<Figure>) -> Result<Write, String> {
         match self {
             Self::Plot(_) => {
                 let figure = figure.ok_or_else(|| tr!("There is no plot to export."))?;
@@ -104,19 +103,19 @@ impl ExportKind {
             }
             Self::Curves => {
                 let surface = surface(work)?;
-                let series = work.document.series.clone();
-                let backscatter = work.settings.show_backscatter || work.document.has_backscatter();
+                let series = work.active().series.clone();
+                let backscatter = work.settings().show_backscatter || work.active().has_backscatter();
                 Ok(written(move |out| write_curves(&surface, &series, backscatter, out)))
             }
             Self::Fitted => {
-                let fit = work.shown_fit.as_ref().ok_or_else(|| translated(NO_FIT))?;
+                let fit = work.shown_fit().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (choices, measurement) = (*fit.problem.options(), work.document.measurement.clone());
+                let (choices, measurement) = (*fit.problem.options(), work.active().measurement.clone());
                 Ok(written(move |out| write_fitted(&measurement, &surface, choices.dolp_only, out)))
             }
             Self::Report => report(work),
             Self::Session => {
-                let session = Session::of(work, layout);
+                let session = Session::of(work);
                 Ok(written(move |out| session.write(out)))
             }
         }
@@ -134,13 +133,13 @@ fn written(body: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()> + S
 }
 
 fn surface(work: &Workspace) -> Result<Pbrdf, String> {
-    Pbrdf::new(work.settings.model, work.settings.parameters).map_err(|error| tr!("There are no curves: {}.", error.localized()))
+    Pbrdf::new(work.surface().model, work.surface().parameters).map_err(|error| tr!("There are no curves: {}.", error.localized()))
 }
 
 fn report(work: &Workspace) -> Result<Write, String> {
-    let fit = work.shown_fit.clone().ok_or_else(|| translated(NO_FIT))?;
+    let fit = work.shown_fit().cloned().ok_or_else(|| translated(NO_FIT))?;
     let (report, problem) = (fit.report.clone(), fit.problem.clone());
-    let (measurement, document) = (work.document.measurement.clone(), &work.document);
+    let (measurement, document) = (work.active().measurement.clone(), work.active());
     let source = DataSource { name: document.name.clone(), sha256: document.sha256.clone() };
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;

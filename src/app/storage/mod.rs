@@ -4,6 +4,8 @@ mod earlier_keys;
 pub mod export;
 pub mod fit_record;
 pub mod import;
+pub mod saved_fit;
 pub mod session;
+pub mod session_error;
 pub mod session_file;
 pub mod settings_file;

@@ -1,7 +1,9 @@
 //! Sessions on disk.
 
-use crate::app::storage::session::{RestoredFit, Session};
+use crate::app::storage::saved_fit::RestoredFit;
+use crate::app::storage::session::{SavedLesson, Session};
 use crate::app::text::localized::Localized as _;
+use crate::app::work::workspace::Workspace;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
 use std::io::Read as _;
@@ -12,6 +14,15 @@ use tr::tr;
 pub struct OpenedSession {
     pub session: Session,
     pub fits: Vec<RestoredFit>,
+    /// The lesson that was open.
+    pub lesson: Option<Box<OpenedLesson>>,
+}
+
+/// A lesson that was open: its title, the step from 0, and its work.
+pub struct OpenedLesson {
+    pub title: String,
+    pub step: usize,
+    pub work: OpenedSession,
 }
 
 impl OpenedSession {
@@ -29,9 +40,18 @@ impl OpenedSession {
     }
 
     /// Restores the fits that the data of the session still allow.
-    pub fn new(session: Session) -> Self {
+    pub fn new(mut session: Session) -> Self {
         let fits = session.fits.iter().filter_map(|fit| fit.again(&session.measurements)).collect();
-        Self { session, fits }
+        let lesson = session.lesson.take().map(|lesson| {
+            let SavedLesson { title, step, work } = *lesson;
+            Box::new(OpenedLesson { title, step, work: Self::new(work) })
+        });
+        Self { session, fits, lesson }
+    }
+
+    /// The work that it holds.
+    pub fn into_work(self) -> Workspace {
+        self.session.into_work(self.fits)
     }
 }
 

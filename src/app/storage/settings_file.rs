@@ -4,13 +4,60 @@ use crate::app::platform;
 use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::text::i18n::Language;
 use crate::app::text::localized::Localized as _;
-use crate::app::work::settings::{SettingsFile, WindowSettings};
+use crate::app::work::layout::Layout;
+use crate::app::work::settings::{Settings, WindowSettings};
+use crate::app::work::settings_error::SettingsError;
+use crate::app::work::surface::Surface;
 use crate::files::write_file::write_file;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use tr::tr;
 
 /// Name of the program in the folders of the desktop.
 pub const APP: &str = "pbrdf-explorer";
+
+/// The settings file.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct SettingsFile {
+    pub settings: SavedSettings,
+    pub layout: Layout,
+    pub window: WindowSettings,
+}
+
+/// Settings and surface as files hold them: under one key.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct SavedSettings {
+    #[serde(flatten)]
+    pub settings: Settings,
+    #[serde(flatten)]
+    pub surface: Surface,
+}
+
+/// What is read of a file with settings beside the settings: the surface, which stands among them.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+pub struct SurfaceOfFile {
+    pub settings: Surface,
+}
+
+/// What is read of the settings file.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct SettingsContents {
+    settings: Settings,
+    layout: Option<serde_json::Value>,
+    window: WindowSettings,
+}
+
+impl SettingsFile {
+    /// The key of a value that means nothing, and why.
+    fn fault(&self) -> Option<String> {
+        let SavedSettings { settings, surface } = &self.settings;
+        let size = || (!self.window.is_sound()).then(|| SettingsError::OutOfRange("window.size").localized());
+        let fault = surface.fault().or_else(|| settings.fault());
+        fault.map(|fault| format!("settings.{}", fault.localized())).or_else(size)
+    }
+}
 
 /// Where the settings are, if the machine has a place for them.
 pub fn path() -> Option<PathBuf> {
@@ -59,9 +106,12 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
 }
 
 fn read(bytes: &[u8]) -> serde_json::Result<SettingsFile> {
-    let mut file: SettingsFile = serde_json::from_slice(bytes)?;
-    serde_json::from_slice::<EarlierFile>(bytes)?.apply(&mut file.settings);
-    Ok(file)
+    let SettingsContents { settings, layout, window } = serde_json::from_slice(bytes)?;
+    let SurfaceOfFile { settings: mut surface } = serde_json::from_slice(bytes)?;
+    let earlier: EarlierFile = serde_json::from_slice(bytes)?;
+    earlier.apply(&mut surface);
+    let layout = layout.map_or_else(|| earlier.layout(), Layout::from_value);
+    Ok(SettingsFile { settings: SavedSettings { settings, surface }, layout, window })
 }
 
 /// Writes the settings; a crash leaves the old file or the new one.

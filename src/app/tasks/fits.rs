@@ -7,8 +7,8 @@ use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::platform::Instant;
 use crate::app::tasks::start_error::start_error;
-use crate::app::work::document::{Document, Mask};
 use crate::app::work::model_fit::ModelFit;
+use crate::app::work::open_measurement::{Mask, OpenMeasurement};
 use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile};
 use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
@@ -34,6 +34,8 @@ pub struct FitJobs {
     pub fit: Slot<FinishedFit, TracePoint>,
     /// Fits from the sliders while they move.
     pub refit: Slot<Box<FitResult>>,
+    /// The revision at which the user had moved the sliders that the last refit began at.
+    pub refitted_at: u64,
     /// Fits several models; the progress is the name of the model.
     pub compare: Slot<Vec<ModelFit>, &'static str>,
     pub profile: Slot<Profile>,
@@ -46,6 +48,7 @@ impl FitJobs {
             spawner,
             fit: Slot::default(),
             refit: Slot::default(),
+            refitted_at: 0,
             compare: Slot::default(),
             profile: Slot::default(),
             bootstrap: Slot::default(),
@@ -55,7 +58,7 @@ impl FitJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, fit, refit, compare, profile, bootstrap } = self;
+        let Self { spawner: _, refitted_at: _, fit, refit, compare, profile, bootstrap } = self;
         vec![fit, refit, compare, profile, bootstrap]
     }
 
@@ -63,7 +66,7 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn fit(&mut self, problem: Problem, document: &Document, starts: Starts, seed: u64) -> Result<(), String> {
+    pub fn fit(&mut self, problem: Problem, document: &OpenMeasurement, starts: Starts, seed: u64) -> Result<(), String> {
         let (generation, mask) = (document.generation, document.mask().clone());
         let job = move |context: &JobContext<TracePoint>| {
             let begun = Instant::now();

@@ -18,8 +18,8 @@ fn shown() -> Harness<'static, Option<App>> {
 #[test]
 fn every_finding_has_its_number_verdict_and_reason() {
     let mut harness = shown();
-    let settings = explorer(&mut harness).work.settings.clone();
-    let audit = Audit::new(&Pbrdf::new(settings.model, settings.parameters).expect("the defaults"));
+    let surface = explorer(&mut harness).work.surface().clone();
+    let audit = Audit::new(&Pbrdf::new(surface.model, surface.parameters).expect("the defaults"));
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit(), Some(&audit));
     for finding in &audit.findings {
         assert!(harness.query_all_by_label(finding.why()).next().is_some(), "{:?}", finding.check);
@@ -53,13 +53,13 @@ fn findings_stand_below_each_other_in_narrow_and_wide_panes() {
 #[test]
 fn a_surface_that_shines_is_warned_of_and_terms_that_are_absent_are_not_judged() {
     let mut harness = shown();
-    explorer(&mut harness).work.settings.parameters.kd = 1.5;
+    explorer(&mut harness).work.surface_mut().parameters.kd = 1.5;
     wait(&mut harness);
     harness.get_by_label_contains("More light leaves than falls on the surface from θi = 0° on.");
-    let settings = &mut explorer(&mut harness).work.settings;
-    settings.parameters.kd = 0.1;
-    settings.model.diffuse = Diffuse::Absent;
-    settings.model.volume = false;
+    let surface = explorer(&mut harness).work.surface_mut();
+    surface.parameters.kd = 0.1;
+    surface.model.diffuse = Diffuse::Absent;
+    surface.model.volume = false;
     wait(&mut harness);
     harness.get_by_label("Reflectance into all directions, by terms");
     assert!(harness.query_by_label("Reciprocity: volume lobe").is_none());
@@ -72,7 +72,7 @@ fn nothing_is_audited_behind_another_tab_or_without_a_surface() {
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit().is_none());
     let mut harness = shown();
-    explorer(&mut harness).work.settings.parameters.q = f64::NAN;
+    explorer(&mut harness).work.surface_mut().parameters.q = f64::NAN;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::AuditView>().audit().is_none());
 }

@@ -17,7 +17,7 @@ fn a_job_that_panics_frees_its_slot_and_the_window_says_so() {
         jobs.slots()[index].start_panicking(&spawner);
         // Ends when every slot is free.
         wait(&mut harness);
-        let toast = explorer(&mut harness).notices.take().expect("a sentence");
+        let toast = explorer(&mut harness).toasts.take().expect("a sentence");
         assert!(toast.contains("ended unexpectedly") && !toast.contains('\n'), "slot {index}: {toast}");
     }
     // Nobody hears of a job that was abandoned.
@@ -27,7 +27,7 @@ fn a_job_that_panics_frees_its_slot_and_the_window_says_so() {
     jobs.fits.abandon();
     jobs.files.abandon_reading();
     wait(&mut harness);
-    let toasts = explorer(&mut harness).notices.take().expect("sentences about the other jobs");
+    let toasts = explorer(&mut harness).toasts.take().expect("sentences about the other jobs");
     assert!(!toasts.contains("The fit") && !toasts.contains("Reading"), "{toasts}");
     assert!(toasts.contains("Writing") && toasts.contains("dialog"), "{toasts}");
 }
@@ -42,12 +42,12 @@ fn what_panicked_can_start_again() {
     files.ask = |_| std::panic::panic_any("on purpose");
     files.ask(FileRequest::Open).expect("a job");
     wait(&mut harness);
-    let toasts = explorer(&mut harness).notices.take().expect("two sentences");
+    let toasts = explorer(&mut harness).toasts.take().expect("two sentences");
     assert!(toasts.contains("Writing the file ended") && toasts.contains("The file dialog ended"), "{toasts}");
     explorer(&mut harness).jobs.files.ask = |_| Ok(Some("/no/such/file.csv".into()));
     explorer(&mut harness).actions.extend([Action::Export(ExportKind::Curves, path.clone()), Action::ChooseMeasurement]);
     wait(&mut harness);
-    assert!(path.exists() && explorer(&mut harness).notices.take().is_some_and(|toast| toast.contains("/no/such/file.csv")));
+    assert!(path.exists() && explorer(&mut harness).toasts.take().is_some_and(|toast| toast.contains("/no/such/file.csv")));
 }
 
 #[test]
@@ -64,5 +64,5 @@ fn a_benchmark_that_waits_comes_after_one_that_panics() {
     }
     explorer(&mut harness).actions.push(Action::CancelReport);
     wait(&mut harness);
-    assert!(explorer(&mut harness).reports.stability.is_some());
+    assert!(explorer(&mut harness).benchmarks.stability.is_some());
 }

@@ -6,7 +6,9 @@ use crate::app::shell::commands::Availability;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use crate::app::work::settings::Theme;
+use crate::app::work::workspace::Workspace;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -33,7 +35,7 @@ fn every_command_can_be_carried_out() {
     let mut harness = harness();
     for command in commands {
         if let Action::CopyPlot(pane) = command
-            && !explorer(&mut harness).panes.is_on_screen(pane)
+            && !explorer(&mut harness).dock.is_on_screen(pane)
         {
             // Until then the command is grey.
             explorer(&mut harness).actions.push(Action::TogglePane(pane));
@@ -46,7 +48,7 @@ fn every_command_can_be_carried_out() {
             explorer(&mut harness).actions.push(Action::CancelReport);
         }
         wait(&mut harness);
-        let notice = explorer(&mut harness).notices.take();
+        let notice = explorer(&mut harness).toasts.take();
         assert_eq!(notice.is_some(), command == Action::CopyTable, "{command:?}: {notice:?}");
     }
 }
@@ -54,27 +56,28 @@ fn every_command_can_be_carried_out() {
 #[test]
 fn commands_about_what_is_not_there_change_nothing() {
     let mut harness = harness();
-    let (settings, rows) = (explorer(&mut harness).work.settings.clone(), explorer(&mut harness).work.document.measurement.rows.clone());
+    let (settings, rows) = (explorer(&mut harness).work.values(), explorer(&mut harness).work.active().measurement.rows.clone());
     let profiles = pbrdf::model::Parameter::ALL.map(Action::Profile);
     let others = [
         Action::ImportDialog,
         Action::CancelImport,
-        Action::Mask { rows: vec![usize::MAX], masked: true },
         Action::ReturnTo(99),
-        Action::UseRung(99),
         Action::UseCase(99),
         Action::UseFinish(99),
         Action::UseModel("none"),
         Action::ShowStep(99, 0),
         Action::ShowStep(0, 99),
-        Action::SetParameters(Vec::new()),
     ];
+    for edit in [Edit::Mask { rows: vec![usize::MAX], masked: true }, Edit::UseModelFit(99), Edit::ReturnToFit(99)] {
+        explorer(&mut harness).work.apply(edit);
+        assert_eq!(explorer(&mut harness).work.values(), settings);
+    }
     for command in profiles.into_iter().chain(others) {
         explorer(&mut harness).actions.push(command.clone());
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         assert_eq!(
-            (explorer.notices.take(), &explorer.work.settings, &explorer.work.document.measurement.rows),
+            (explorer.toasts.take(), &explorer.work.values(), &explorer.work.active().measurement.rows),
             (None, &settings, &rows),
             "{command:?}"
         );
@@ -86,12 +89,12 @@ fn keys_do_what_menus_say() {
     let mut harness = harness();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).work.settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings().log_brdf);
     harness.get_by_label("View").click();
     harness.run();
     harness.get_by_label("Logarithmic lobes").click();
     harness.run();
-    assert!(!explorer(&mut harness).work.settings.log_brdf);
+    assert!(!explorer(&mut harness).work.settings().log_brdf);
 }
 
 #[test]
@@ -101,14 +104,14 @@ fn keys_work_while_a_slider_has_the_focus_and_not_while_a_field_is_typed_into() 
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).work.settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings().log_brdf);
     harness.get_by_label("File").click();
     harness.run();
     harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Type a path to open and press Enter:").focus();
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::L);
     harness.run();
-    assert!(explorer(&mut harness).work.settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings().log_brdf);
 }
 
 #[test]
@@ -116,14 +119,14 @@ fn the_palette_finds_a_command_by_a_few_letters() {
     let mut harness = harness();
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     harness.run();
-    assert!(explorer(&mut harness).palette.is_open());
+    assert!(explorer(&mut harness).dialogs.palette.is_open);
     harness.get_by_label("Find a command").type_text("dark");
     harness.run();
     harness.key_press(Key::Enter);
     harness.run();
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.window.theme, Theme::Dark);
-    assert!(!explorer.palette.is_open());
+    assert!(!explorer.dialogs.palette.is_open);
 }
 
 #[test]
@@ -135,11 +138,11 @@ fn arrows_choose_in_the_palette_and_escape_leaves_it() {
     harness.run();
     harness.key_press(Key::ArrowDown);
     harness.run();
-    explorer(&mut harness).work.settings.parameters.n = 7.0;
+    explorer(&mut harness).work.surface_mut().parameters.n = 7.0;
     harness.key_press(Key::Escape);
     harness.run();
-    assert!(!explorer(&mut harness).palette.is_open());
-    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 7.0);
+    assert!(!explorer(&mut harness).dialogs.palette.is_open);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.n, 7.0);
 }
 
 #[test]
@@ -169,59 +172,59 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
 #[test]
 fn ctrl_y_does_again_what_was_undone() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters.k = 4.5;
+    explorer(&mut harness).work.surface_mut().parameters.k = 4.5;
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters, Parameters::default());
+    assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Y);
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters.k, 4.5);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.k, 4.5);
 }
 
 #[test]
 fn undo_brings_back_every_setting() {
     let mut harness = harness();
-    let before = explorer(&mut harness).work.settings.clone();
-    let steps: [fn(&mut crate::app::work::settings::Settings); 5] = [
-        |settings| settings.parameters.k = 4.5,
-        |settings| settings.model.volume = false,
-        |settings| settings.log_brdf = true,
-        |settings| settings.theta_i = 12.5,
-        |settings| settings.show_limit = false,
+    let before = explorer(&mut harness).work.values();
+    let steps: [fn(&mut Workspace); 5] = [
+        |work| work.surface_mut().parameters.k = 4.5,
+        |work| work.surface_mut().model.volume = false,
+        |work| work.settings_mut().log_brdf = true,
+        |work| work.settings_mut().theta_i = 12.5,
+        |work| work.settings_mut().show_limit = false,
     ];
     for step in steps {
-        step(&mut explorer(&mut harness).work.settings);
+        step(&mut explorer(&mut harness).work);
         harness.run();
     }
-    let after = explorer(&mut harness).work.settings.clone();
+    let after = explorer(&mut harness).work.values();
     for _ in steps {
         explorer(&mut harness).actions.push(Action::Undo);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.settings, before);
+    assert_eq!(explorer(&mut harness).work.values(), before);
     for _ in steps {
         explorer(&mut harness).actions.push(Action::Redo);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.settings, after);
+    assert_eq!(explorer(&mut harness).work.values(), after);
 }
 
 #[test]
 fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
     let mut harness = harness();
-    let steps_before = explorer(&mut harness).work.undo.can_undo();
+    let steps_before = explorer(&mut harness).work.can_undo();
     for command in [Action::SetTheme(Theme::Dark), Action::ToggleFrameTimes] {
         explorer(&mut harness).actions.push(command);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.undo.can_undo(), steps_before);
+    assert_eq!(explorer(&mut harness).work.can_undo(), steps_before);
 }
 
 #[test]
 fn parameters_are_copied_and_pasted_as_text() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters.n = 2.07;
+    explorer(&mut harness).work.surface_mut().parameters.n = 2.07;
     explorer(&mut harness).actions.push(Action::CopyParameters);
     harness.step();
     let copied = harness.output().platform_output.commands.iter().find_map(|command| match command {
@@ -230,14 +233,14 @@ fn parameters_are_copied_and_pasted_as_text() {
     });
     let copied = copied.expect("text on the clipboard");
     assert!(copied.starts_with("n=2.07, k=3"), "{copied}");
-    explorer(&mut harness).work.settings.parameters = Parameters::default();
+    explorer(&mut harness).work.surface_mut().parameters = Parameters::default();
     harness.input_mut().events.push(egui::Event::Paste(copied));
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 2.07);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.n, 2.07);
     harness.input_mut().events.push(egui::Event::Paste("what is this".to_owned()));
     harness.run();
-    assert!(explorer(&mut harness).notices.text().expect("a notice").contains("is no set of parameters"));
-    assert_eq!(explorer(&mut harness).work.settings.parameters.n, 2.07);
+    assert!(explorer(&mut harness).toasts.text().expect("a notice").contains("is no set of parameters"));
+    assert_eq!(explorer(&mut harness).work.surface().parameters.n, 2.07);
 }
 
 #[test]
@@ -248,7 +251,7 @@ fn what_is_impossible_is_not_ordered_by_its_keys() {
     assert_eq!(redo.status, Availability::Impossible);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run();
-    assert!(explorer(&mut harness).notices.is_empty());
+    assert!(explorer(&mut harness).toasts.is_empty());
 }
 
 #[test]
@@ -263,7 +266,7 @@ fn the_palette_finds_english_names_in_every_language() {
     harness.key_press(Key::Enter);
     harness.step();
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.shown_fit.is_some());
+    assert!(explorer(&mut harness).work.shown_fit().is_some());
     // And the names that are shown, without the English ones.
     explorer(&mut harness).actions.push(Action::OpenPalette);
     harness.run();

@@ -1,10 +1,14 @@
 //! Opening files, good and bad, and the settings file.
 
 use crate::app::storage::settings_file;
-use crate::app::tests::{explorer, harness, harness_with, wait};
+use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
+use crate::app::tests::{explorer, harness, harness_of, wait};
 use crate::app::views::action::Action;
-use crate::app::work::document::EXAMPLES;
-use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings};
+use crate::app::work::layout::Layout;
+use crate::app::work::open_measurement::EXAMPLES;
+use crate::app::work::pane_id::PaneId;
+use crate::app::work::settings::{Settings, Theme, WindowSettings};
+use crate::app::work::surface::Surface;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::{Parameter, Parameters};
 use std::path::{Path, PathBuf};
@@ -38,10 +42,10 @@ fn a_dropped_file_is_opened() {
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!((explorer.work.document.name.as_str(), explorer.work.document.measurement.rows.len()), ("mine.csv", 2));
-    assert_eq!(explorer.work.settings.theta_i, 35.0);
-    assert!(!explorer.work.settings.locked.contains(Parameter::Ks), "a BRDF can determine k_s");
-    assert!(explorer.work.document.has_backscatter());
+    assert_eq!((explorer.work.active().name.as_str(), explorer.work.active().measurement.rows.len()), ("mine.csv", 2));
+    assert_eq!(explorer.work.settings().theta_i, 35.0);
+    assert!(!explorer.work.surface().locked.contains(Parameter::Ks), "a BRDF can determine k_s");
+    assert!(explorer.work.active().has_backscatter());
 }
 
 #[test]
@@ -49,7 +53,7 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = file(&folder, "bad.csv", "theta_i,theta_r,dolp\n30,20,0.1\n30,25,abc\n");
     let mut harness = harness();
-    let rows = explorer(&mut harness).work.document.measurement.rows.clone();
+    let rows = explorer(&mut harness).work.active().measurement.rows.clone();
     for (command, expected) in [
         (Action::OpenMeasurement(path), "line 3, column 3 (dolp)"),
         (Action::OpenMeasurement(folder.path().to_owned()), "directory"),
@@ -58,13 +62,13 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
         explorer(&mut harness).actions.push(command);
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        let notice = explorer.notices.text().expect("a notice");
+        let notice = explorer.toasts.text().expect("a notice");
         assert!(notice.contains(expected), "{notice}");
-        assert_eq!(explorer.work.document.measurement.rows, rows);
+        assert_eq!(explorer.work.active().measurement.rows, rows);
     }
     harness.get_by_label("Dismiss").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).notices.text(), None);
+    assert_eq!(explorer(&mut harness).toasts.text(), None);
 }
 
 #[test]
@@ -87,7 +91,7 @@ fn a_path_can_be_typed_into_the_menu_after_a_click() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).work.document.name, "typed.csv");
+    assert_eq!(explorer(&mut harness).work.active().name, "typed.csv");
 }
 
 #[test]
@@ -97,8 +101,8 @@ fn every_example_opens_and_says_that_it_is_simulated() {
         explorer(&mut harness).actions.push(Action::OpenExample(index));
         wait(&mut harness);
         let explorer = explorer(&mut harness);
-        assert_eq!((explorer.work.document.name.as_str(), explorer.notices.text()), (example.name, None));
-        assert!(explorer.work.document.description().contains("simulated"));
+        assert_eq!((explorer.work.active().name.as_str(), explorer.toasts.text()), (example.name, None));
+        assert!(explorer.work.active().description().contains("simulated"));
         assert!(explorer.derived.delta_e().is_some());
     }
 }
@@ -106,9 +110,9 @@ fn every_example_opens_and_says_that_it_is_simulated() {
 #[test]
 fn a_second_notice_does_not_hide_the_first() {
     let mut harness = harness();
-    explorer(&mut harness).say("first".to_owned());
-    explorer(&mut harness).say("second".to_owned());
-    assert_eq!(explorer(&mut harness).notices.text().as_deref(), Some("first\nsecond"));
+    explorer(&mut harness).toasts.error("first".to_owned());
+    explorer(&mut harness).toasts.error("second".to_owned());
+    assert_eq!(explorer(&mut harness).toasts.text().as_deref(), Some("first\nsecond"));
 }
 
 #[test]
@@ -118,17 +122,18 @@ fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
     let mut harness = harness();
     explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.settings.log_brdf);
+    assert!(explorer(&mut harness).work.settings().log_brdf);
 }
 
 #[test]
 fn settings_survive_a_restart() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("new").join("settings.json");
-    let settings = Settings { parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() }, log_brdf: true, ..Settings::default() };
+    let surface = Surface { parameters: Parameters { n: 0.3, q: 41.5, ..Parameters::default() }, ..Surface::default() };
+    let settings = SavedSettings { settings: Settings { log_brdf: true, ..Settings::default() }, surface };
     let mut window = WindowSettings { theme: Theme::Dark, ..WindowSettings::default() };
     window.remember(&path);
-    let settings = SettingsFile { settings, window };
+    let settings = SettingsFile { settings, layout: Layout::PaneId(PaneId::Dolp), window };
     settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(settings_file::load_from(&path), (settings, None));
 }
@@ -137,7 +142,8 @@ fn settings_survive_a_restart() {
 fn sliders_that_are_no_surface_survive_a_restart_too() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("settings.json");
-    let settings = Settings { parameters: Parameters { n: 0.0, k: 0.0, ..Parameters::default() }, ..Settings::default() };
+    let surface = Surface { parameters: Parameters { n: 0.0, k: 0.0, ..Parameters::default() }, ..Surface::default() };
+    let settings = SavedSettings { surface, ..SavedSettings::default() };
     let settings = SettingsFile { settings, ..SettingsFile::default() };
     settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(settings_file::load_from(&path), (settings, None));
@@ -168,7 +174,9 @@ fn damaged_settings_are_set_aside() {
 #[test]
 fn the_window_fits_its_contents_in_both_themes() {
     for theme in [Theme::Light, Theme::Dark] {
-        let mut harness = harness_with(Settings { log_brdf: true, show_backscatter: true, ..Settings::default() });
+        let settings = Settings { log_brdf: true, show_backscatter: true, ..Settings::default() };
+        let mut harness =
+            harness_of(SettingsFile { settings: SavedSettings { settings, ..SavedSettings::default() }, ..SettingsFile::default() });
         explorer(&mut harness).actions.push(Action::SetTheme(theme));
         harness.run();
         assert!(explorer(&mut harness).derived.fault().is_none());

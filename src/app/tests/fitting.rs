@@ -1,7 +1,8 @@
 //! Pressing Fit, and what follows.
 
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::fit::{Starts, Weights};
 use pbrdf::measurement::Quantity;
@@ -15,8 +16,8 @@ fn pressing_fit_moves_the_sliders_to_a_better_place() {
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
-    assert_eq!(explorer.work.settings.parameters, report.parameters);
+    let report = &explorer.work.shown_fit().expect("a fit").report;
+    assert_eq!(explorer.work.surface().parameters, report.parameters);
     assert_eq!(explorer.derived.delta_e(), report.objective);
     assert!(report.objective.expect("an objective") < 0.5 * before);
 }
@@ -27,30 +28,30 @@ fn back_and_use_as_sliders_go_to_and_fro() {
     harness.get_by_label("Fit").click();
     harness.step();
     wait(&mut harness);
-    let fitted = explorer(&mut harness).work.settings.parameters;
+    let fitted = explorer(&mut harness).work.surface().parameters;
     assert!(harness.get_by_label("Use as sliders").accesskit_node().is_disabled(), "the sliders are the fit's");
     harness.get_by_label("Back to before the fit").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters, Parameters::default());
-    let model = explorer(&mut harness).work.settings.model;
-    explorer(&mut harness).work.settings.model.volume = false;
+    assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default());
+    let model = explorer(&mut harness).work.surface().model;
+    explorer(&mut harness).work.surface_mut().model.volume = false;
     harness.run();
     harness.get_by_label("Use as sliders").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters, fitted);
-    assert_eq!(explorer(&mut harness).work.settings.model, model, "the values belong to the model of the fit");
+    assert_eq!(explorer(&mut harness).work.surface().parameters, fitted);
+    assert_eq!(explorer(&mut harness).work.surface().model, model, "the values belong to the model of the fit");
 }
 
 #[test]
 fn a_start_outside_the_sliders_is_no_obstacle() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters.n = 14.0;
+    explorer(&mut harness).work.surface_mut().parameters.n = 14.0;
     harness.get_by_label("Fit").click();
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.notices.text(), None);
-    assert!(explorer.work.shown_fit.is_some());
+    assert_eq!(explorer.toasts.text(), None);
+    assert!(explorer.work.shown_fit().is_some());
 }
 
 #[test]
@@ -58,11 +59,11 @@ fn undo_and_redo_step_through_fits_and_drags() {
     let mut harness = harness();
     harness.get_by_role_and_label(egui::accesskit::Role::Slider, "k").set_value_accesskit(4.5);
     harness.run();
-    let moved = explorer(&mut harness).work.settings.parameters;
+    let moved = explorer(&mut harness).work.surface().parameters;
     harness.get_by_label("Fit").click();
     harness.step();
     wait(&mut harness);
-    let fitted = explorer(&mut harness).work.settings.parameters;
+    let fitted = explorer(&mut harness).work.surface().parameters;
     for (modifiers, expected) in [
         (egui::Modifiers::COMMAND, moved),
         (egui::Modifiers::COMMAND, Parameters::default()),
@@ -71,7 +72,7 @@ fn undo_and_redo_step_through_fits_and_drags() {
     ] {
         harness.key_press_modifiers(modifiers, egui::Key::Z);
         harness.run();
-        assert_eq!(explorer(&mut harness).work.settings.parameters, expected);
+        assert_eq!(explorer(&mut harness).work.surface().parameters, expected);
     }
 }
 
@@ -87,7 +88,7 @@ fn refitting_while_dragging_keeps_what_is_fixed_and_fits_the_rest() {
     harness.step();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.work.settings.parameters.n, 3.0);
+    assert_eq!(explorer.work.surface().parameters.n, 3.0);
     assert!(explorer.derived.delta_e().expect("the example has DoLP") < 2e-3);
 }
 
@@ -112,14 +113,14 @@ fn a_fit_of_the_measurement_before_does_not_reach_the_one_after() {
     }
     harness.step();
     // The new measurement arrives while both jobs are on their way.
-    let rows = (*explorer(&mut harness).work.document.measurement).clone();
-    explorer(&mut harness).take("another".to_owned(), rows);
+    let rows = (*explorer(&mut harness).work.active().measurement).clone();
+    take(explorer(&mut harness), "another".to_owned(), rows);
     wait(&mut harness);
     std::thread::sleep(std::time::Duration::from_millis(300));
     harness.run();
     let explorer = explorer(&mut harness);
-    assert!(explorer.work.shown_fit.is_none() && explorer.work.model_comparison.is_empty());
-    assert_eq!(explorer.work.settings.parameters, Parameters::default());
+    assert!(explorer.work.shown_fit().is_none() && explorer.work.model_comparison().is_empty());
+    assert_eq!(explorer.work.surface().parameters, Parameters::default());
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn comparing_models_lists_the_ladder() {
     harness.get_by_label("Compare models").click();
     harness.step();
     wait(&mut harness);
-    let models: Vec<&str> = explorer(&mut harness).work.model_comparison.iter().map(|rung| rung.preset.key).collect();
+    let models: Vec<&str> = explorer(&mut harness).work.model_comparison().iter().map(|rung| rung.preset.key).collect();
     assert_eq!(models.len(), pbrdf::model::PRESETS.len());
     // The pane with the results came to the front, with the names of the list of models.
     let name = "two components, Minnaert diffuse (Zhu)";
@@ -144,7 +145,7 @@ fn a_fixed_parameter_stays() {
     harness.get_by_label("Fit").click();
     harness.step();
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).work.settings.parameters.sigma, Parameters::default().sigma);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.sigma, Parameters::default().sigma);
 }
 
 #[test]
@@ -165,12 +166,12 @@ fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
     let [_, low, high] = *around[0].iter().find(|[x, ..]| *x == 40.0).expect("a direction at 40°");
     let error = 0.5 * (high - low);
     assert!((1e-4..5e-3).contains(&error), "{error}");
-    explorer(&mut harness).work.settings.show_band = false;
+    explorer(&mut harness).work.settings_mut().show_band = false;
     harness.run();
     assert!(bands(&mut harness).is_empty());
-    explorer(&mut harness).work.settings.show_band = true;
-    let rows = (*explorer(&mut harness).work.document.measurement).clone();
-    explorer(&mut harness).take("another".to_owned(), rows);
+    explorer(&mut harness).work.settings_mut().show_band = true;
+    let rows = (*explorer(&mut harness).work.active().measurement).clone();
+    take(explorer(&mut harness), "another".to_owned(), rows);
     harness.run();
     assert!(bands(&mut harness).is_empty());
 }
@@ -183,10 +184,10 @@ fn measured_lobes_have_a_band_of_their_own() {
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     for log in [false, true] {
-        explorer(&mut harness).work.settings.log_brdf = log;
+        explorer(&mut harness).work.settings_mut().log_brdf = log;
         harness.run();
         let explorer = explorer(&mut harness);
-        assert!(explorer.work.document.measurement.has_brdf());
+        assert!(explorer.work.active().measurement.has_brdf());
         let bands = explorer.views.get::<crate::app::views::LobesView>().band.get().expect("the lobes are on screen");
         assert!(bands.iter().flatten().any(|[_, low, _]| low.is_finite()), "log {log}");
     }
@@ -195,11 +196,11 @@ fn measured_lobes_have_a_band_of_their_own() {
 #[test]
 fn fewer_values_than_free_parameters_are_said_before_and_after_a_fit() {
     let mut harness = harness();
-    let mut few = explorer(&mut harness).work.document.measurement.as_ref().clone();
+    let mut few = explorer(&mut harness).work.active().measurement.as_ref().clone();
     assert!(harness.query_by_label_contains("measured values cannot determine").is_none());
     few.rows.truncate(3);
-    explorer(&mut harness).take("few.csv".to_owned(), few);
-    explorer(&mut harness).work.settings.starts = Starts::One;
+    take(explorer(&mut harness), "few.csv".to_owned(), few);
+    explorer(&mut harness).work.settings_mut().starts = Starts::One;
     harness.run();
     let said = "3 measured values cannot determine 8 free parameters";
     assert_eq!(harness.query_all_by_label_contains(said).count(), 1);
@@ -208,8 +209,8 @@ fn fewer_values_than_free_parameters_are_said_before_and_after_a_fit() {
     wait(&mut harness);
     assert_eq!(harness.query_all_by_label_contains(said).count(), 2);
     // With all but three fixed it is no longer true of the next fit.
-    let settings = &mut explorer(&mut harness).work.settings;
-    settings.locked = [Parameter::N, Parameter::K, Parameter::Sigma].into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    explorer(&mut harness).work.surface_mut().locked =
+        [Parameter::N, Parameter::K, Parameter::Sigma].into_iter().fold(ParameterSet::ALL, ParameterSet::without);
     harness.run();
     assert_eq!(harness.query_all_by_label_contains(said).count(), 1);
 }
@@ -220,16 +221,16 @@ fn stated_standard_deviations_are_offered_as_weights() {
     let offer = "The file states standard deviations: use them as weights";
     harness.get_by_label(offer).click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.choices.weights, Weights::Sigma);
+    assert_eq!(explorer(&mut harness).work.settings().choices.weights, Weights::Sigma);
     harness.get_by_label(offer).click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.choices.weights, Weights::None);
-    let mut bare = explorer(&mut harness).work.document.measurement.as_ref().clone();
+    assert_eq!(explorer(&mut harness).work.settings().choices.weights, Weights::None);
+    let mut bare = explorer(&mut harness).work.active().measurement.as_ref().clone();
     bare.rows[4].dolp = bare.rows[4].dolp.map(|quantity| Quantity { sigma: None, ..quantity });
-    explorer(&mut harness).take("bare.csv".to_owned(), bare);
+    take(explorer(&mut harness), "bare.csv".to_owned(), bare);
     harness.run();
     assert!(harness.query_by_label(offer).is_none(), "one value has none");
-    explorer(&mut harness).actions.push(Action::Mask { rows: vec![4], masked: true });
+    explorer(&mut harness).work.apply(Edit::Mask { rows: vec![4], masked: true });
     harness.run();
     assert!(harness.query_by_label(offer).is_some(), "and is masked now");
 }
@@ -250,10 +251,10 @@ fn the_last_fit_stays_in_view_where_the_sliders_or_the_model_have_left_it() {
     let high = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| {
         explorer(harness).views.get::<crate::app::views::DolpView>().range().expect("an axis").high
     };
-    explorer(&mut harness).work.settings.show_limit = false;
+    explorer(&mut harness).work.settings_mut().show_limit = false;
     wait(&mut harness);
     let fitted = high(&mut harness);
-    explorer(&mut harness).work.settings.parameters.kd = 10.0;
+    explorer(&mut harness).work.surface_mut().parameters.kd = 10.0;
     wait(&mut harness);
     assert!(high(&mut harness) >= fitted);
 }

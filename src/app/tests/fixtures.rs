@@ -9,6 +9,7 @@ use crate::app::tests::{explorer, harness, wait};
 use crate::app::views::action::Action;
 use crate::app::work::layout::Layout;
 use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
 use pbrdf::fit::{Loss, Starts};
 use pbrdf::model::{DolpFormula, Parameter, Parameters, Preset};
 use serde_json::{Value, json};
@@ -79,9 +80,9 @@ fn settings_are_read() {
         let (read, notice) = settings_file::load_from(&folder().join(format!("{name}.settings.json")));
         assert_eq!(notice, None, "{name}");
         let mut panes = Vec::new();
-        panes_of(&read.window.layout, &mut panes);
+        panes_of(&read.layout, &mut panes);
         let actual = json!({
-            "settings": settings_view(&read.settings),
+            "settings": settings_view(&read.settings.settings, &read.settings.surface),
             "theme": read.window.theme,
             "language": read.window.language,
             "size": read.window.size,
@@ -129,20 +130,20 @@ fn formula(formula: DolpFormula) -> &'static str {
 }
 
 /// What the settings hold, under names of this test.
-fn settings_view(settings: &Settings) -> Value {
-    let locked: Vec<Parameter> = settings.locked.iter().collect();
+fn settings_view(settings: &Settings, surface: &Surface) -> Value {
+    let locked: Vec<Parameter> = surface.locked.iter().collect();
     json!({
-        "parameters": values(&settings.parameters),
-        "preset": Preset::of(settings.model).map(|preset| preset.key),
-        "model_parameters": keys(&settings.model.parameters().iter().collect::<Vec<_>>()),
+        "parameters": values(&surface.parameters),
+        "preset": Preset::of(surface.model).map(|preset| preset.key),
+        "model_parameters": keys(&surface.model.parameters().iter().collect::<Vec<_>>()),
         "locked": keys(&locked),
-        "bounds": settings.bounds.iter().map(|(p, low, high)| json!([p.key(), low, high])).collect::<Vec<_>>(),
+        "bounds": surface.bounds.iter().map(|(p, low, high)| json!([p.key(), low, high])).collect::<Vec<_>>(),
         "show_bounds": settings.show_bounds,
         "weights": settings.choices.weights,
         "brdf_residuals": settings.choices.brdf_residuals,
         "loss": loss(settings.choices.loss),
         "loss_scale": settings.choices.loss_scale,
-        "dolp_formula": formula(settings.model.dolp_formula),
+        "dolp_formula": formula(surface.model.dolp_formula),
         "dolp_only": settings.choices.dolp_only,
         "starts": match settings.starts { Starts::One => json!("one"), Starts::Automatic => json!("automatic"), Starts::Exactly(n) => json!(n) },
         "seed": settings.seed,
@@ -175,12 +176,12 @@ fn settings_view(settings: &Settings) -> Value {
 fn view(window: &App) -> Value {
     let work = &window.work;
     let mut panes = Vec::new();
-    if let Some(layout) = window.panes.layout() {
+    if let Some(layout) = window.dock.layout() {
         panes_of(&layout, &mut panes);
     }
-    let on_screen: Vec<&str> = window.panes.on_screen().iter().map(|pane| pane.key()).collect();
-    let rows = &work.document.measurement.rows;
-    let fits: Vec<Value> = work.fit_history.iter().map(|fit| {
+    let on_screen: Vec<&str> = window.dock.on_screen().iter().map(|pane| pane.key()).collect();
+    let rows = &work.active().measurement.rows;
+    let fits: Vec<Value> = work.fit_history().iter().map(|fit| {
         let report = &fit.report;
         json!({
             "delta_e": report.objective,
@@ -206,19 +207,19 @@ fn view(window: &App) -> Value {
         })
     }).collect();
     json!({
-        "name": work.document.name,
-        "sha256": work.document.sha256,
+        "name": work.active().name,
+        "sha256": work.active().sha256,
         "rows": rows.len(),
         "dolp_values": rows.iter().filter(|row| row.dolp.is_some()).count(),
         "brdf_values": rows.iter().filter(|row| row.brdf.is_some()).count(),
-        "masked": work.document.mask().to_vec(),
-        "metadata_keys": work.document.measurement.metadata.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>(),
+        "masked": work.active().mask().to_vec(),
+        "metadata_keys": work.active().measurement.metadata.iter().map(|(key, _)| key.clone()).collect::<Vec<_>>(),
         "panes": panes,
         "on_screen": on_screen,
-        "settings": settings_view(&work.settings),
+        "settings": settings_view(work.settings(), work.surface()),
         "fits": fits,
-        "shown_fit": work.shown_fit.as_ref().and_then(|shown| work.fit_history.iter().position(|fit| Arc::ptr_eq(fit, shown))),
-        "lesson_open": window.lessons.open.is_some(),
-        "notice": window.notices.text(),
+        "shown_fit": work.shown_fit().and_then(|shown| work.fit_history().iter().position(|fit| Arc::ptr_eq(fit, shown))),
+        "lesson_open": window.lessons.open().is_some(),
+        "notice": window.toasts.text(),
     })
 }

@@ -12,20 +12,24 @@
 mod damage;
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::session::session_read;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::Lessons;
 use crate::app::storage::import;
 use crate::app::storage::import::Loaded;
-use crate::app::storage::session::{SavedMeasurement, Session};
+use crate::app::storage::saved_fit::SavedMeasurement;
+use crate::app::storage::session::Session;
 use crate::app::storage::session_file::OpenedSession;
 use crate::app::storage::settings_file;
-use crate::app::tests::{explorer, wait};
+use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
+use crate::app::tests::{explorer, take, wait};
 use crate::app::views::action::Action;
 use crate::app::work::layout::Layout;
 use crate::app::work::lesson::Lesson;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
-use crate::app::work::settings::{Settings, SettingsFile, Theme, WindowSettings, can_be_set};
+use crate::app::work::settings::{Settings, Theme, WindowSettings};
+use crate::app::work::surface::{Surface, can_be_set};
 use damage::{fuzz, texts};
 use egui_kittest::Harness;
 use pbrdf::measurement::Measurement;
@@ -51,10 +55,10 @@ fn harness() -> Harness<'static, Option<App>> {
 fn small() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     let table = read_table(TABLE.as_bytes()).expect("a table");
-    explorer(&mut harness).take("small.csv".to_owned(), table);
+    take(explorer(&mut harness), "small.csv".to_owned(), table);
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.shown_fit.is_some());
+    assert!(explorer(&mut harness).work.shown_fit().is_some());
     harness
 }
 
@@ -68,8 +72,8 @@ fn text(session: &Session) -> Vec<u8> {
 fn session() -> Session {
     let mut harness = small();
     let explorer = explorer(&mut harness);
-    explorer.work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
-    explorer.session()
+    explorer.work.surface_mut().set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    Session::of(&explorer.work)
 }
 
 fn opened(bytes: &[u8]) -> Option<OpenedSession> {
@@ -101,7 +105,7 @@ fn sessions_in_every_view() {
     let mut harness = harness();
     fuzz("session-in-views", &samples, |bytes| {
         let Some(opened) = opened(bytes) else { return false };
-        explorer(&mut harness).session_read(Path::new("some.pbrdf.json"), Ok(Box::new(opened)));
+        session_read(explorer(&mut harness), Path::new("some.pbrdf.json"), Ok(Box::new(opened)));
         wait(&mut harness);
         true
     });
@@ -110,8 +114,12 @@ fn sessions_in_every_view() {
 #[test]
 fn settings() {
     let other = SettingsFile {
-        settings: Settings { log_brdf: true, show_bounds: true, bounds: vec![(Parameter::K, 0.0, 5.0)], ..Settings::default() },
-        window: WindowSettings { theme: Theme::Dark, layout: Layout::PaneId(PaneId::ALL[1]), ..WindowSettings::default() },
+        settings: SavedSettings {
+            settings: Settings { log_brdf: true, show_bounds: true, ..Settings::default() },
+            surface: Surface { bounds: vec![(Parameter::K, 0.0, 5.0)], ..Surface::default() },
+        },
+        layout: Layout::PaneId(PaneId::ALL[1]),
+        window: WindowSettings { theme: Theme::Dark, ..WindowSettings::default() },
     };
     let samples = [SettingsFile::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));
     let folder = tempfile::tempdir().expect("a folder for temporary files");
@@ -127,8 +135,10 @@ fn settings() {
         settings_file::save(&copy, &stored).expect("a writable folder for temporary files");
         assert_eq!(settings_file::load_from(&copy), (stored.clone(), None));
         let explorer = explorer(&mut harness);
-        explorer.panes = Dock::new(&stored.window.layout);
-        (explorer.work.settings, explorer.window) = (stored.settings, stored.window);
+        explorer.dock = Dock::new(&stored.layout);
+        *explorer.work.settings_mut() = stored.settings.settings;
+        *explorer.work.surface_mut() = stored.settings.surface;
+        explorer.window = stored.window;
         wait(&mut harness);
         true
     });
@@ -141,7 +151,7 @@ fn tables_in_the_window() {
         [TABLE, "theta_i;theta_r;dphi;dolp_percent\n30,5;20;90;12,5\n40;20;90;0\n", "theta_i,theta_r,brdf\n30,20,1\n30,30,1e-9\n"];
     fuzz("table-in-the-window", &texts(&samples), |bytes| {
         let Some(measurement) = read_table(bytes) else { return false };
-        explorer(&mut harness).take("damaged.csv".to_owned(), measurement);
+        take(explorer(&mut harness), "damaged.csv".to_owned(), measurement);
         wait(&mut harness);
         true
     });
@@ -195,7 +205,7 @@ fn lessons_in_the_window() {
     fuzz("lesson-in-the-window", &samples, |bytes| {
         let Ok(lesson) = Lesson::from_text(&String::from_utf8_lossy(bytes)) else { return false };
         let steps = lesson.steps.len();
-        explorer(&mut harness).lessons = Lessons { all: vec![lesson], open: None };
+        explorer(&mut harness).lessons = Lessons { all: vec![lesson], session: None };
         for step in 0..steps {
             explorer(&mut harness).actions.push(Action::ShowStep(0, step));
             wait(&mut harness);

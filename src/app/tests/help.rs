@@ -20,29 +20,29 @@ fn the_menu_and_the_palette_show_each_page_and_escape_leaves_it() {
         harness.run();
         harness.get_by_label_contains(name).click();
         harness.run();
-        assert_eq!(explorer(&mut harness).help, Some(page));
+        assert_eq!(explorer(&mut harness).dialogs.help, Some(page));
         harness.get_by_label_contains(part);
         harness.key_press(Key::Escape);
         harness.run();
-        assert_eq!(explorer(&mut harness).help, None, "{name}");
+        assert_eq!(explorer(&mut harness).dialogs.help, None, "{name}");
         harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
         harness.run();
         harness.get_by_label("Find a command").type_text(name.trim_end_matches('…'));
         harness.run();
         harness.key_press(Key::Enter);
         harness.run();
-        assert_eq!(explorer(&mut harness).help, Some(page));
+        assert_eq!(explorer(&mut harness).dialogs.help, Some(page));
         // Its button has the focus.
         harness.key_press(Key::Enter);
         harness.run();
-        assert_eq!(explorer(&mut harness).help, None, "{name}");
+        assert_eq!(explorer(&mut harness).dialogs.help, None, "{name}");
     }
 }
 
 #[test]
 fn about_names_version_licence_paper_and_where_things_are_kept() {
     let mut harness = harness();
-    explorer(&mut harness).settings_file = Some("/somewhere/settings.json".into());
+    explorer(&mut harness).persistence.settings_path = Some("/somewhere/settings.json".into());
     explorer(&mut harness).actions.push(Action::ShowHelp(Help::About));
     harness.run();
     let version = format!("version {}", env!("CARGO_PKG_VERSION"));
@@ -50,7 +50,7 @@ fn about_names_version_licence_paper_and_where_things_are_kept() {
         harness.get_by_label_contains(part);
     }
     // Nothing is written there by this test.
-    explorer(&mut harness).settings_file = None;
+    explorer(&mut harness).persistence.settings_path = None;
 }
 
 #[test]

@@ -51,13 +51,13 @@ fn the_pointer_reads_what_the_model_gives_there() {
         // A tab may have the same name; it comes first.
         harness.query_all_by_role_and_label(Role::Button, button).last().expect("a choice").click();
         harness.run();
-        assert_eq!(explorer(&mut harness).work.settings.shown.hemisphere, quantity);
+        assert_eq!(explorer(&mut harness).work.settings().shown.hemisphere, quantity);
         let mut read = 0;
         for (right, down) in [(-60.0, -20.0), (-30.0, 40.0), (10.0, -50.0), (-80.0, 5.0)] {
             let Some(line) = reading(&mut harness, rect.center() + egui::vec2(right, down)) else { continue };
             let [theta_r, dphi, value] = numbers(&line);
-            let settings = &explorer(&mut harness).work.settings;
-            let surface = Pbrdf::new(settings.model, settings.parameters).expect("the defaults");
+            let (settings, surface) = explorer(&mut harness).work.values();
+            let surface = Pbrdf::new(surface.model, surface.parameters).expect("the defaults");
             let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("inside the disc");
             let reflection = surface.reflection(&Facet::new(geometry));
             let expected = match quantity {
@@ -81,7 +81,7 @@ fn the_pointer_reads_what_the_model_gives_there() {
 /// What happens before a frame, without the frame.
 fn logic(harness: &mut Harness<'static, Option<App>>) {
     let ctx = harness.ctx.clone();
-    explorer(harness).logic(&ctx);
+    crate::app::shell::app::logic::logic(explorer(harness), &ctx);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn no_map_is_made_behind_another_tab_and_none_of_values_that_are_no_surface() {
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().is_none(), "not on screen");
     let mut harness = shown();
-    explorer(&mut harness).work.settings.parameters.sigma = f64::NAN;
+    explorer(&mut harness).work.surface_mut().parameters.sigma = f64::NAN;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::HemisphereView>().key().is_none());
     assert_eq!(reading(&mut harness, egui::pos2(600.0, 250.0)), None);
@@ -121,9 +121,9 @@ fn no_map_is_made_behind_another_tab_and_none_of_values_that_are_no_surface() {
 #[test]
 fn directions_measured_at_the_sliders_angle_are_marked() {
     let mut harness = shown();
-    let count = explorer(&mut harness).work.document.series[0].rows.len();
+    let count = explorer(&mut harness).work.active().series[0].rows.len();
     harness.get_by_label(&format!("measured: {count}"));
-    explorer(&mut harness).work.settings.theta_i = 13.7;
+    explorer(&mut harness).work.settings_mut().theta_i = 13.7;
     wait(&mut harness);
     harness.get_by_label("not measured at this θi");
 }

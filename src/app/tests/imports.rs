@@ -1,6 +1,7 @@
 //! Foreign files: each asks its questions, shows the first rows of its measurement, and leaves the open measurement where it fails.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::open::begin;
 use crate::app::storage::import::bytes_of;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::views::action::Action;
@@ -34,7 +35,7 @@ fn press(harness: &mut Harness<'static, Option<App>>, button: &str) {
 /// Name and number of rows of what is open, and whether a question is.
 fn state(harness: &mut Harness<'static, Option<App>>) -> (String, usize, bool) {
     let explorer = explorer(harness);
-    (explorer.work.document.name.clone(), explorer.work.document.measurement.rows.len(), explorer.import.is_some())
+    (explorer.work.active().name.clone(), explorer.work.active().measurement.rows.len(), explorer.dialogs.import.is_some())
 }
 
 const ELLIPSOMETRY: &str = "sample\nVASEmethod[x]\nnm\n600\t55\t43\t150\t0.01\t0.02\n600\t65\t42\t140\n650\t55\t43.5\t151\n650\t65\t42.5\t141\ndpolE\t650\t55\t1.5\n";
@@ -43,20 +44,20 @@ const ELLIPSOMETRY: &str = "sample\nVASEmethod[x]\nnm\n600\t55\t43\t150\t0.01\t0
 fn ellipsometry_asks_for_a_wavelength_and_becomes_specular_dolp() {
     let (mut harness, _folder) = opened("al.dat", ELLIPSOMETRY.as_bytes());
     assert_eq!(state(&mut harness), (OWN.to_owned(), 27, true));
-    let import = explorer(&mut harness).import.as_mut().expect("a question");
+    let import = explorer(&mut harness).dialogs.import.as_mut().expect("a question");
     assert_eq!(import.options.wavelength_nm, Some(650.0));
     import.options.wavelength_nm = Some(600.0);
     harness.run();
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("al.dat".to_owned(), 2, false));
     let explorer = explorer(&mut harness);
-    let row = explorer.work.document.measurement.rows[0];
+    let row = explorer.work.active().measurement.rows[0];
     let expected = 86.0_f64.to_radians();
     assert!((row.dolp.expect("a DoLP").value - libm::cos(expected)).abs() < 1e-12);
-    assert_eq!(explorer.work.document.measurement.metadata("imported_from"), Some("al.dat"));
-    assert_eq!(explorer.work.document.wavelength_nm(), Some(600.0));
-    assert!(explorer.work.document.sha256.is_some() && explorer.window.recent[0].ends_with("al.dat"));
-    assert!(explorer.notices.text().is_some_and(|notice| notice.contains("not applied to DoLP")));
+    assert_eq!(explorer.work.active().measurement.metadata("imported_from"), Some("al.dat"));
+    assert_eq!(explorer.work.active().wavelength_nm(), Some(600.0));
+    assert!(explorer.work.active().sha256.is_some() && explorer.window.recent[0].ends_with("al.dat"));
+    assert!(explorer.toasts.text().is_some_and(|notice| notice.contains("not applied to DoLP")));
 }
 
 #[test]
@@ -76,7 +77,7 @@ pub(crate) fn tensor() -> Vec<u8> {
 #[test]
 fn a_tensor_asks_for_its_slices() {
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
-    let import = explorer(&mut harness).import.as_mut().expect("a question");
+    let import = explorer(&mut harness).dialogs.import.as_mut().expect("a question");
     let slices = &mut import.slices;
     (slices.theta_i.from, slices.theta_i.to) = (30.0, 45.0);
     (slices.theta_r.from, slices.theta_r.to, slices.theta_r.step) = (-10.0, 20.0, 10.0);
@@ -84,13 +85,13 @@ fn a_tensor_asks_for_its_slices() {
     import.options.dphi = Some(90.0);
     harness.run();
     // Out of the plane of incidence there is no backscatter side.
-    let import = explorer(&mut harness).import.as_mut().expect("a question");
+    let import = explorer(&mut harness).dialogs.import.as_mut().expect("a question");
     assert_eq!(import.slices.theta_r.from, 0.0);
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("mine.pbsdf".to_owned(), 6, false));
     let explorer = explorer(&mut harness);
-    assert!(explorer.work.document.measurement.has_brdf() && explorer.work.document.measurement.has_dolp());
-    assert!(explorer.work.document.measurement.rows.iter().all(|row| row.geometry.dphi().0 == 90.0));
+    assert!(explorer.work.active().measurement.has_brdf() && explorer.work.active().measurement.has_dolp());
+    assert!(explorer.work.active().measurement.rows.iter().all(|row| row.geometry.dphi().0 == 90.0));
 }
 
 const TABLE: &str = "Sample;AOI [deg];View (rad);DoLP %;note\nsteel;30;0,5;12,5;a\nsteel;30;0,6;13;b\n";
@@ -102,10 +103,10 @@ fn a_foreign_table_is_guessed_shown_and_opened() {
     harness.get_by_label("The first of 2 rows as they will be:");
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("theirs.csv".to_owned(), 2, false));
-    let row = explorer(&mut harness).work.document.measurement.rows[0];
+    let row = explorer(&mut harness).work.active().measurement.rows[0];
     let (theta_r, dolp) = (row.geometry.theta_r().0, row.dolp.expect("a DoLP").value);
     assert!((theta_r - 0.5_f64.to_degrees()).abs() < 1e-12 && (dolp - 0.125).abs() < 1e-15);
-    assert!(explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("Sample, note")));
+    assert!(explorer(&mut harness).toasts.text().is_some_and(|notice| notice.contains("Sample, note")));
 }
 
 #[test]
@@ -133,7 +134,7 @@ fn columns_without_a_guess_are_named_by_hand() {
 }
 
 fn mapping(harness: &mut Harness<'static, Option<App>>) -> Mapping {
-    explorer(harness).import.as_ref().expect("a question").options.columns.clone()
+    explorer(harness).dialogs.import.as_ref().expect("a question").options.columns.clone()
 }
 
 #[test]
@@ -145,12 +146,12 @@ fn a_table_at_a_single_angle_of_incidence_is_opened_with_a_constant() {
     assert_eq!(mapping(&mut harness).theta_i, Some(45.0));
     press(&mut harness, "Open");
     assert_eq!(state(&mut harness), ("single.csv".to_owned(), 2, false));
-    assert_eq!(explorer(&mut harness).work.document.measurement.incidence_angles(), [45.0]);
+    assert_eq!(explorer(&mut harness).work.active().measurement.incidence_angles(), [45.0]);
     // Stated beside the numbers, it is offered.
     let (mut harness, _folder) = opened("stated.csv", b"# angle of incidence: 30 deg\n# by JL\nview,dolp,sd\n20,0.1,0.01\n");
     assert_eq!((mapping(&mut harness).theta_i, mapping(&mut harness).to_string().as_str()), (Some(30.0), "theta_r=1,dolp=2,dolp_sigma=3"));
     press(&mut harness, "Open");
-    let measurement = &explorer(&mut harness).work.document.measurement;
+    let measurement = &explorer(&mut harness).work.active().measurement;
     assert_eq!((measurement.incidence_angles(), measurement.metadata("comment")), (vec![30.0], Some("by JL")));
     assert_eq!(measurement.rows[0].dolp.and_then(|dolp| dolp.sigma), Some(0.01));
 }
@@ -189,14 +190,14 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
         "theta_i=1,theta_r=2:radians,dolp=3:percent",
         "theta_i=1,theta_r=2,dolp=3:percent,brdf=4",
     ] {
-        explorer(&mut harness).import.as_mut().expect("a question").options.columns = Mapping::from_text(text).expect("a mapping");
+        explorer(&mut harness).dialogs.import.as_mut().expect("a question").options.columns = Mapping::from_text(text).expect("a mapping");
         harness.run();
         assert_eq!(area(&harness), before, "{text}");
     }
     assert!(harness.query_by_label_contains("as they will be").is_some());
     let (mut harness, _folder) = opened("mine.pbsdf", &tensor());
     let before = area(&harness);
-    let import = explorer(&mut harness).import.as_mut().expect("a question");
+    let import = explorer(&mut harness).dialogs.import.as_mut().expect("a question");
     (import.slices.theta_i.from, import.slices.theta_i.to, import.options.dphi) = (30.0, 30.0, Some(90.0));
     harness.run();
     assert_eq!(area(&harness), before);
@@ -238,7 +239,7 @@ fn damaged_files_are_refused_with_a_sentence() {
     ] {
         let (mut harness, _folder) = opened(name, contents);
         assert_eq!(state(&mut harness), (OWN.to_owned(), 27, false), "{name}");
-        let notice = explorer(&mut harness).notices.text().expect("a notice");
+        let notice = explorer(&mut harness).toasts.text().expect("a notice");
         assert!(notice.contains(part) && notice.contains(name), "{notice}");
     }
 }
@@ -263,9 +264,9 @@ fn the_command_line_opens_foreign_files_too() {
     let path: PathBuf = folder.path().join("al.dat");
     std::fs::write(&path, ELLIPSOMETRY).expect("a writable folder for temporary files");
     let mut harness = harness();
-    explorer(&mut harness).begin(Some(path));
+    begin(explorer(&mut harness), Some(path));
     wait(&mut harness);
-    assert!(explorer(&mut harness).import.is_some());
+    assert!(explorer(&mut harness).dialogs.import.is_some());
 }
 
 #[test]
@@ -280,6 +281,6 @@ fn enter_opens_a_table_whose_columns_are_guessed() {
     harness.key_press(egui::Key::Enter);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert!(explorer.import.is_none());
-    assert_eq!(explorer.work.document.measurement.rows.len(), 3);
+    assert!(explorer.dialogs.import.is_none());
+    assert_eq!(explorer.work.active().measurement.rows.len(), 3);
 }

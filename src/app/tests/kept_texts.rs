@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::languages::written;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
@@ -30,7 +30,7 @@ fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
 #[test]
 fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.starts = Starts::One;
+    explorer(&mut harness).work.settings_mut().starts = Starts::One;
     order(&mut harness, Action::StartFit);
     explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     harness.run_steps(4);
@@ -47,8 +47,8 @@ fn what_a_pointer_reads_on_the_landscape() {
 #[test]
 fn why_nothing_is_predicted() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(PaneId::Planner);
-    explorer(&mut harness).work.settings.plan.theta_r.clear();
+    explorer(&mut harness).dock.show(PaneId::Planner);
+    explorer(&mut harness).work.settings_mut().plan.theta_r.clear();
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
 }
@@ -62,7 +62,7 @@ fn what_is_not_drawn() {
         masked: false,
     });
     let mut harness = harness();
-    explorer(&mut harness).take("many".to_owned(), Measurement { rows: rows.collect(), ..Measurement::default() });
+    take(explorer(&mut harness), "many".to_owned(), Measurement { rows: rows.collect(), ..Measurement::default() });
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "angles of incidence are drawn"), [true, false]);
 }

@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -25,11 +26,11 @@ fn it_follows_every_slider_but_its_own_two() {
     harness.get_by_label(HINT);
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned().expect("a landscape");
     assert_eq!((before.across.count, before.up.count), (256, 256));
-    explorer(&mut harness).work.settings.parameters.n = 1.3;
-    explorer(&mut harness).work.settings.parameters.k = f64::NAN;
+    explorer(&mut harness).work.surface_mut().parameters.n = 1.3;
+    explorer(&mut harness).work.surface_mut().parameters.k = f64::NAN;
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key(), Some(&before), "n and k are its axes");
-    explorer(&mut harness).work.settings.parameters.sigma = 0.2;
+    explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
     wait(&mut harness);
     assert_ne!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key(), Some(&before));
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
@@ -60,7 +61,7 @@ fn nothing_is_computed_off_screen() {
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
     explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
     wait(&mut harness);
-    explorer(&mut harness).work.settings.parameters.sigma = 0.2;
+    explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned(), before);
 }
@@ -72,7 +73,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
         explorer(&mut harness).actions.push(Action::TogglePane(pane));
         wait(&mut harness);
         let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
-        explorer(&mut harness).work.settings.parameters.sigma = 0.2;
+        explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
         harness.step();
         let running = |harness: &mut Harness<'static, Option<App>>| {
             let views = &explorer(harness).views;
@@ -96,7 +97,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
 #[test]
 fn a_click_sets_both_sliders_in_one_step_of_undo() {
     let mut harness = shown();
-    let before = explorer(&mut harness).work.settings.parameters;
+    let before = explorer(&mut harness).work.surface().parameters;
     let at = harness.get_by_label(HINT).rect().left_top() + egui::vec2(250.0, -120.0);
     harness.hover_at(at);
     harness.run();
@@ -106,14 +107,14 @@ fn a_click_sets_both_sliders_in_one_step_of_undo() {
     wait(&mut harness);
     harness.hover_at(at);
     harness.run();
-    let after = explorer(&mut harness).work.settings.parameters;
+    let after = explorer(&mut harness).work.surface().parameters;
     assert!(after.n != before.n && after.k != before.k, "{after:?}");
     // What is read under the pointer is what the click has set.
     let reading = format!("n = {}, k = {}: ΔE = ", after.n, after.k);
     assert!(harness.query_by_label_contains(&reading).is_some(), "{reading}");
     explorer(&mut harness).actions.push(Action::Undo);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).work.settings.parameters, before);
+    assert_eq!(explorer(&mut harness).work.surface().parameters, before);
 }
 
 #[test]
@@ -130,14 +131,14 @@ fn ways_minima_and_metals_lie_on_it() {
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    let report = &explorer.work.shown_fit.as_ref().expect("a fit").report;
+    let report = &explorer.work.shown_fit().expect("a fit").report;
     let (steps, minima) = (report.course.path.len(), report.course.minima.len());
     let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
     assert_eq!((marks.ways.len(), marks.ways[0].len(), marks.minima.len()), (1, steps + 1, minima.min(24)));
     assert!(marks.text("way of the last fit", 0).expect("a text").contains("evaluation 1"));
     assert!(marks.text("minima", 0).expect("a text").contains("minimum 1"));
     // Metals have no place where the axes are others.
-    explorer.work.settings.landscape.up = Parameter::Kd;
+    explorer.work.settings_mut().landscape.up = Parameter::Kd;
     wait(&mut harness);
     assert_eq!(
         crate::app::tests::explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks").metals.len(),
@@ -149,20 +150,20 @@ fn ways_minima_and_metals_lie_on_it() {
 fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
     let mut harness = shown();
     for across in Parameter::ALL {
-        let landscape = &mut explorer(&mut harness).work.settings.landscape;
+        let landscape = &mut explorer(&mut harness).work.settings_mut().landscape;
         (landscape.across, landscape.up) = (across, if across == Parameter::Sigma { Parameter::Q } else { Parameter::Sigma });
         wait(&mut harness);
         assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there(), "{}", across.key());
     }
-    let landscape = &mut explorer(&mut harness).work.settings.landscape;
+    let landscape = &mut explorer(&mut harness).work.settings_mut().landscape;
     (landscape.across, landscape.up) = (Parameter::N, Parameter::N);
     wait(&mut harness);
     harness.get_by_label("Both axes are the same parameter: choose another one for one of them.");
-    explorer(&mut harness).work.settings.landscape.up = Parameter::K;
-    explorer(&mut harness).work.settings.choices.weights = Weights::Sigma;
+    explorer(&mut harness).work.settings_mut().landscape.up = Parameter::K;
+    explorer(&mut harness).work.settings_mut().choices.weights = Weights::Sigma;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
-    explorer(&mut harness).work.settings.choices.loss = pbrdf::fit::Loss::Huber;
+    explorer(&mut harness).work.settings_mut().choices.loss = pbrdf::fit::Loss::Huber;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
 }
@@ -170,8 +171,8 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
 #[test]
 fn masked_rows_have_no_landscape() {
     let mut harness = shown();
-    let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
-    explorer(&mut harness).actions.push(Action::Mask { rows, masked: true });
+    let rows = (0..explorer(&mut harness).work.active().measurement.rows.len()).collect();
+    explorer(&mut harness).work.apply(Edit::Mask { rows, masked: true });
     wait(&mut harness);
     assert!(!explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
     assert!(harness.query_by_label_contains("No landscape").is_some());

@@ -255,7 +255,7 @@ fn questions_and_refusals_are_in_chinese() {
 fn what_stays_open_is_said_in_the_language_of_the_window() {
     let mut harness = chinese();
     let free = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
-    explorer(&mut harness).work.settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    explorer(&mut harness).work.surface_mut().locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
     alone(&mut harness, PaneId::Planner);
     assert!(written(&harness).contains("• k_s, k_d, k_v 一起：只有它们的比值进入 DoLP"));
 }

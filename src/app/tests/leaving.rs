@@ -1,9 +1,8 @@
 //! Plots, curves, fits and reports as files and on the clipboard.
 
 use crate::app::shell::app::App;
-use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
-use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
+use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::views::action::Action;
 use crate::app::views::spec;
@@ -49,7 +48,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
 
 /// Brings a pane to the front.
 fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
-    if !explorer(harness).panes.is_on_screen(pane) {
+    if !explorer(harness).dock.is_on_screen(pane) {
         order(harness, Action::TogglePane(pane));
     }
     wait(harness);
@@ -113,7 +112,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
     let mut harness = harness();
     show(&mut harness, PaneId::Hemisphere);
     for quantity in [HemisphereQuantity::Dolp, HemisphereQuantity::Brdf] {
-        explorer(&mut harness).work.settings.shown.hemisphere = quantity;
+        explorer(&mut harness).work.settings_mut().shown.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         let exported = explorer.figure(PaneId::Hemisphere).expect("a map");
@@ -122,8 +121,8 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
         let middle = |edges: &[f64], i: usize| f64::midpoint(edges[i], edges[i + 1]);
         let (x, y) = (middle(&map.x_edges, column), middle(&map.y_edges, row));
         let (theta_r, dphi) = (libm::hypot(x, y), libm::atan2(-y, -x).to_degrees().rem_euclid(360.0));
-        let settings = &explorer.work.settings;
-        let surface = Pbrdf::new(settings.model, settings.parameters).expect("a surface");
+        let (settings, surface) = (explorer.work.settings(), explorer.work.surface());
+        let surface = Pbrdf::new(surface.model, surface.parameters).expect("a surface");
         let geometry = Geometry::new(settings.theta_i, theta_r, dphi).expect("a direction");
         let reflection = surface.reflection(&Facet::new(geometry));
         let expected = if quantity == HemisphereQuantity::Dolp { reflection.dolp } else { reflection.brdf };
@@ -142,7 +141,7 @@ fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
     let explorer = explorer(&mut harness);
     let exported = explorer.figure(PaneId::Landscape).expect("a map");
     let map = map_of(&exported);
-    let fit = explorer.work.shown_fit.as_ref().expect("a fit");
+    let fit = explorer.work.shown_fit().expect("a fit");
     let [n, k] = [fit.report.parameters.n, fit.report.parameters.k];
     let cell = |edges: &[f64], value: f64| edges.windows(2).position(|pair| (pair[0]..pair[1]).contains(&value)).expect("inside");
     let at = |n: f64, k: f64| map.values[cell(&map.y_edges, k) * (map.x_edges.len() - 1) + cell(&map.x_edges, n)];
@@ -158,7 +157,7 @@ fn an_exported_landscape_has_its_nodes_where_its_axes_say() {
 #[test]
 fn a_logarithmic_plot_is_exported_with_its_values() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.log_brdf = true;
+    explorer(&mut harness).work.settings_mut().log_brdf = true;
     harness.run();
     let explorer = explorer(&mut harness);
     let panel = &explorer.figure(PaneId::Lobes).expect("a plot").panels[0];
@@ -176,7 +175,7 @@ fn each_export_writes_its_file_and_says_so() {
     for subject in BenchmarkId::ALL {
         let stop = || true;
         let result = Box::new(subject.run(Host { clock: &|| 0.0, cancelled: &stop, progress: &|_| {} }));
-        benchmark_finished(explorer(&mut harness), FinishedBenchmark { result, is_part: true });
+        explorer(&mut harness).benchmarks.take(*result, true);
     }
     let mut exports =
         vec![(ExportKind::Curves, "c.csv"), (ExportKind::Fitted, "f.csv"), (ExportKind::Report, "r.html"), (ExportKind::Report, "r.md")];
@@ -187,7 +186,7 @@ fn each_export_writes_its_file_and_says_so() {
     for (what, name) in exports {
         let path = folder.path().join(name);
         order(&mut harness, Action::Export(what, path.clone()));
-        let notice = explorer(&mut harness).notices.take().expect("a sentence");
+        let notice = explorer(&mut harness).toasts.take().expect("a sentence");
         assert!(notice.contains("is saved to") && notice.contains(name), "{notice}");
         let bytes = std::fs::read(&path).expect("a file");
         match name.rsplit('.').next() {
@@ -213,7 +212,7 @@ fn a_typed_path_serves_where_there_is_no_dialog() {
     // A submenu opens under the pointer; a click would close it again.
     harness.get_by_label_contains("Export").hover();
     harness.run();
-    explorer(&mut harness).typed.export = path.display().to_string();
+    explorer(&mut harness).dialogs.path_entry.export = path.display().to_string();
     harness.run();
     harness.get_by_label_contains("Curves as CSV").click();
     wait(&mut harness);
@@ -226,9 +225,9 @@ fn a_name_of_another_kind_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
     order(&mut harness, Action::Export(ExportKind::Plot(PaneId::Dolp), folder.path().join("plot.pdf")));
-    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains(".svg or .png"));
+    assert!(explorer(&mut harness).toasts.take().expect("a sentence").contains(".svg or .png"));
     order(&mut harness, Action::Export(ExportKind::Report, folder.path().join("r.html")));
-    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("no fit yet"));
+    assert!(explorer(&mut harness).toasts.take().expect("a sentence").contains("no fit yet"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }
 
@@ -259,7 +258,7 @@ fn a_file_is_known_by_its_hash() {
     let text = "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n30,60,0.3\n";
     std::fs::write(&path, text).expect("a writable folder");
     let mut harness = harness();
-    assert_eq!(explorer(&mut harness).work.document.sha256, None);
+    assert_eq!(explorer(&mut harness).work.active().sha256, None);
     order(&mut harness, Action::OpenMeasurement(path));
-    assert_eq!(explorer(&mut harness).work.document.sha256, Some(crate::files::export::sha256(text.as_bytes())));
+    assert_eq!(explorer(&mut harness).work.active().sha256, Some(crate::files::export::sha256(text.as_bytes())));
 }

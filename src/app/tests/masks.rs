@@ -2,11 +2,11 @@
 
 use crate::app::plots::Range;
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::text::i18n::Language;
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::workspace::Workspace;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -23,7 +23,7 @@ fn table() -> Harness<'static, Option<App>> {
 }
 
 fn masked(harness: &mut Harness<'static, Option<App>>) -> Vec<usize> {
-    explorer(harness).work.document.mask().to_vec()
+    explorer(harness).work.active().mask().to_vec()
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn a_row_is_masked_in_the_table_and_counts_no_more() {
         26
     );
     assert_eq!(explorer.derived.marks.get().expect("marks").series.iter().map(|marks| marks.dolp.masked.len()).sum::<usize>(), 1);
-    assert!(explorer.work.document.description().contains("27 rows, 1 masked"));
+    assert!(explorer.work.active().description().contains("27 rows, 1 masked"));
 }
 
 #[test]
@@ -59,12 +59,12 @@ fn a_series_is_masked_as_a_whole_and_back() {
 #[test]
 fn masks_survive_fits_and_are_undone() {
     let mut harness = table();
-    explorer(&mut harness).actions.push(Action::Mask { rows: vec![0, 5, 7], masked: true });
+    explorer(&mut harness).work.apply(Edit::Mask { rows: vec![0, 5, 7], masked: true });
     harness.run();
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert_eq!(masked(&mut harness), [0, 5, 7]);
-    assert_eq!(explorer(&mut harness).work.shown_fit.as_ref().expect("a fit").problem.len(), 24);
+    assert_eq!(explorer(&mut harness).work.shown_fit().expect("a fit").problem.len(), 24);
     for expected in [vec![0, 5, 7], vec![]] {
         explorer(&mut harness).actions.push(Action::Undo);
         harness.run();
@@ -78,12 +78,12 @@ fn masks_survive_fits_and_are_undone() {
 #[test]
 fn a_measurement_with_everything_masked_is_no_disaster() {
     let mut harness = table();
-    explorer(&mut harness).actions.push(Action::Mask { rows: (0..27).collect(), masked: true });
+    explorer(&mut harness).work.apply(Edit::Mask { rows: (0..27).collect(), masked: true });
     harness.run();
     assert_eq!(explorer(&mut harness).derived.delta_e(), None);
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
-    let report = &explorer(&mut harness).work.shown_fit.as_ref().expect("an answer").report;
+    let report = &explorer(&mut harness).work.shown_fit().expect("an answer").report;
     assert_eq!(report.stop_reason, pbrdf::fit::StopReason::NoData);
 }
 
@@ -93,19 +93,20 @@ fn masks_are_saved_and_read_back() {
     let path = folder.path().join("masked.csv");
     std::fs::write(&path, "what was there before").expect("a writable folder");
     let mut harness = table();
-    explorer(&mut harness).actions.extend([Action::Mask { rows: vec![1, 26], masked: true }, Action::SaveMeasurement(path.clone())]);
+    explorer(&mut harness).work.apply(Edit::Mask { rows: vec![1, 26], masked: true });
+    explorer(&mut harness).actions.push(Action::SaveMeasurement(path.clone()));
     wait(&mut harness);
     let text = std::fs::read(&path).expect("a file");
     let read = pbrdf::measurement::Measurement::read(text.as_slice()).expect("a measurement");
     let explorer = explorer(&mut harness);
-    assert_eq!(read.rows, explorer.work.document.measurement.rows);
-    assert_eq!(read.metadata, explorer.work.document.measurement.metadata);
+    assert_eq!(read.rows, explorer.work.active().measurement.rows);
+    assert_eq!(read.metadata, explorer.work.active().measurement.metadata);
     assert_eq!(read.rows.iter().filter(|row| row.masked).count(), 2);
-    assert!(explorer.notices.text().is_some_and(|notice| notice.contains("saved")));
+    assert!(explorer.toasts.text().is_some_and(|notice| notice.contains("saved")));
 
     explorer.actions.push(Action::SaveMeasurement(folder.path().join("no such folder").join("x.csv")));
     wait(&mut harness);
-    assert!(self::explorer(&mut harness).notices.text().is_some_and(|notice| notice.contains("cannot be written")));
+    assert!(self::explorer(&mut harness).toasts.text().is_some_and(|notice| notice.contains("cannot be written")));
 }
 
 #[test]
@@ -118,8 +119,8 @@ fn a_million_rows_scroll_and_only_the_seen_ones_are_evaluated() {
     });
     let measurement = Measurement { rows: rows.collect(), ..Measurement::default() };
     let mut harness = table();
-    explorer(&mut harness).take("long".to_owned(), measurement);
-    assert!(explorer(&mut harness).panes.is_on_screen(PaneId::Data));
+    take(explorer(&mut harness), "long".to_owned(), measurement);
+    assert!(explorer(&mut harness).dock.is_on_screen(PaneId::Data));
     harness.run();
     harness.get_by_label("Mask row 1");
     let middle = harness.get_by_label("Mask row 4").rect().center();
@@ -181,9 +182,9 @@ fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
 /// Where that point of the lobes is on the screen.
 fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brdf: f64) -> egui::Pos2 {
     let rect = harness.get_by_label("Plot: BRDF against θr").rect();
-    let App { work: Workspace { settings, .. }, derived, views, .. } = explorer(harness);
+    let App { work, derived, views, .. } = explorer(harness);
     let (x, y) = (derived.curves.key().expect("curves").x(), views.get::<crate::app::views::LobesView>().range().expect("curves"));
-    let value = if settings.log_brdf { libm::log10(brdf) } else { brdf };
+    let value = if work.settings().log_brdf { libm::log10(brdf) } else { brdf };
     let share = |range: Range, value: f64| (value - range.low) / (range.high - range.low);
     #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
     let [across, up] = [share(x, theta_r), share(y, value)].map(|share| share as f32);
@@ -196,12 +197,12 @@ fn points_of_a_hidden_series_cannot_be_clicked() {
     // Its names are those of the lobes, too.
     explorer(&mut harness).actions.extend([Action::OpenExample(2), Action::ClosePane(PaneId::Dolp)]);
     wait(&mut harness);
-    let series = explorer(&mut harness).work.document.series[0].clone();
+    let series = explorer(&mut harness).work.active().series[0].clone();
     let mark = &series.brdf[series.brdf.len() / 2];
     let at = place_in_lobes(&mut harness, mark.theta_r, mark.quantity.value);
     let is_masked = |harness: &mut Harness<'static, Option<App>>| {
         let rows = masked(harness);
-        explorer(harness).actions.push(Action::Mask { rows: rows.clone(), masked: false });
+        explorer(harness).work.apply(Edit::Mask { rows: rows.clone(), masked: false });
         harness.run();
         rows.iter().any(|row| series.rows.contains(row))
     };
@@ -233,7 +234,7 @@ fn a_mask_changed_after_a_fit_is_told() {
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     assert!(harness.query_by_label("The mask has changed since this fit.").is_none());
-    explorer(&mut harness).actions.push(Action::Mask { rows: vec![4], masked: true });
+    explorer(&mut harness).work.apply(Edit::Mask { rows: vec![4], masked: true });
     harness.run();
     harness.get_by_label("The mask has changed since this fit.");
 }

@@ -38,5 +38,5 @@ fn a_click_on_the_title_of_a_menu_that_opened_under_the_pointer_leaves_it_open()
     click(&mut harness, "View");
     harness.get_by_label("Logarithmic lobes").click();
     harness.run();
-    assert!(explorer(&mut harness).work.settings.log_brdf && harness.query_by_label("Logarithmic lobes").is_none());
+    assert!(explorer(&mut harness).work.settings().log_brdf && harness.query_by_label("Logarithmic lobes").is_none());
 }

@@ -3,7 +3,8 @@
 use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::fit_record::FitRecordError;
-use crate::app::storage::session::{SavedFitError, Session};
+use crate::app::storage::session::Session;
+use crate::app::storage::session_error::SavedFitError;
 use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, wait};
@@ -12,11 +13,10 @@ use crate::app::text::i18n::{Language, MISSED, translated};
 use crate::app::text::localized::Localized;
 use crate::app::text::messages::{advised, short_method};
 use crate::app::views::action::Action;
-use crate::app::work::document::Document;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::layout::Layout;
 use crate::app::work::lesson::{Lesson, LessonError, LessonErrorKind};
-use crate::app::work::settings::SettingsError;
+use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::settings_error::SettingsError;
 use crate::figure::PngError;
 use crate::files::export::{expect_ending, picture_kind, report_kind};
 use crate::files::open_file::{OpenError, open_file};
@@ -33,7 +33,6 @@ use pbrdf::model::{Check, Domain, FINISHES, Finding, PRESETS, Parameter, Paramet
 use pbrdf::optics::{GeometryError, metals};
 use pbrdf::selftest::{BenchmarkMethod, Cost, Host, Machine, Stability, StabilityOutcome};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 fn chinese() {
@@ -467,15 +466,15 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
     for (example, model) in [(0, "hyde"), (1, "cauchy"), (1, "three-component")] {
         explorer(&mut harness).actions.push(Action::OpenExample(example));
         wait(&mut harness);
-        explorer(&mut harness).work.settings.model = Preset::from_key(model).expect("a model").model;
+        explorer(&mut harness).work.surface_mut().model = Preset::from_key(model).expect("a model").model;
         explorer(&mut harness).actions.push(Action::StartFit);
         wait(&mut harness);
         let path = folder.path().join("report.html");
         let mut left = Vec::new();
         // The second time it does not know how it came about, like one out of an old session.
         for _ in 0..2 {
-            ExportKind::Report.snapshot(&explorer(&mut harness).work, Layout::default(), None).expect("a report")(&path).expect("a file");
-            left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), &explorer(&mut harness).work.document));
+            ExportKind::Report.snapshot(&explorer(&mut harness).work, None).expect("a report")(&path).expect("a file");
+            left.extend(english_in(&std::fs::read_to_string(&path).expect("the file"), explorer(&mut harness).work.active()));
             without_account(explorer(&mut harness));
         }
         assert!(left.is_empty(), "{model}: {left:#?}");
@@ -484,17 +483,18 @@ fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
 
 /// The fit that is shown without an account of how it came about.
 fn without_account(explorer: &mut App) {
-    let fit = explorer.work.shown_fit.as_ref().expect("a fit");
+    let fit = explorer.work.shown_fit().expect("a fit");
     let mut report = fit.report.clone();
     report.course.minima.clear();
     let FitEntry { id, ref problem, before, ref document, ref sha256, ref data, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
     let (sha256, data) = (sha256.clone(), data.clone());
-    explorer.work.shown_fit = Some(Arc::new(FitEntry { id, report, problem, before, document, sha256, data, number, generation, mask }));
+    let fit = FitEntry { id, report, problem, before, document, sha256, data, number, generation, mask };
+    explorer.work.set_shown_fit(fit);
 }
 
 /// What is English in the report of a fit.
-fn english_in(html: &str, document: &Document) -> Vec<String> {
+fn english_in(html: &str, document: &OpenMeasurement) -> Vec<String> {
     assert!(html.contains("lang=\"zh-CN\"") && html.contains("数据未能确定的量"));
     // What stands in the data's file, its name, and literature stay as they are.
     let quoted = |text: &str| {

@@ -36,30 +36,31 @@ pub mod sources;
 mod typed;
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::logic::logic;
+use crate::app::shell::app::open::{begin, open};
+use crate::app::shell::app::ui::ui;
+use crate::app::storage::settings_file::SettingsFile;
 use crate::app::views::spec;
+use crate::app::work::edit::Edit;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui_kittest::Harness;
 use std::time::{Duration, Instant};
 
 /// The window with the first example open, as it starts.
 fn harness() -> Harness<'static, Option<App>> {
-    harness_with(Settings::default())
-}
-
-fn harness_with(settings: Settings) -> Harness<'static, Option<App>> {
-    harness_of(SettingsFile { settings, window: WindowSettings::default() })
+    harness_of(SettingsFile::default())
 }
 
 fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
-    let frame = move |ui: &mut egui::Ui, state: &mut Option<App>| {
+    let frame = move |screen: &mut egui::Ui, state: &mut Option<App>| {
         let explorer = state.get_or_insert_with(|| {
-            let mut explorer = App::new(ui.ctx(), stored.clone());
-            explorer.begin(None);
+            let mut explorer = App::new(screen.ctx(), stored.clone());
+            begin(&mut explorer, None);
             explorer
         });
-        explorer.logic(&ui.ctx().clone());
-        explorer.ui(ui);
+        logic(explorer, &screen.ctx().clone());
+        ui(explorer, screen);
     };
     let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(frame, None);
     harness.run();
@@ -73,6 +74,17 @@ fn plots() -> impl Iterator<Item = PaneId> {
 
 fn explorer<'a>(harness: &'a mut Harness<'static, Option<App>>) -> &'a mut App {
     harness.state_mut().as_mut().expect("the first frame makes the explorer")
+}
+
+/// Puts a measurement in the place of the open one.
+fn take(explorer: &mut App, name: String, measurement: pbrdf::measurement::Measurement) {
+    open(explorer, OpenMeasurement::new(name, measurement));
+}
+
+/// Makes a change, as a pane does.
+fn edit(harness: &mut Harness<'static, Option<App>>, edit: Edit) {
+    explorer(harness).work.apply(edit);
+    wait(harness);
 }
 
 /// Longer than any job of these tests takes on any machine.

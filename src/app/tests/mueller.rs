@@ -29,8 +29,8 @@ fn numbers(spoken: &str) -> Vec<f64> {
 }
 
 fn expected(explorer: &App, theta_r: f64, dphi: f64) -> Mueller {
-    let settings = &explorer.work.settings;
-    let surface = Pbrdf::new(settings.model, settings.parameters).expect("the defaults");
+    let (settings, surface) = (explorer.work.settings(), explorer.work.surface());
+    let surface = Pbrdf::new(surface.model, surface.parameters).expect("the defaults");
     surface.mueller(Geometry::new(settings.theta_i, theta_r, dphi).expect("angles"))
 }
 
@@ -48,7 +48,7 @@ fn assert_shows(harness: &mut Harness<'static, Option<App>>, theta_r: f64, dphi:
 #[test]
 fn the_table_holds_the_model_at_the_mirror_and_at_a_typed_angle() {
     let mut harness = shown();
-    let theta_i = explorer(&mut harness).work.settings.theta_i;
+    let theta_i = explorer(&mut harness).work.settings().theta_i;
     assert_shows(&mut harness, theta_i, 180.0);
     harness.get_by_role_and_label(Role::SpinButton, "θr").set_value_accesskit(62.5);
     harness.run();
@@ -62,13 +62,13 @@ fn it_follows_the_sliders_out_of_the_plane_of_incidence() {
     harness.run();
     let m20 = |harness: &Harness<'static, Option<App>>| numbers(&spoken(harness))[8];
     assert_eq!(m20(&harness), 0.0, "in the plane nothing is turned");
-    explorer(&mut harness).work.settings.dphi = 120.0;
-    explorer(&mut harness).work.settings.parameters.k = 6.0;
+    explorer(&mut harness).work.settings_mut().dphi = 120.0;
+    explorer(&mut harness).work.surface_mut().parameters.k = 6.0;
     harness.run();
     assert_shows(&mut harness, 50.0, 120.0);
     assert!(m20(&harness).abs() > 0.01);
     // The other side of that plane.
-    explorer(&mut harness).work.settings.show_backscatter = true;
+    explorer(&mut harness).work.settings_mut().show_backscatter = true;
     harness.run();
     harness.get_by_role_and_label(Role::SpinButton, "θr").set_value_accesskit(-20.0);
     harness.run();

@@ -18,18 +18,18 @@ fn plot(harness: &Window) -> Rect {
 }
 
 fn overlay(harness: &Window) -> Option<Rect> {
-    harness.ctx.memory(|memory| memory.area_rect(egui::Id::unique("notices")))
+    harness.ctx.memory(|memory| memory.area_rect(egui::Id::unique("toasts")))
 }
 
 #[test]
 fn sentences_do_not_move_the_plots_and_several_do_not_cover_them() {
     let mut harness = harness();
     let before = plot(&harness);
-    explorer(&mut harness).say("The first thing went wrong.".to_owned());
+    explorer(&mut harness).toasts.error("The first thing went wrong.".to_owned());
     harness.run();
     assert_eq!(plot(&harness), before);
     for number in 0..30 {
-        explorer(&mut harness).say(format!("{number}: {}.", "this went wrong too and takes more than a line to tell ".repeat(4)));
+        explorer(&mut harness).toasts.error(format!("{number}: {}.", "this went wrong too and takes more than a line to tell ".repeat(4)));
     }
     harness.run();
     assert_eq!(plot(&harness), before);
@@ -45,13 +45,13 @@ fn sentences_do_not_move_the_plots_and_several_do_not_cover_them() {
 #[test]
 fn what_is_left_sinks_to_the_place_of_what_went() {
     let mut harness = harness();
-    explorer(&mut harness).say("It failed.".to_owned());
+    explorer(&mut harness).toasts.error("It failed.".to_owned());
     harness.run();
     let place = |harness: &Window| harness.get_by_label("It failed.").rect();
     let alone = place(&harness);
-    explorer(&mut harness).notices.info("It is done.".to_owned());
+    explorer(&mut harness).toasts.info("It is done.".to_owned());
     harness.run();
-    while explorer(&mut harness).notices.iter().count() > 1 {
+    while explorer(&mut harness).toasts.iter().count() > 1 {
         harness.step();
     }
     // Nothing else wakes the window then: it has to be asked for.
@@ -65,7 +65,7 @@ fn what_is_left_sinks_to_the_place_of_what_went() {
 fn a_missing_curve_does_not_move_the_plots_either() {
     let mut harness = harness();
     let before = plot(&harness);
-    let parameters = &mut explorer(&mut harness).work.settings.parameters;
+    let parameters = &mut explorer(&mut harness).work.surface_mut().parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     harness.run();
     harness.get_by_label_contains("There is no curve");
@@ -75,35 +75,35 @@ fn a_missing_curve_does_not_move_the_plots_either() {
 #[test]
 fn a_success_goes_by_itself_and_a_failure_stays() {
     let mut harness = harness();
-    explorer(&mut harness).notices.info("It is done.".to_owned());
-    explorer(&mut harness).say("It failed.".to_owned());
+    explorer(&mut harness).toasts.info("It is done.".to_owned());
+    explorer(&mut harness).toasts.error("It failed.".to_owned());
     harness.run();
-    assert_eq!(explorer(&mut harness).notices.text().as_deref(), Some("It is done.\nIt failed."));
+    assert_eq!(explorer(&mut harness).toasts.text().as_deref(), Some("It is done.\nIt failed."));
     for (sentence, live) in [("It is done.", Live::Polite), ("It failed.", Live::Assertive)] {
         assert_eq!(harness.get_by_label(sentence).accesskit_node().live(), live, "{sentence}");
     }
     // A step of these tests is a quarter of a second.
     harness.run_steps(40);
-    assert_eq!(explorer(&mut harness).notices.text().as_deref(), Some("It failed."));
+    assert_eq!(explorer(&mut harness).toasts.text().as_deref(), Some("It failed."));
 }
 
 #[test]
 fn escape_dismisses_sentences_after_what_lies_above_them() {
     let mut harness = harness();
-    explorer(&mut harness).say("It failed.".to_owned());
+    explorer(&mut harness).toasts.error("It failed.".to_owned());
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     harness.run();
     harness.key_press(Key::Escape);
     harness.run();
-    assert!(!explorer(&mut harness).palette.is_open() && !explorer(&mut harness).notices.is_empty());
+    assert!(!explorer(&mut harness).dialogs.palette.is_open && !explorer(&mut harness).toasts.is_empty());
     harness.get_by_label("File").click();
     harness.run();
     harness.key_press(Key::Escape);
     harness.run();
-    assert!(harness.query_by_label_contains("Open measurement").is_none() && !explorer(&mut harness).notices.is_empty());
+    assert!(harness.query_by_label_contains("Open measurement").is_none() && !explorer(&mut harness).toasts.is_empty());
     harness.key_press(Key::Escape);
     harness.run();
-    assert!(explorer(&mut harness).notices.is_empty());
+    assert!(explorer(&mut harness).toasts.is_empty());
     assert_eq!(overlay(&harness).filter(|_| harness.query_by_role_and_label(Role::Button, "Dismiss").is_some()), None);
 }
 
@@ -120,14 +120,14 @@ fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
     ] {
         explorer(&mut harness).actions.push(command);
         wait(&mut harness);
-        let sentence = explorer(&mut harness).notices.take().expect("a sentence");
+        let sentence = explorer(&mut harness).toasts.take().expect("a sentence");
         assert!(sentence.contains("xdg-desktop-portal") && sentence.contains("zenity") && sentence.contains(place), "{sentence}");
     }
     // A dialog that was cancelled needs no word.
     explorer(&mut harness).jobs.files.ask = |_| Ok(None);
     explorer(&mut harness).actions.push(Action::ChooseMeasurement);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).notices.text(), None);
+    assert_eq!(explorer(&mut harness).toasts.text(), None);
     // The boxes are there.
     harness.get_by_label("File").click();
     harness.run();

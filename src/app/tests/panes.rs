@@ -2,11 +2,12 @@
 
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::save_settings;
+use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, harness_of, wait};
 use crate::app::views::action::Action;
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::{Settings, SettingsFile, WindowSettings};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -19,19 +20,19 @@ fn every_pane_opens_alone_and_beside_the_others() {
             explorer(&mut harness).actions.push(Action::ClosePane(*other));
         }
         wait(&mut harness);
-        if !explorer(&mut harness).panes.is_on_screen(pane) {
+        if !explorer(&mut harness).dock.is_on_screen(pane) {
             explorer(&mut harness).actions.push(Action::TogglePane(pane));
         }
         wait(&mut harness);
-        assert_eq!(explorer(&mut harness).panes.on_screen(), [pane]);
+        assert_eq!(explorer(&mut harness).dock.on_screen(), [pane]);
         harness.get_by_label(spec(pane).title);
         explorer(&mut harness).actions.push(Action::ResetLayout);
         wait(&mut harness);
-        if !explorer(&mut harness).panes.is_on_screen(pane) {
+        if !explorer(&mut harness).dock.is_on_screen(pane) {
             explorer(&mut harness).actions.push(Action::TogglePane(pane));
             wait(&mut harness);
         }
-        assert!(explorer(&mut harness).panes.is_on_screen(pane), "{}", spec(pane).title);
+        assert!(explorer(&mut harness).dock.is_on_screen(pane), "{}", spec(pane).title);
     }
 }
 
@@ -39,7 +40,7 @@ fn every_pane_opens_alone_and_beside_the_others() {
 fn every_show_menu_opens() {
     for pane in PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_options) {
         let mut harness = harness();
-        if !explorer(&mut harness).panes.is_on_screen(pane) {
+        if !explorer(&mut harness).dock.is_on_screen(pane) {
             explorer(&mut harness).actions.push(Action::TogglePane(pane));
             wait(&mut harness);
         }
@@ -56,7 +57,7 @@ fn what_is_not_on_screen_is_not_computed() {
     }
     harness.run();
     let before = explorer(&mut harness).derived.curves.key().cloned();
-    explorer(&mut harness).work.settings.parameters.k = 4.5;
+    explorer(&mut harness).work.surface_mut().parameters.k = 4.5;
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
@@ -70,16 +71,17 @@ fn a_closed_pane_stays_closed_after_a_restart() {
     let mut harness = harness();
     explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Lobes));
     harness.run();
-    let window: WindowSettings = explorer(&mut harness).window.clone();
-    let text = serde_json::to_string(&SettingsFile { settings: Settings::default(), window }).expect("settings are JSON");
-    let mut again = harness_of(serde_json::from_str(&text).expect("what was written is read"));
-    assert!(!explorer(&mut again).panes.is_on_screen(PaneId::Lobes));
-    assert!(explorer(&mut again).panes.is_on_screen(PaneId::Dolp));
+    let path = tempfile::tempdir().expect("a folder").keep().join("settings.json");
+    explorer(&mut harness).persistence.settings_path = Some(path.clone());
+    save_settings(explorer(&mut harness));
+    let mut again = harness_of(load_from(&path).0);
+    assert!(!explorer(&mut again).dock.is_on_screen(PaneId::Lobes));
+    assert!(explorer(&mut again).dock.is_on_screen(PaneId::Dolp));
 }
 
 fn shown(pane: PaneId) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::App>> {
     let mut harness = harness();
-    if !explorer(&mut harness).panes.is_on_screen(pane) {
+    if !explorer(&mut harness).dock.is_on_screen(pane) {
         explorer(&mut harness).actions.push(Action::TogglePane(pane));
     }
     wait(&mut harness);
@@ -97,7 +99,7 @@ fn every_option_of_every_pane_can_be_switched() {
     ] {
         let mut harness = shown(pane);
         for option in options {
-            let before = explorer(&mut harness).work.settings.clone();
+            let before = explorer(&mut harness).work.values();
             // The menu may have closed.
             if harness.query_all_by_label(options[0]).next().is_none() {
                 harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
@@ -106,7 +108,7 @@ fn every_option_of_every_pane_can_be_switched() {
             // A legend may have an entry of the same name; that of the menu comes first.
             harness.query_all_by_label(option).next().expect("an option").click();
             harness.run();
-            assert_ne!(explorer(&mut harness).work.settings, before, "{option}");
+            assert_ne!(explorer(&mut harness).work.values(), before, "{option}");
         }
     }
 }
@@ -130,10 +132,11 @@ fn views_draw_whatever_the_sliders_hold() {
         for parameters in odd {
             for logarithmic in [false, true] {
                 for specular in [true, false] {
-                    let settings = &mut explorer(&mut harness).work.settings;
-                    settings.parameters = parameters;
-                    settings.model.specular = specular;
-                    settings.model.diffuse = if specular { Diffuse::Minnaert } else { Diffuse::Lambert };
+                    let surface = explorer(&mut harness).work.surface_mut();
+                    surface.parameters = parameters;
+                    surface.model.specular = specular;
+                    surface.model.diffuse = if specular { Diffuse::Minnaert } else { Diffuse::Lambert };
+                    let settings = explorer(&mut harness).work.settings_mut();
                     settings.log_brdf = logarithmic;
                     settings.shown.polar_log = logarithmic;
                     settings.shown.facets_log = logarithmic;

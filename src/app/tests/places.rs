@@ -1,9 +1,10 @@
 //! Where things stand in the window: nothing that is wanted lies outside, and nothing jumps.
 
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::Action;
 use crate::app::views::spec;
+use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -34,7 +35,7 @@ fn the_tab_of_a_pane_that_is_shown_is_in_view() {
     let mut harness = harness();
     // From the first to the last and back, so that bars are scrolled to either side.
     for &pane in PaneId::ALL.iter().chain(PaneId::ALL.iter().rev()) {
-        if !explorer(&mut harness).panes.is_on_screen(pane) {
+        if !explorer(&mut harness).dock.is_on_screen(pane) {
             order(&mut harness, Action::TogglePane(pane));
         }
         let tab = harness.query_all_by_label(spec(pane).title).next().expect("a tab").rect();
@@ -47,8 +48,8 @@ fn the_tab_of_a_pane_that_is_shown_is_in_view() {
 fn the_plot_of_dolp_stays_where_it_is_when_nothing_is_left_to_miss() {
     let mut harness = harness();
     let [before, strip] = ["Plot: DoLP against θr", "Plot: residuals of DoLP against θr"].map(|name| plot(&harness, name));
-    let rows = (0..explorer(&mut harness).work.document.measurement.rows.len()).collect();
-    order(&mut harness, Action::Mask { rows, masked: true });
+    let rows = (0..explorer(&mut harness).work.active().measurement.rows.len()).collect();
+    edit(&mut harness, Edit::Mask { rows, masked: true });
     assert_eq!(plot(&harness, "Plot: DoLP against θr"), before);
     assert_eq!(plot(&harness, "Plot: residuals of DoLP against θr"), strip);
 }
@@ -56,7 +57,7 @@ fn the_plot_of_dolp_stays_where_it_is_when_nothing_is_left_to_miss() {
 #[test]
 fn a_measurement_without_dolp_has_no_strip_under_it() {
     let mut harness = harness();
-    let mut measurement = (*explorer(&mut harness).work.document.measurement).clone();
+    let mut measurement = (*explorer(&mut harness).work.active().measurement).clone();
     for row in &mut measurement.rows {
         (row.brdf, row.dolp) = (row.dolp, None);
     }
@@ -66,6 +67,6 @@ fn a_measurement_without_dolp_has_no_strip_under_it() {
     measurement.write(&mut bytes).expect("a table");
     std::fs::write(&path, bytes).expect("a writable folder");
     order(&mut harness, Action::OpenMeasurement(path));
-    assert!(explorer(&mut harness).panes.is_on_screen(PaneId::Dolp));
+    assert!(explorer(&mut harness).dock.is_on_screen(PaneId::Dolp));
     assert!(harness.query_by_label("Plot: residuals of DoLP against θr").is_none());
 }

@@ -1,7 +1,7 @@
 //! The angle planner, and models beside each other.
 
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, take, wait};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -38,15 +38,15 @@ fn angles_are_added_and_removed() {
     let mut harness = planner();
     harness.get_by_label("add θi").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.plan.counts().0, 9);
+    assert_eq!(explorer(&mut harness).work.settings().plan.counts().0, 9);
     harness.get_by_label("θi 2 from").set_value_accesskit(25.0);
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.plan.theta_i[1].from, 25.0);
+    assert_eq!(explorer(&mut harness).work.settings().plan.theta_i[1].from, 25.0);
     for name in ["Remove θi 2", "Remove θi 1"] {
         harness.get_by_label(name).click();
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.settings.plan.counts().0, 0);
+    assert_eq!(explorer(&mut harness).work.settings().plan.counts().0, 0);
     harness.get_by_label_contains("There is no angle");
 }
 
@@ -55,7 +55,7 @@ fn the_measured_angles_taken_over_predict_what_is_now() {
     let mut harness = planner();
     harness.get_by_label("As measured").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.plan.counts(), (3, 9));
+    assert_eq!(explorer(&mut harness).work.settings().plan.counts(), (3, 9));
     let [now, planned] = errors_of_n(&mut harness).map(|error| error.expect("determined"));
     assert!((now / planned - 1.0).abs() < 1e-6, "{now} {planned}");
 }
@@ -70,7 +70,7 @@ fn a_planned_brdf_lets_ks_be_free() {
         planned.errors.iter().any(|(parameter, _)| *parameter == Parameter::Ks)
     };
     assert!(!free(&mut harness));
-    explorer(&mut harness).work.settings.plan.columns = Columns::Both;
+    explorer(&mut harness).work.settings_mut().plan.columns = Columns::Both;
     harness.run();
     assert!(free(&mut harness));
     harness.get_by_role_and_label(Role::SpinButton, "Noise of BRDF");
@@ -91,17 +91,17 @@ fn models_stand_beside_each_other_and_one_is_taken_over() {
     harness.run();
     let explorer = explorer(&mut harness);
     let preset = Preset::from_key("minnaert").expect("a preset");
-    let rung = explorer.work.model_comparison.iter().find(|rung| rung.preset.key == "minnaert").expect("a rung");
-    assert_eq!(explorer.work.settings.model, preset.model);
-    assert_eq!(explorer.work.settings.parameters, rung.result.as_ref().expect("a fit").parameters);
+    let rung = explorer.work.model_comparison().iter().find(|rung| rung.preset.key == "minnaert").expect("a rung");
+    assert_eq!(explorer.work.surface().model, preset.model);
+    assert_eq!(explorer.work.surface().parameters, rung.result.as_ref().expect("a fit").parameters);
 }
 
 #[test]
 fn a_model_that_cannot_be_fitted_says_why() {
     let mut harness = harness();
-    let mut measurement = (*explorer(&mut harness).work.document.measurement).clone();
+    let mut measurement = (*explorer(&mut harness).work.active().measurement).clone();
     measurement.rows.iter_mut().for_each(|row| row.brdf = row.dolp.take());
-    explorer(&mut harness).take("lobes".to_owned(), measurement);
+    take(explorer(&mut harness), "lobes".to_owned(), measurement);
     harness.get_by_label("Models").click();
     harness.run();
     harness.get_by_label("Fit all models").click();
@@ -109,7 +109,7 @@ fn a_model_that_cannot_be_fitted_says_why() {
     wait(&mut harness);
     let explorer = explorer(&mut harness);
     let skipped: Vec<&str> =
-        explorer.work.model_comparison.iter().filter(|rung| rung.result.is_err()).map(|rung| rung.preset.key).collect();
+        explorer.work.model_comparison().iter().filter(|rung| rung.result.is_err()).map(|rung| rung.preset.key).collect();
     assert_eq!(skipped, ["fresnel"]);
     harness.get_by_label_contains("skipped: the model predicts DoLP only");
 }

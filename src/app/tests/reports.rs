@@ -1,9 +1,8 @@
 //! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
 
 use crate::app::shell::app::App;
-use crate::app::shell::job_results::benchmark_finished;
 use crate::app::storage::export::ExportKind;
-use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult, FinishedBenchmark};
+use crate::app::tasks::benchmarks::{BenchmarkId, BenchmarkResult};
 use crate::app::tests::{PATIENCE, explorer, harness, wait};
 use crate::app::views::action::Action;
 use crate::app::work::pane_id::PaneId;
@@ -36,9 +35,9 @@ fn pane_of(id: BenchmarkId) -> PaneId {
 /// The window with that pane in front and a part of its report in it.
 fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(pane_of(subject));
+    explorer(&mut harness).dock.show(pane_of(subject));
     let result = Box::new(part(subject, looks));
-    benchmark_finished(explorer(&mut harness), FinishedBenchmark { result, is_part: true });
+    explorer(&mut harness).benchmarks.take(*result, true);
     harness.run();
     harness
 }
@@ -46,39 +45,39 @@ fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<Ap
 #[test]
 fn a_click_on_a_stability_case_sets_the_sliders_and_undo_brings_them_back() {
     let mut harness = with_report(BenchmarkId::Stability, 0);
-    let before = explorer(&mut harness).work.settings.clone();
-    let row = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows[2].clone();
+    let before = explorer(&mut harness).work.values();
+    let row = explorer(&mut harness).benchmarks.stability.as_ref().expect("a report").report.rows[2].clone();
     let Setting::Evaluation { model, parameters, geometry } = row.setting else { panic!("evaluations come first") };
     harness.get_by_label(&row.case.to_string()).click();
     wait(&mut harness);
-    let settings = &explorer(&mut harness).work.settings;
-    assert_eq!((settings.model, settings.parameters), (model, parameters));
+    let (settings, surface) = explorer(&mut harness).work.values();
+    assert_eq!((surface.model, surface.parameters), (model, parameters));
     assert_eq!((settings.theta_i, settings.dphi), (geometry.theta_i().0, geometry.dphi().0));
-    assert_ne!(*settings, before);
+    assert_ne!((settings, surface), before);
     explorer(&mut harness).actions.push(Action::Undo);
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).work.settings, before);
+    assert_eq!(explorer(&mut harness).work.values(), before);
 }
 
 #[test]
 fn a_fit_of_the_gallery_opens_its_data_with_the_sliders_where_it_begins() {
     // Two fits are made.
     let mut harness = with_report(BenchmarkId::Stability, 2);
-    let rows = &explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows;
+    let rows = &explorer(&mut harness).benchmarks.stability.as_ref().expect("a report").report.rows;
     let index = rows.iter().position(|row| row.brdf_error.is_none()).expect("a fit");
     let Setting::Fit { start, measurement, .. } = rows[index].setting.clone() else { panic!("a fit") };
     explorer(&mut harness).actions.push(Action::UseCase(index));
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.work.settings.parameters, start);
-    assert_eq!(explorer.work.document.measurement.rows, measurement.rows);
-    assert!(explorer.reports.stability.is_some(), "the gallery stays");
+    assert_eq!(explorer.work.surface().parameters, start);
+    assert_eq!(explorer.work.active().measurement.rows, measurement.rows);
+    assert!(explorer.benchmarks.stability.is_some(), "the gallery stays");
 }
 
 #[test]
 fn every_case_of_the_gallery_can_be_drawn() {
     let mut harness = with_report(BenchmarkId::Stability, 0);
-    let count = explorer(&mut harness).reports.stability.as_ref().expect("a report").report.rows.len();
+    let count = explorer(&mut harness).benchmarks.stability.as_ref().expect("a report").report.rows.len();
     for index in 0..count {
         explorer(&mut harness).actions.push(Action::UseCase(index));
         harness.run();
@@ -90,7 +89,7 @@ fn every_case_of_the_gallery_can_be_drawn() {
 #[test]
 fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     let mut harness = harness();
-    explorer(&mut harness).panes.show(pane_of(BenchmarkId::Cost));
+    explorer(&mut harness).dock.show(pane_of(BenchmarkId::Cost));
     harness.run();
     harness.get_by_label("Nothing is measured yet.");
     harness.get_by_label("Measure costs").click();
@@ -100,8 +99,8 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     harness.get_by_label("Stop measuring").click();
     wait(&mut harness);
     let explorer = explorer(&mut harness);
-    let shown = explorer.reports.cost.as_ref().expect("what was measured so far");
-    assert!(shown.is_part && shown.report.rows.len() < 19 && explorer.reports.stability.is_none());
+    let shown = explorer.benchmarks.cost.as_ref().expect("what was measured so far");
+    assert!(shown.is_part && shown.report.rows.len() < 19 && explorer.benchmarks.stability.is_none());
     harness.get_by_label_contains("stopped before its end");
 }
 
@@ -110,7 +109,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     let mut harness = harness();
     let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).jobs.benchmarks.progress().map(|(subject, _)| subject);
     explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::Cost));
-    explorer(&mut harness).panes.show(PaneId::Stability);
+    explorer(&mut harness).dock.show(PaneId::Stability);
     harness.step();
     harness.step();
     harness.get_by_label("Run all cases").click();
@@ -127,7 +126,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
         harness.step();
     }
     // Another one behind it is called off.
-    explorer(&mut harness).panes.show(PaneId::ErrorVsTime);
+    explorer(&mut harness).dock.show(PaneId::ErrorVsTime);
     explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::ErrorVsTime));
     for _ in 0..3 {
         harness.step();
@@ -138,14 +137,14 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     }
     explorer(&mut harness).actions.push(Action::CancelReport);
     wait(&mut harness);
-    let reports = &explorer(&mut harness).reports;
+    let reports = &explorer(&mut harness).benchmarks;
     assert!(reports.cost.is_some() && reports.stability.is_some() && reports.error_vs_time.is_none());
 }
 
 #[test]
 fn costs_are_a_table_with_bars() {
     let mut harness = with_report(BenchmarkId::Cost, 3);
-    let rows = explorer(&mut harness).reports.cost.as_ref().expect("a report").report.rows.clone();
+    let rows = explorer(&mut harness).benchmarks.cost.as_ref().expect("a report").report.rows.clone();
     assert_eq!(rows.len(), 3);
     for row in &rows {
         harness.get_by_label(row.scene);

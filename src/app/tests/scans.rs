@@ -1,8 +1,9 @@
 //! Profile and bootstrap of a finished fit.
 
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::model::Parameter;
@@ -10,8 +11,8 @@ use pbrdf::model::Parameter;
 /// A fit with k_d alone free: determined, and quick to scan.
 fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    let locked = explorer(&mut harness).work.settings.model.parameters().without(Parameter::Kd).without(Parameter::K);
-    explorer(&mut harness).work.settings.locked = locked;
+    let locked = explorer(&mut harness).work.surface().model.parameters().without(Parameter::Kd).without(Parameter::K);
+    explorer(&mut harness).work.surface_mut().locked = locked;
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     harness.get_by_label("Profile and bootstrap").click();
@@ -25,20 +26,20 @@ fn a_profile_is_scanned_and_its_interval_told() {
     harness.get_by_label("Scan").click();
     harness.step();
     wait(&mut harness);
-    let fit = explorer(&mut harness).work.shown_fit.clone().expect("a fit");
+    let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
     let error = fit.report.estimates.iter().find(|estimate| estimate.parameter == Parameter::K).and_then(|estimate| estimate.std_error);
-    let profile = explorer(&mut harness).work.diagnostics.profile.as_ref().expect("a profile");
+    let profile = explorer(&mut harness).work.diagnostics().profile.as_ref().expect("a profile");
     let (low, high) = (profile.low.expect("an end"), profile.high.expect("an end"));
     assert_eq!(profile.parameter, Parameter::K);
     // With two parameters on clean data the interval is nearly the symmetric one.
     let half = 0.5 * (high - low) / error.expect("k is determined");
     assert!((0.8..1.25).contains(&half), "{half}");
-    assert!(profile.points.iter().all(|point| point.y >= -1e-9 * fit.report.statistics.rss));
+    assert!(profile.points.iter().all(|[_, gain]| *gain >= -1e-9 * fit.report.statistics.rss));
     harness.get_by_label_contains("(one standard error)");
     // Another fit has another profile.
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.diagnostics.profile.is_none());
+    assert!(explorer(&mut harness).work.diagnostics().profile.is_none());
 }
 
 #[test]
@@ -47,8 +48,8 @@ fn a_bootstrap_stands_beside_the_standard_errors() {
     harness.get_by_label("Bootstrap").click();
     harness.step();
     wait(&mut harness);
-    let fit = explorer(&mut harness).work.shown_fit.clone().expect("a fit");
-    let scatter = &explorer(&mut harness).work.diagnostics.scatter.as_ref().expect("a bootstrap").scatter;
+    let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
+    let scatter = &explorer(&mut harness).work.diagnostics().scatter.as_ref().expect("a bootstrap").scatter;
     assert_eq!(scatter.len(), 2);
     for scatter in scatter {
         let estimate = fit.report.estimates.iter().find(|estimate| estimate.parameter == scatter.parameter).expect("an estimate");
@@ -62,18 +63,18 @@ fn a_bootstrap_stands_beside_the_standard_errors() {
 #[test]
 fn a_scan_is_stopped_and_one_of_another_fit_is_dropped() {
     let mut harness = fitted();
-    explorer(&mut harness).work.diagnostics.replicates = 100_000;
+    explorer(&mut harness).work.apply(Edit::SetReplicates(100_000));
     harness.get_by_label("Bootstrap").click();
     harness.step();
     harness.step();
     harness.get_by_label("Stop the scan").click();
     harness.step();
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.diagnostics.scatter.is_some(), "what was there is kept");
+    assert!(explorer(&mut harness).work.diagnostics().scatter.is_some(), "what was there is kept");
     explorer(&mut harness).actions.push(Action::Bootstrap);
     harness.step();
-    let rows = (*explorer(&mut harness).work.document.measurement).clone();
-    explorer(&mut harness).take("another".to_owned(), rows);
+    let rows = (*explorer(&mut harness).work.active().measurement).clone();
+    take(explorer(&mut harness), "another".to_owned(), rows);
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.diagnostics.scatter.is_none());
+    assert!(explorer(&mut harness).work.diagnostics().scatter.is_none());
 }

@@ -1,12 +1,14 @@
 //! Sessions: saved, opened on another machine, damaged, killed while they are written.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::{resume, save_on_exit};
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session::Session;
 use crate::app::storage::session_file::save_session;
 use crate::app::storage::settings_file::load_from;
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -24,12 +26,12 @@ fn order(harness: &mut Harness<'static, Option<App>>, command: Action) {
 /// A window that somebody worked in.
 fn worked_in() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    order(&mut harness, Action::Mask { rows: vec![3, 5], masked: true });
-    explorer(&mut harness).work.settings.set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
+    edit(&mut harness, Edit::Mask { rows: vec![3, 5], masked: true });
+    explorer(&mut harness).work.surface_mut().set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
     order(&mut harness, Action::StartFit);
     order(&mut harness, Action::ClosePane(PaneId::Lobes));
-    explorer(&mut harness).work.settings.theta_i = 35.5;
-    explorer(&mut harness).work.settings.parameters.k = 4.25;
+    explorer(&mut harness).work.settings_mut().theta_i = 35.5;
+    explorer(&mut harness).work.surface_mut().parameters.k = 4.25;
     harness.run();
     harness
 }
@@ -48,18 +50,18 @@ fn a_session_opens_with_everything_that_was_in_it() {
     let mut after = harness();
     order(&mut after, Action::OpenSession(path.clone()));
     let (before, after) = (explorer(&mut before), explorer(&mut after));
-    assert_eq!(after.notices.text(), None);
-    assert_eq!(after.work.settings, before.work.settings);
-    assert_eq!(after.work.document.measurement.rows, before.work.document.measurement.rows);
-    assert_eq!(after.work.document.measurement.metadata, before.work.document.measurement.metadata);
-    assert_eq!(after.work.document.mask(), before.work.document.mask());
-    assert_eq!(after.work.document.name, before.work.document.name);
-    assert!(!after.panes.is_on_screen(PaneId::Lobes));
-    let (old, new) = (before.work.shown_fit.as_ref().expect("a fit"), after.work.shown_fit.as_ref().expect("the fit again"));
+    assert_eq!(after.toasts.text(), None);
+    assert_eq!(after.work.values(), before.work.values());
+    assert_eq!(after.work.active().measurement.rows, before.work.active().measurement.rows);
+    assert_eq!(after.work.active().measurement.metadata, before.work.active().measurement.metadata);
+    assert_eq!(after.work.active().mask(), before.work.active().mask());
+    assert_eq!(after.work.active().name, before.work.active().name);
+    assert!(!after.dock.is_on_screen(PaneId::Lobes));
+    let (old, new) = (before.work.shown_fit().expect("a fit"), after.work.shown_fit().expect("the fit again"));
     assert_eq!((old.before, old.problem.start()), (new.before, new.problem.start()));
     assert_eq!(old.problem.free(), new.problem.free());
     assert_eq!(old.report, new.report);
-    assert_eq!(after.work.session_file.as_deref(), Some(path.as_path()));
+    assert_eq!(after.work.session_file(), Some(path.as_path()));
 }
 
 #[test]
@@ -68,16 +70,16 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let mut before = harness();
     // One with an automatic scale of its loss, and an earlier one that is shown.
     order(&mut before, Action::StartFit);
-    explorer(&mut before).work.settings.choices.loss = Loss::Huber;
+    explorer(&mut before).work.settings_mut().choices.loss = Loss::Huber;
     order(&mut before, Action::StartFit);
-    order(&mut before, Action::Mask { rows: vec![4], masked: true });
+    edit(&mut before, Edit::Mask { rows: vec![4], masked: true });
     order(&mut before, Action::ReturnTo(1));
     let path = saved(&mut before, folder.path());
     let mut after = harness();
     order(&mut after, Action::OpenSession(path));
     for harness in [&mut before, &mut after] {
         for pane in [PaneId::Landscape, PaneId::Convergence] {
-            explorer(harness).panes.show(pane);
+            explorer(harness).dock.show(pane);
         }
         wait(harness);
     }
@@ -94,11 +96,11 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     assert!(after.query_by_label_contains("The mask has changed").is_some());
     assert!(after.query_by_label_contains("made no step").is_none());
     let (before, after) = (explorer(&mut before), explorer(&mut after));
-    for (old, new) in before.work.fit_history.iter().zip(after.work.fit_history.iter()) {
+    for (old, new) in before.work.fit_history().iter().zip(after.work.fit_history().iter()) {
         assert_eq!(old.report, new.report);
         assert!(old.report.course.trace.len() > 1 && old.report.course.evaluations > 1 && old.report.course.elapsed_ms > 0.0);
     }
-    let shown = |explorer: &App| explorer.work.shown_fit.as_ref().map(|fit| fit.id);
+    let shown = |explorer: &App| explorer.work.shown_fit().map(|fit| fit.id);
     assert_eq!((shown(before), shown(after)), (Some(1), Some(1)));
     let marks = |explorer: &App| {
         let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("what lies on the map");
@@ -112,7 +114,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
 fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     let mut source = worked_in();
     let mut bytes = Vec::new();
-    explorer(&mut source).session().write(&mut bytes).expect("memory");
+    Session::of(&explorer(&mut source).work).write(&mut bytes).expect("memory");
     let mut old: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
     old.as_object_mut().expect("a session").remove("shown");
     old["fits"][0].as_object_mut().expect("a fit").remove("account").expect("an account");
@@ -121,10 +123,10 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     std::fs::write(&path, old.to_string()).expect("a file");
     let mut other = harness();
     order(&mut other, Action::OpenSession(path.clone()));
-    assert!(explorer(&mut other).work.shown_fit.is_some());
+    assert!(explorer(&mut other).work.shown_fit().is_some());
     assert!(other.query_by_label_contains("not known: from a session of an older version").is_some());
     // Saved again with another mask, and so as some files are: with an account that tells of the mask alone.
-    order(&mut other, Action::Mask { rows: vec![8], masked: true });
+    edit(&mut other, Edit::Mask { rows: vec![8], masked: true });
     order(&mut other, Action::SaveSession);
     let again: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("the session")).expect("JSON");
     assert!(again["fits"][0]["account"].is_null());
@@ -137,14 +139,14 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
         let mut third = harness();
         order(&mut third, Action::OpenSession(path.clone()));
         let third = explorer(&mut third);
-        assert_eq!(third.notices.text(), None);
-        assert_eq!(third.work.shown_fit.as_ref().expect("the fit").mask[..], [3, 5]);
-        assert_eq!(third.work.document.mask()[..], [3, 5, 8]);
+        assert_eq!(third.toasts.text(), None);
+        assert_eq!(third.work.shown_fit().expect("the fit").mask[..], [3, 5]);
+        assert_eq!(third.work.active().mask()[..], [3, 5, 8]);
     }
     for wrong in ["evaluations", "minima from"] {
         assert!(other.query_by_label_contains(wrong).is_none(), "{wrong}");
     }
-    explorer(&mut other).panes.show(PaneId::Convergence);
+    explorer(&mut other).dock.show(PaneId::Convergence);
     other.run();
     assert!(other.query_by_label_contains("How this fit came about is not known").is_some());
 }
@@ -156,7 +158,7 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     explorer(&mut source).actions.push(Action::StartFit);
     source.step();
     // While the fit runs: they are what "back" leads to.
-    let parameters = &mut explorer(&mut source).work.settings.parameters;
+    let parameters = &mut explorer(&mut source).work.surface_mut().parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     wait(&mut source);
     order(&mut source, Action::Back);
@@ -164,9 +166,9 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     let mut other = harness();
     order(&mut other, Action::OpenMeasurement(path));
     let explorer = explorer(&mut other);
-    assert_eq!(explorer.notices.text(), None);
-    assert_eq!((explorer.work.settings.parameters.n, explorer.work.settings.parameters.k), (0.0, 0.0));
-    assert!(explorer.work.shown_fit.is_some());
+    assert_eq!(explorer.toasts.text(), None);
+    assert_eq!((explorer.work.surface().parameters.n, explorer.work.surface().parameters.k), (0.0, 0.0));
+    assert!(explorer.work.shown_fit().is_some());
 }
 
 #[test]
@@ -174,10 +176,10 @@ fn saving_again_goes_into_the_same_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = worked_in();
     let path = saved(&mut harness, folder.path());
-    explorer(&mut harness).work.settings.parameters.n = 1.875;
+    explorer(&mut harness).work.surface_mut().parameters.n = 1.875;
     order(&mut harness, Action::SaveSession);
     let text = std::fs::read_to_string(&path).expect("the session");
-    assert_eq!(Session::read(&text).expect("a session").settings.parameters.n, 1.875);
+    assert_eq!(Session::read(&text).expect("a session").settings.surface.parameters.n, 1.875);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing else is left behind");
 }
 
@@ -185,7 +187,7 @@ fn saving_again_goes_into_the_same_file() {
 fn a_session_is_readable_row_by_row() {
     let mut harness = worked_in();
     let mut bytes = Vec::new();
-    explorer(&mut harness).session().write(&mut bytes).expect("memory");
+    Session::of(&explorer(&mut harness).work).write(&mut bytes).expect("memory");
     let text = String::from_utf8(bytes).expect("text");
     assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 2,\n"));
     assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
@@ -220,17 +222,17 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         (good.replacen("\"fits\": [", "\"fits\": 7, \"others\": [", 1), "fits"),
     ];
     let mut harness = harness();
-    let before = explorer(&mut harness).work.settings.clone();
-    let rows = explorer(&mut harness).work.document.measurement.rows.clone();
+    let before = explorer(&mut harness).work.values();
+    let rows = explorer(&mut harness).work.active().measurement.rows.clone();
     for (text, expected) in cases {
         assert_ne!(text, good, "{expected}: the damage is there");
         let path = folder.path().join("bad.pbrdf.json");
         std::fs::write(&path, &text).expect("a writable folder");
         order(&mut harness, Action::OpenMeasurement(path));
         let explorer = explorer(&mut harness);
-        let notice = explorer.notices.take().expect("a sentence");
+        let notice = explorer.toasts.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");
-        assert_eq!((&explorer.work.settings, &explorer.work.document.measurement.rows), (&before, &rows));
+        assert_eq!((&explorer.work.values(), &explorer.work.active().measurement.rows), (&before, &rows));
     }
 }
 
@@ -238,7 +240,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
 fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
-    explorer(&mut source).work.settings.choices.loss = Loss::Huber;
+    explorer(&mut source).work.settings_mut().choices.loss = Loss::Huber;
     order(&mut source, Action::StartFit);
     order(&mut source, Action::ReturnTo(1));
     let good: serde_json::Value =
@@ -268,11 +270,11 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         let mut other = harness();
         order(&mut other, Action::OpenSession(path.clone()));
         let other = explorer(&mut other);
-        let notice = other.notices.take().expect("a sentence");
+        let notice = other.toasts.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json is opened without") && notice.contains(expected), "{place} {value}: {notice}");
-        assert_eq!(other.work.settings, explorer(&mut source).work.settings);
-        assert_eq!(other.work.document.mask(), explorer(&mut source).work.document.mask());
-        let (fits, shown) = (other.work.fit_history.len(), other.work.shown_fit.as_ref().map(|fit| fit.problem.options().loss));
+        assert_eq!(other.work.values(), explorer(&mut source).work.values());
+        assert_eq!(other.work.active().mask(), explorer(&mut source).work.active().mask());
+        let (fits, shown) = (other.work.fit_history().len(), other.work.shown_fit().map(|fit| fit.problem.options().loss));
         assert_eq!((fits, shown), (1, Some(Loss::Squared)), "{place}");
     }
 }
@@ -281,7 +283,7 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
 fn files_that_have_eq_17_among_the_choices_of_the_fit_keep_its_meaning() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
-    explorer(&mut source).work.settings.model.dolp_formula = DolpFormula::AsPrinted;
+    explorer(&mut source).work.surface_mut().model.dolp_formula = DolpFormula::AsPrinted;
     order(&mut source, Action::StartFit);
     let mut session: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
@@ -294,14 +296,14 @@ fn files_that_have_eq_17_among_the_choices_of_the_fit_keep_its_meaning() {
     std::fs::write(&path, session.to_string()).expect("a file");
     let mut other = harness();
     order(&mut other, Action::OpenSession(path));
-    assert_eq!(explorer(&mut other).work.settings, explorer(&mut source).work.settings);
-    let formulas: Vec<DolpFormula> = explorer(&mut other).work.fit_history.iter().map(|fit| fit.problem.model().dolp_formula).collect();
+    assert_eq!(explorer(&mut other).work.values(), explorer(&mut source).work.values());
+    let formulas: Vec<DolpFormula> = explorer(&mut other).work.fit_history().iter().map(|fit| fit.problem.model().dolp_formula).collect();
     assert_eq!(formulas, [DolpFormula::AsPrinted, DolpFormula::Consistent]);
 
     let path = folder.path().join("settings.json");
     std::fs::write(&path, serde_json::json!({ "settings": session["settings"] }).to_string()).expect("a file");
     let (file, notice) = load_from(&path);
-    assert_eq!((&file.settings, notice), (&explorer(&mut source).work.settings, None));
+    assert_eq!((file.settings.surface, notice), (explorer(&mut source).work.surface().clone(), None));
 }
 
 #[test]
@@ -309,21 +311,21 @@ fn the_working_state_is_kept_and_comes_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("new folder/working.pbrdf.json");
     let mut first = worked_in();
-    explorer(&mut first).working_file = Some(path.clone());
-    explorer(&mut first).autosave_now();
+    explorer(&mut first).persistence.autosave_path = Some(path.clone());
+    save_on_exit(explorer(&mut first));
     let mut second = harness();
-    explorer(&mut second).working_file = Some(path.clone());
-    explorer(&mut second).resume();
+    explorer(&mut second).persistence.autosave_path = Some(path.clone());
+    resume(explorer(&mut second));
     wait(&mut second);
-    assert_eq!(explorer(&mut second).work.settings, explorer(&mut first).work.settings);
-    assert_eq!(explorer(&mut second).work.session_file, None, "what is kept without being asked is no session of the user's");
+    assert_eq!(explorer(&mut second).work.values(), explorer(&mut first).work.values());
+    assert_eq!(explorer(&mut second).work.session_file(), None, "what is kept without being asked is no session of the user's");
     // Damaged, it is set aside with a sentence.
     std::fs::write(&path, "{").expect("a writable folder");
     let mut third = harness();
-    explorer(&mut third).working_file = Some(path.clone());
-    explorer(&mut third).resume();
+    explorer(&mut third).persistence.autosave_path = Some(path.clone());
+    resume(explorer(&mut third));
     wait(&mut third);
-    let notice = explorer(&mut third).notices.take().expect("a sentence");
+    let notice = explorer(&mut third).toasts.take().expect("a sentence");
     assert!(notice.contains("cannot be restored") && notice.contains("line 1"), "{notice}");
     assert!(folder.path().join("new folder/working.pbrdf.damaged.json").exists());
 }
@@ -332,12 +334,12 @@ fn the_working_state_is_kept_and_comes_back() {
 fn a_full_disk_leaves_the_old_session() {
     // /dev/full takes nothing; a folder that is not there cannot take a temporary file either.
     let mut harness = worked_in();
-    let session = explorer(&mut harness).session();
+    let session = Session::of(&explorer(&mut harness).work);
     if Path::new("/dev/full").exists() {
         assert!(save_session(Path::new("/dev/full"), &session).expect_err("no room").contains("cannot be written"));
     }
     order(&mut harness, Action::Export(ExportKind::Session, PathBuf::from("/dev/null/x.pbrdf.json")));
-    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("cannot be written"));
+    assert!(explorer(&mut harness).toasts.take().expect("a sentence").contains("cannot be written"));
 }
 
 /// How often a saving process is killed.
@@ -352,7 +354,7 @@ fn saver() {
     let text = std::fs::read_to_string(&path).expect("the state before");
     let mut session = Session::read(&text).expect("a session");
     for turn in 0_u32.. {
-        session.settings.parameters.n = if turn % 2 == 0 { 2.0 } else { 3.0 };
+        session.settings.surface.parameters.n = if turn % 2 == 0 { 2.0 } else { 3.0 };
         save_session(&path, &session).expect("a place to save");
     }
 }
@@ -378,13 +380,13 @@ fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
         child.wait().expect("its end");
         let text = std::fs::read_to_string(&path).expect("a file");
         let session = Session::read(&text).unwrap_or_else(|error| panic!("kill {kill}: {error:?}"));
-        match session.settings.parameters.n {
+        match session.settings.surface.parameters.n {
             2.0 => seen[0] += 1,
             3.0 => seen[1] += 1,
             // The state before the first save of all.
             _ => {}
         }
-        assert_eq!(session.measurements[0].measurement.rows, explorer(&mut source).work.document.measurement.rows);
+        assert_eq!(session.measurements[0].measurement.rows, explorer(&mut source).work.active().measurement.rows);
     }
     assert!(seen.iter().all(|&times| times > 0), "both states were seen, {seen:?}: the kills met a process at work");
 }
@@ -394,24 +396,24 @@ fn fits_of_a_measurement_that_is_no_longer_open_come_back_with_their_data() {
     let folder = tempfile::tempdir().expect("a folder");
     let working = folder.path().join("working.pbrdf.json");
     let mut first = harness();
-    explorer(&mut first).work.settings.starts = Starts::One;
+    explorer(&mut first).work.settings_mut().starts = Starts::One;
     order(&mut first, Action::OpenExample(1));
-    order(&mut first, Action::Mask { rows: vec![3], masked: true });
+    edit(&mut first, Edit::Mask { rows: vec![3], masked: true });
     order(&mut first, Action::StartFit);
     order(&mut first, Action::OpenExample(2));
     order(&mut first, Action::StartFit);
-    explorer(&mut first).working_file = Some(working.clone());
-    explorer(&mut first).autosave_now();
+    explorer(&mut first).persistence.autosave_path = Some(working.clone());
+    save_on_exit(explorer(&mut first));
     let mut second = harness();
-    explorer(&mut second).working_file = Some(working);
-    explorer(&mut second).resume();
+    explorer(&mut second).persistence.autosave_path = Some(working);
+    resume(explorer(&mut second));
     wait(&mut second);
     let (first, second) = (&explorer(&mut first).work, &explorer(&mut second).work);
-    assert_eq!(second.document.name, first.document.name);
-    assert_eq!((first.fit_history.len(), second.fit_history.len()), (2, 2));
-    for (old, new) in first.fit_history.iter().zip(second.fit_history.iter()) {
+    assert_eq!(second.active().name, first.active().name);
+    assert_eq!((first.fit_history().len(), second.fit_history().len()), (2, 2));
+    for (old, new) in first.fit_history().iter().zip(second.fit_history().iter()) {
         assert_eq!((&new.document, &new.mask, &new.data.rows), (&old.document, &old.mask, &old.data.rows));
         assert_eq!(new.report.parameters, old.report.parameters);
-        assert_eq!(new.number == second.document.number, old.number == first.document.number);
+        assert_eq!(new.number == second.active().number, old.number == first.active().number);
     }
 }

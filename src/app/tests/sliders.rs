@@ -23,7 +23,7 @@ fn moving_a_slider_moves_the_curves() {
     harness.get_by_role_and_label(Role::Slider, "k").set_value_accesskit(4.5);
     harness.run();
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.work.settings.parameters.k, 4.5);
+    assert_eq!(explorer.work.surface().parameters.k, 4.5);
     assert_ne!(explorer.derived.curves.get().expect("curves").series[0], before);
 }
 
@@ -34,7 +34,7 @@ fn arrow_keys_step_a_slider() {
     harness.run();
     harness.key_press(egui::Key::ArrowRight);
     harness.run();
-    assert!(explorer(&mut harness).work.settings.parameters.k > Parameters::default().k);
+    assert!(explorer(&mut harness).work.surface().parameters.k > Parameters::default().k);
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn a_lobe_that_is_off_hides_its_sliders() {
         assert_eq!(there, !hidden.contains(&parameter), "{parameter:?}");
     }
     let explorer = explorer(&mut harness);
-    assert_eq!(explorer.work.settings.model.diffuse, Diffuse::Absent);
+    assert_eq!(explorer.work.surface().model.diffuse, Diffuse::Absent);
     let own = &explorer.derived.curves.get().expect("curves").own;
     assert!(own.diffuse.is_empty() && own.volume.is_empty());
 }
@@ -58,21 +58,21 @@ fn a_lobe_that_is_off_hides_its_sliders() {
 #[test]
 fn a_value_outside_its_slider_is_kept() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters = Parameters { n: 25.0, q: 300.0, c: -1.5, ..Parameters::default() };
+    explorer(&mut harness).work.surface_mut().parameters = Parameters { n: 25.0, q: 300.0, c: -1.5, ..Parameters::default() };
     harness.run();
     harness.run();
-    let parameters = explorer(&mut harness).work.settings.parameters;
+    let parameters = explorer(&mut harness).work.surface().parameters;
     assert_eq!((parameters.n, parameters.q, parameters.c), (25.0, 300.0, -1.5));
 }
 
 #[test]
 fn reset_brings_back_the_default() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters.sigma = 1.0;
+    explorer(&mut harness).work.surface_mut().parameters.sigma = 1.0;
     harness.run();
     harness.get_by_label("Reset sigma").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters, Parameters::default());
+    assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default());
 }
 
 #[test]
@@ -100,18 +100,18 @@ fn double_click(harness: &mut egui_kittest::Harness<'static, Option<crate::app::
 fn a_double_click_on_a_slider_or_its_name_resets_it() {
     for role in [Role::Slider, Role::Label] {
         let mut harness = harness();
-        explorer(&mut harness).work.settings.parameters.k = 9.0;
+        explorer(&mut harness).work.surface_mut().parameters.k = 9.0;
         harness.run();
         let at = harness.get_by_role_and_label(role, "k").rect().center();
         double_click(&mut harness, at);
-        assert_eq!(explorer(&mut harness).work.settings.parameters, Parameters::default(), "{role:?}");
+        assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default(), "{role:?}");
     }
 }
 
 #[test]
 fn arrow_keys_step_a_logarithmic_slider_away_from_zero_and_back() {
     let mut harness = harness();
-    explorer(&mut harness).work.settings.parameters.kd = 0.0;
+    explorer(&mut harness).work.surface_mut().parameters.kd = 0.0;
     harness.run();
     harness.get_by_role_and_label(Role::Slider, "k_d").focus();
     harness.run();
@@ -119,7 +119,7 @@ fn arrow_keys_step_a_logarithmic_slider_away_from_zero_and_back() {
     for _ in 0..3 {
         harness.key_press(egui::Key::ArrowRight);
         harness.run();
-        let kd = explorer(&mut harness).work.settings.parameters.kd;
+        let kd = explorer(&mut harness).work.surface().parameters.kd;
         assert!(kd > before, "{kd}");
         before = kd;
     }
@@ -127,7 +127,7 @@ fn arrow_keys_step_a_logarithmic_slider_away_from_zero_and_back() {
         harness.key_press(egui::Key::ArrowLeft);
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.settings.parameters.kd, 0.0);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.kd, 0.0);
 }
 
 #[test]
@@ -174,16 +174,16 @@ fn a_dragged_slider_takes_arrow_keys_and_right_and_left_come_back_exactly() {
     harness.drop_at(slider.center() + egui::vec2(7.0, 0.0));
     harness.run();
     let k = 2.345_678_901_234_5;
-    explorer(&mut harness).work.settings.parameters.k = k;
+    explorer(&mut harness).work.surface_mut().parameters.k = k;
     harness.run();
     harness.key_press(egui::Key::ArrowRight);
     harness.run();
-    assert!((explorer(&mut harness).work.settings.parameters.k - k - 0.1).abs() < 1e-8);
+    assert!((explorer(&mut harness).work.surface().parameters.k - k - 0.1).abs() < 1e-8);
     harness.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
     harness.run();
-    assert!((explorer(&mut harness).work.settings.parameters.k - k - 0.11).abs() < 1e-8);
+    assert!((explorer(&mut harness).work.surface().parameters.k - k - 0.11).abs() < 1e-8);
     harness.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowLeft);
     harness.key_press(egui::Key::ArrowLeft);
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings.parameters.k, k);
+    assert_eq!(explorer(&mut harness).work.surface().parameters.k, k);
 }

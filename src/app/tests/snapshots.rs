@@ -4,7 +4,6 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
 use crate::app::shell::app::App;
-use crate::app::shell::job_results::benchmark_finished;
 use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, plots, wait};
@@ -106,7 +105,7 @@ fn fitted() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     order(&mut harness, Action::OpenExample(1));
     let free = [Parameter::N, Parameter::K, Parameter::Kd];
-    explorer(&mut harness).work.settings.locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    explorer(&mut harness).work.surface_mut().locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
     order(&mut harness, Action::StartFit);
     harness
 }
@@ -125,10 +124,11 @@ fn report(subject: BenchmarkId) -> FinishedBenchmark {
 /// The figures of all plots.
 fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)> {
     for subject in BenchmarkId::ALL {
-        benchmark_finished(explorer(harness), report(subject));
+        let report = report(subject);
+        explorer(harness).benchmarks.take(*report.result, report.is_part);
     }
     let mut shown = |pane: PaneId| {
-        if !explorer(harness).panes.is_on_screen(pane) {
+        if !explorer(harness).dock.is_on_screen(pane) {
             order(harness, Action::TogglePane(pane));
         }
         wait(harness);

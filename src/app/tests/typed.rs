@@ -51,16 +51,16 @@ fn a_typed_path_of_a_file_that_is_there_is_asked_about_once() {
         assert_eq!(text(&path), "precious");
         harness.get_by_label(&format!("{name} exists. Replace it?"));
         press(&mut harness, "Keep");
-        assert_eq!((text(&path).as_str(), explorer(&mut harness).notices.text()), ("precious", None));
+        assert_eq!((text(&path).as_str(), explorer(&mut harness).toasts.text()), ("precious", None));
         // The path waits in its box to be changed.
-        assert_eq!(explorer(&mut harness).typed.save, path.display().to_string());
-        explorer(&mut harness).typed.save.clear();
+        assert_eq!(explorer(&mut harness).dialogs.path_entry.save, path.display().to_string());
+        explorer(&mut harness).dialogs.path_entry.save.clear();
         type_path(&mut harness, SAVE, &path);
         press(&mut harness, "Replace");
         assert!(text(&path).contains(part), "{name}");
-        assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("is saved to"));
-        assert_eq!(explorer(&mut harness).typed.save, "");
-        assert!(explorer(&mut harness).replacing.is_none());
+        assert!(explorer(&mut harness).toasts.take().expect("a sentence").contains("is saved to"));
+        assert_eq!(explorer(&mut harness).dialogs.path_entry.save, "");
+        assert!(explorer(&mut harness).dialogs.overwrite.is_none());
     }
 }
 
@@ -73,11 +73,11 @@ fn enter_and_escape_keep_the_file_that_is_there() {
     for key in [Key::Enter, Key::Escape] {
         explorer(&mut harness).actions.push(Action::SaveNew(path.clone()));
         wait(&mut harness);
-        assert!(explorer(&mut harness).replacing.is_some());
+        assert!(explorer(&mut harness).dialogs.overwrite.is_some());
         harness.key_press(key);
         harness.run();
         wait(&mut harness);
-        assert!(explorer(&mut harness).replacing.is_none(), "{key:?}");
+        assert!(explorer(&mut harness).dialogs.overwrite.is_none(), "{key:?}");
         assert_eq!(text(&path), "precious");
     }
 }
@@ -88,7 +88,7 @@ fn a_new_file_and_one_that_the_desktop_asked_about_are_written_without_a_questio
     let mut harness = harness();
     let new = folder.path().join("new.csv");
     type_path(&mut harness, SAVE, &new);
-    assert!(text(&new).contains("theta_i") && explorer(&mut harness).typed.save.is_empty());
+    assert!(text(&new).contains("theta_i") && explorer(&mut harness).dialogs.path_entry.save.is_empty());
     let chosen = folder.path().join("chosen.csv");
     std::fs::write(&chosen, "old").expect("a writable folder");
     explorer(&mut harness).actions.push(Action::SaveMeasurement(chosen.clone()));
@@ -100,7 +100,7 @@ fn a_new_file_and_one_that_the_desktop_asked_about_are_written_without_a_questio
         std::fs::write(&session, "old").expect("a writable folder");
         explorer(&mut harness).actions.push(command);
         wait(&mut harness);
-        assert!(explorer(&mut harness).replacing.is_none() && text(&session).contains("pbrdf-session"));
+        assert!(explorer(&mut harness).dialogs.overwrite.is_none() && text(&session).contains("pbrdf-session"));
     }
 }
 
@@ -119,18 +119,18 @@ fn a_typed_export_asks_too_and_keeps_its_path_until_it_has_served() {
         harness.run();
         wait(harness);
     };
-    explorer(&mut harness).typed.export = folder.path().join("curves").display().to_string();
+    explorer(&mut harness).dialogs.path_entry.export = folder.path().join("curves").display().to_string();
     export(&mut harness);
     assert_eq!(text(&path), "precious");
     press(&mut harness, "Replace");
     assert!(text(&path).contains("theta_i"));
-    assert_eq!(explorer(&mut harness).typed.export, "");
+    assert_eq!(explorer(&mut harness).dialogs.path_entry.export, "");
     // Keys ask the desktop, whatever stands in the box.
-    explorer(&mut harness).typed.export = "/somewhere/else.html".to_owned();
+    explorer(&mut harness).dialogs.path_entry.export = "/somewhere/else.html".to_owned();
     explorer(&mut harness).actions.push(Action::ChooseExport(ExportKind::Curves));
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).notices.take().expect("a sentence").lines().count(), 1);
-    assert_eq!(explorer(&mut harness).typed.export, "/somewhere/else.html");
+    assert_eq!(explorer(&mut harness).toasts.take().expect("a sentence").lines().count(), 1);
+    assert_eq!(explorer(&mut harness).dialogs.path_entry.export, "/somewhere/else.html");
 }
 
 #[test]
@@ -139,13 +139,13 @@ fn a_path_that_could_not_be_opened_stays_to_be_mended() {
     let mut harness = harness();
     let path = folder.path().join("mine.csv");
     type_path(&mut harness, OPEN, &path);
-    assert_eq!(explorer(&mut harness).typed.open, path.display().to_string());
-    assert!(explorer(&mut harness).notices.take().expect("a sentence").contains("no such file"));
+    assert_eq!(explorer(&mut harness).dialogs.path_entry.open, path.display().to_string());
+    assert!(explorer(&mut harness).toasts.take().expect("a sentence").contains("no such file"));
     std::fs::write(&path, "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n").expect("a writable folder");
-    explorer(&mut harness).typed.open.clear();
+    explorer(&mut harness).dialogs.path_entry.open.clear();
     type_path(&mut harness, OPEN, &path);
     assert_eq!(
-        (explorer(&mut harness).work.document.name.clone(), explorer(&mut harness).typed.open.clone()),
+        (explorer(&mut harness).work.active().name.clone(), explorer(&mut harness).dialogs.path_entry.open.clone()),
         ("mine.csv".to_owned(), String::new())
     );
 }
@@ -174,9 +174,9 @@ fn a_path_that_ends_like_another_kind_of_file_is_refused_before_anything_is_aske
             for command in [Action::ExportNew(what, path.clone()), Action::Export(what, path.clone())] {
                 explorer(&mut harness).actions.push(command);
                 wait(&mut harness);
-                let said = explorer(&mut harness).notices.take().expect("a sentence");
+                let said = explorer(&mut harness).toasts.take().expect("a sentence");
                 assert!(said.contains(&format!("expected a name that ends in {ending}")), "{said}");
-                assert!(explorer(&mut harness).replacing.is_none());
+                assert!(explorer(&mut harness).dialogs.overwrite.is_none());
                 assert_eq!(std::fs::read_to_string(&path).ok().as_deref(), is_there.then_some("precious"));
             }
         }

@@ -62,12 +62,7 @@ pub enum Action {
     UseFit,
     /// The values from before the fit to the sliders.
     Back,
-    DismissNotices,
-    /// Take rows out of every statistic, or back in.
-    Mask {
-        rows: Vec<usize>,
-        masked: bool,
-    },
+    DismissToasts,
     Undo,
     Redo,
     /// Sliders and results as the earlier fit of that number left them, the newest first.
@@ -77,8 +72,6 @@ pub enum Action {
     /// Deal the residuals of the fit out anew.
     Bootstrap,
     CancelScan,
-    /// Sliders and terms as the comparison's fit of that number has them.
-    UseRung(usize),
     /// Sliders to the clipboard, as text.
     CopyParameters,
     /// Ask for what is on the clipboard.
@@ -86,8 +79,6 @@ pub enum Action {
     /// Text to the sliders.
     PasteParameters(String),
     ResetParameters,
-    /// Those sliders to those values.
-    SetParameters(Vec<(Parameter, f64)>),
     /// σ, q and the weights of the surface finish of that number.
     UseFinish(usize),
     /// The terms of that preset, by its key.

@@ -112,7 +112,7 @@ impl AuditView {
 
 impl View for AuditView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let key = (cx.settings.parameters, cx.settings.model);
+        let key = (cx.work.surface().parameters, cx.work.surface().model);
         let Ok(surface) = Pbrdf::new(key.1, key.0) else {
             // Values that are not numbers differ from themselves: a job would follow a job for ever.
             self.job = AsyncMemo::default();
@@ -126,7 +126,7 @@ impl View for AuditView {
         // The line at 1 is always in sight; what grows without end at grazing incidence is cut.
         self.range.follow(Range { low: 0.0, high: nice_ceiling(curves.top.clamp(1.0, HIGHEST)) }, cx.interacting);
         let range = &self.range;
-        let title = cx.document.title();
+        let title = cx.work.active().title();
         self.plot.refresh((self.curves.stamp(), range.get(), i18n::current()), |_| Some(curves.describe(title, range)));
     }
 

@@ -1,8 +1,8 @@
 //! The confidence band of a fit as it is drawn: one standard error of the curve to either side.
 
 use crate::app::views::curves::{directions, drawn, drawn_brdf};
-use crate::app::work::document::{Document, IncidenceSeries};
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use pbrdf::fit::FitResult;
 use pbrdf::model::{DolpFormula, Pbrdf};
 use pbrdf::optics::Facet;
@@ -15,13 +15,13 @@ pub type BandKey = Option<(usize, u64, bool, bool)>;
 pub type Band = Vec<[f64; 3]>;
 
 /// The key of the fit's band, if it is of the open measurement and to be shown.
-pub fn band_key(fit: Option<&FitEntry>, document: &Document, backscatter: bool, times_cosine: bool, shown: bool) -> BandKey {
+pub fn band_key(fit: Option<&FitEntry>, document: &OpenMeasurement, backscatter: bool, times_cosine: bool, shown: bool) -> BandKey {
     let fit = fit.filter(|fit| shown && fit.number == document.number)?;
     Some((fit.id, document.generation, backscatter, times_cosine))
 }
 
 /// Around the fitted DoLP along each series.
-pub fn dolp_bands(report: &FitResult, document: &Document, backscatter: bool) -> Vec<Band> {
+pub fn dolp_bands(report: &FitResult, document: &OpenMeasurement, backscatter: bool) -> Vec<Band> {
     // By either formula no DoLP is below 0; as printed it may exceed 1.
     let most = if report.model.dolp_formula == DolpFormula::Consistent { 1.0 } else { f64::MAX };
     along_series(report, document, backscatter, |surface, facets, _| {
@@ -35,7 +35,7 @@ pub fn dolp_bands(report: &FitResult, document: &Document, backscatter: bool) ->
 }
 
 /// Around the fitted BRDF along each series.
-pub fn brdf_bands(report: &FitResult, document: &Document, backscatter: bool, times_cosine: bool) -> Vec<Band> {
+pub fn brdf_bands(report: &FitResult, document: &OpenMeasurement, backscatter: bool, times_cosine: bool) -> Vec<Band> {
     along_series(report, document, backscatter, |surface, facets, angles| {
         let errors = report.band.brdf(facets);
         let ends = |((facet, angle), error): ((&Facet, &f64), Option<f64>)| {
@@ -50,7 +50,12 @@ pub fn brdf_bands(report: &FitResult, document: &Document, backscatter: bool, ti
 /// Ends of the band at each direction; none where it is open.
 type Ends = Vec<Option<(f64, f64)>>;
 
-fn along_series(report: &FitResult, document: &Document, backscatter: bool, ends: impl Fn(&Pbrdf, &[Facet], &[f64]) -> Ends) -> Vec<Band> {
+fn along_series(
+    report: &FitResult,
+    document: &OpenMeasurement,
+    backscatter: bool,
+    ends: impl Fn(&Pbrdf, &[Facet], &[f64]) -> Ends,
+) -> Vec<Band> {
     let Ok(surface) = Pbrdf::new(report.model, report.parameters) else { return Vec::new() };
     let band = |series: &IncidenceSeries| {
         let at = directions(series.theta_i, backscatter).into_iter();

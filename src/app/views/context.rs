@@ -4,34 +4,47 @@ use crate::app::tasks::jobs::Jobs;
 use crate::app::views::action::Action;
 use crate::app::views::benchmarks::Benchmarks;
 use crate::app::views::derived::Derived;
-use crate::app::work::diagnostics::Diagnostics;
-use crate::app::work::document::Document;
-use crate::app::work::fit_history::{FitEntry, FitHistory};
-use crate::app::work::model_fit::ModelFit;
-use crate::app::work::settings::Settings;
+use crate::app::work::edit::{Edit, Switch};
+use crate::app::work::settings::ViewOptions;
+use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
-use egui::{Key, Ui};
+use egui::{Key, Response, Ui};
 use std::any::Any;
-use std::sync::Arc;
 
 /// What a pane may look at, and where it leaves what it wants to have done.
 pub struct Cx<'a> {
-    /// A draft of the settings: its differences become edits of the work after the frame.
-    pub settings: &'a mut Settings,
-    pub document: &'a Document,
-    /// The fit that is shown.
-    pub fit: Option<&'a Arc<FitEntry>>,
-    pub fits: &'a FitHistory,
-    pub comparison: &'a [ModelFit],
-    /// Profile and bootstrap of that fit.
-    pub diagnostics: &'a mut Diagnostics,
+    pub work: &'a Workspace,
     pub derived: &'a mut Derived,
-    /// The progress of jobs; commands start and cancel them.
+    /// The progress of jobs; actions start and cancel them.
     pub jobs: &'a Jobs,
     pub benchmarks: &'a mut Benchmarks,
+    /// Changes of the work, carried out after the frame.
+    pub edits: &'a mut Vec<Edit>,
     pub actions: &'a mut Vec<Action>,
     /// Whether a button of the mouse is down: axes then grow and do not shrink.
     pub interacting: bool,
+}
+
+impl Cx<'_> {
+    /// A tick box for a switch.
+    pub fn switch_ui(&mut self, switch: Switch, text: String, ui: &mut Ui) -> Response {
+        let mut on = switch.is_on(self.work.settings());
+        let response = ui.checkbox(&mut on, text);
+        if response.changed() {
+            self.edits.push(Edit::SetSwitch(switch, on));
+        }
+        response
+    }
+
+    /// Widgets that change what panes show.
+    pub fn view_options_ui(&mut self, content: impl FnOnce(&mut ViewOptions)) {
+        let before = self.work.settings().shown;
+        let mut options = before;
+        content(&mut options);
+        if options != before {
+            self.edits.push(Edit::SetViewOptions(options));
+        }
+    }
 }
 
 /// The content of a pane.

@@ -54,12 +54,12 @@ fn describe(fit: &FitEntry, by_time: bool, title: String) -> Figure {
 
 impl View for ConvergenceView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let key = Key(cx.fit.cloned(), cx.settings.shown.convergence_by_time, i18n::current());
-        self.plot.refresh(key, |Key(fit, by_time, _)| fit.as_ref().map(|fit| describe(fit, *by_time, cx.document.title())));
+        let key = Key(cx.work.shown_fit().cloned(), cx.work.settings().shown.convergence_by_time, i18n::current());
+        self.plot.refresh(key, |Key(fit, by_time, _)| fit.as_ref().map(|fit| describe(fit, *by_time, cx.work.active().title())));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let Some(fit) = cx.fit else {
+        let Some(fit) = cx.work.shown_fit() else {
             ui.label(tr!("There is no fit yet: press Fit, and its way down is drawn here."));
             return;
         };
@@ -74,7 +74,7 @@ impl View for ConvergenceView {
         }
         let starts = report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>();
         ui.weak(tr!("Winning start of {0}; {1}", starts, report.stop_reason.localized()));
-        let title = if cx.settings.shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
+        let title = if cx.work.settings().shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
         let hover = |_: &str, x: f64, y: f64| format!("{title}: {}\nΔE = {y:.6e}", decimal(x, 0.1));
         let style = PanelStyle::new("convergence", ui.available_height(), &hover).named(tr!("Plot: ΔE of the last fit against {}", title));
         if let Some(panel) = self.plot.panel(0) {
@@ -83,10 +83,13 @@ impl View for ConvergenceView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let by_time = &mut cx.settings.shown.convergence_by_time;
-        ui.radio_value(by_time, false, tr!("Against evaluations"))
-            .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
-        ui.radio_value(by_time, true, tr!("Against time")).on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
+        cx.view_options_ui(|shown| {
+            let by_time = &mut shown.convergence_by_time;
+            ui.radio_value(by_time, false, tr!("Against evaluations"))
+                .on_hover_text(tr!("Evaluations of the residuals, the same on every machine"));
+            ui.radio_value(by_time, true, tr!("Against time"))
+                .on_hover_text(tr!("Milliseconds since the fit began, all its starts included"));
+        });
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {

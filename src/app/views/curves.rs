@@ -2,8 +2,8 @@
 
 use crate::app::plots::theme::MUTED;
 use crate::app::plots::{Polyline, Range, finite};
-use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
-use crate::app::work::settings::Settings;
+use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
+use crate::app::work::workspace::Workspace;
 use crate::figure;
 use crate::figure::{Point, Rgb, SERIES, Symbol};
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
@@ -126,10 +126,11 @@ pub struct CurveKey {
 }
 
 impl CurveKey {
-    pub fn new(settings: &Settings, document: &Document) -> Self {
+    pub fn new(work: &Workspace) -> Self {
+        let (settings, surface, document) = (work.settings(), work.surface(), work.active());
         Self {
-            parameters: settings.parameters,
-            model: settings.model,
+            parameters: surface.parameters,
+            model: surface.model,
             theta_i: settings.theta_i,
             dphi: settings.dphi,
             times_cosine: settings.shown.times_cosine,
@@ -157,7 +158,7 @@ pub struct CurveSet {
 
 impl CurveSet {
     /// Without curves where the values mean no surface.
-    pub fn new(key: &CurveKey, document: &Document) -> Self {
+    pub fn new(key: &CurveKey, document: &OpenMeasurement) -> Self {
         let Ok(surface) = Pbrdf::new(key.model, key.parameters) else {
             return Self { series: drawn(document).map(|_| ModelCurves::default()).collect(), ..Self::default() };
         };
@@ -204,7 +205,7 @@ impl Decimation {
 }
 
 impl MarkSet {
-    pub fn new(document: &Document, times_cosine: bool) -> Self {
+    pub fn new(document: &OpenMeasurement, times_cosine: bool) -> Self {
         let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
         let step = total.div_ceil(MOST_POINTS).max(1);
         let series = drawn(document).map(|series| SeriesMarks {
@@ -228,7 +229,7 @@ pub fn axis_values(curve: &Polyline) -> impl Iterator<Item = f64> {
 }
 
 /// The series that are drawn.
-pub fn drawn(document: &Document) -> impl Iterator<Item = &IncidenceSeries> {
+pub fn drawn(document: &OpenMeasurement) -> impl Iterator<Item = &IncidenceSeries> {
     document.series.iter().take(MOST_SERIES)
 }
 

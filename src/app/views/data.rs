@@ -4,10 +4,10 @@ use crate::app::jobs::memo::Memo;
 use crate::app::text::glossary::mask_help;
 use crate::app::text::i18n::translated;
 use crate::app::text::numbers::{short, significant};
-use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::document::{Document, IncidenceSeries};
-use crate::app::work::settings::Settings;
+use crate::app::work::edit::Edit;
+use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
+use crate::app::work::workspace::Workspace;
 use egui::{Align, Checkbox, CollapsingHeader, Key, Layout, Role, ScrollArea, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::measurement::{Quantity, Row, shortest};
@@ -47,10 +47,10 @@ pub struct DataView {
 impl View for DataView {
     /// Evaluates the rows that are seen, and no others: there may be a million.
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
-        let rows = &cx.document.measurement.rows;
+        let surface = cx.work.surface();
+        let rows = &cx.work.active().measurement.rows;
         let visible = self.visible.start.min(rows.len())..self.visible.end.min(rows.len());
-        let key = (settings.parameters, settings.model, cx.document.generation, visible);
+        let key = (surface.parameters, surface.model, cx.work.active().generation, visible);
         self.predicted.refresh(key, |(parameters, model, _, visible)| {
             let Ok(surface) = Pbrdf::new(*model, *parameters) else { return Vec::new() };
             let predict = |row: &Row| {
@@ -62,9 +62,9 @@ impl View for DataView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        metadata_ui(cx.document, ui);
-        series_ui(cx.document, cx.actions, ui);
-        let visible = rows_ui(cx.document, self, cx.actions, ui);
+        metadata_ui(cx.work.active(), ui);
+        series_ui(cx.work.active(), cx.edits, ui);
+        let visible = rows_ui(cx.work.active(), self, cx.edits, ui);
         if visible != self.visible {
             self.visible = visible;
             // The model in the new rows is evaluated before the next frame.
@@ -74,9 +74,9 @@ impl View for DataView {
 }
 
 /// All rows as the pane shows them, with all digits, and with tabs between cells.
-pub fn table_text(settings: &Settings, document: &Document) -> String {
-    let measurement = &document.measurement;
-    let surface = Pbrdf::new(settings.model, settings.parameters).ok();
+pub fn table_text(work: &Workspace) -> String {
+    let (surface, measurement) = (work.surface(), &work.active().measurement);
+    let surface = Pbrdf::new(surface.model, surface.parameters).ok();
     let shown = [("DoLP", measurement.has_dolp()), ("BRDF", measurement.has_brdf())];
     let mut headings: Vec<String> = ["row", "mask"].map(translated).into();
     headings.extend(ANGLES.map(|(heading, ..)| heading.to_owned()));
@@ -106,7 +106,7 @@ pub fn table_text(settings: &Settings, document: &Document) -> String {
 /// Height that metadata and series have at most.
 const LIST_HEIGHT: f32 = 120.0;
 
-fn metadata_ui(document: &Document, ui: &mut Ui) {
+fn metadata_ui(document: &OpenMeasurement, ui: &mut Ui) {
     let metadata = &document.measurement.metadata;
     let title = tr!("Metadata ({})", metadata.len());
     CollapsingHeader::new(title).id_salt("metadata").show(ui, |ui| {
@@ -125,20 +125,20 @@ fn metadata_ui(document: &Document, ui: &mut Ui) {
     });
 }
 
-fn series_ui(document: &Document, commands: &mut Vec<Action>, ui: &mut Ui) {
+fn series_ui(document: &OpenMeasurement, edits: &mut Vec<Edit>, ui: &mut Ui) {
     let title = tr!("Series ({})", document.series.len());
     CollapsingHeader::new(title).id_salt("series").show(ui, |ui| {
         let height = ui.spacing().interact_size.y;
         let area = ScrollArea::vertical().id_salt("series").max_height(LIST_HEIGHT).auto_shrink([false, true]);
         area.show_rows(ui, height, document.series.len(), |ui, range| {
             for series in &document.series[range] {
-                one_series_ui(document, series, commands, ui);
+                one_series_ui(document, series, edits, ui);
             }
         });
     });
 }
 
-fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut Vec<Action>, ui: &mut Ui) {
+fn one_series_ui(document: &OpenMeasurement, series: &IncidenceSeries, edits: &mut Vec<Edit>, ui: &mut Ui) {
     let rows = &document.measurement.rows;
     let masked = series.rows.iter().filter(|&&row| rows[row].masked).count();
     let all = masked == series.rows.len();
@@ -146,7 +146,7 @@ fn one_series_ui(document: &Document, series: &IncidenceSeries, commands: &mut V
     let text = tr!("mask {0}: {1} of {2} rows masked", series.name(), masked, series.rows.len());
     let response = ui.add(Checkbox::new(&mut wanted, text).indeterminate(masked > 0 && !all));
     if response.on_hover_text(tr!("Leave this whole series out of every statistic, without deleting it")).changed() {
-        commands.push(Action::Mask { rows: series.rows.clone(), masked: !all });
+        edits.push(Edit::Mask { rows: series.rows.clone(), masked: !all });
     }
 }
 
@@ -172,7 +172,7 @@ const BRDF: [Heading; 4] = [
 ];
 
 /// The rows; returns those that are seen.
-fn rows_ui(document: &Document, view: &DataView, commands: &mut Vec<Action>, ui: &mut Ui) -> Range<usize> {
+fn rows_ui(document: &OpenMeasurement, view: &DataView, edits: &mut Vec<Edit>, ui: &mut Ui) -> Range<usize> {
     let measurement = &document.measurement;
     let (has_dolp, has_brdf) = (measurement.has_dolp(), measurement.has_brdf());
     let headings = ANGLES.iter().chain(DOLP.iter().filter(|_| has_dolp)).chain(BRDF.iter().filter(|_| has_brdf));
@@ -205,7 +205,7 @@ fn rows_ui(document: &Document, view: &DataView, commands: &mut Vec<Action>, ui:
                     let values = view.predicted.get()?;
                     values.get(index - key.3.start).copied()
                 });
-                line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp, has_brdf), commands);
+                line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp, has_brdf), edits);
             });
         });
     });
@@ -218,14 +218,14 @@ fn line_ui(
     row: &Row,
     predicted: Option<Predicted>,
     (has_dolp, has_brdf): (bool, bool),
-    commands: &mut Vec<Action>,
+    edits: &mut Vec<Edit>,
 ) {
     line.col(|ui| {
         let mut masked = row.masked;
         let response = ui.add(Checkbox::without_text(&mut masked));
         response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, masked, tr!("Mask row {}", index + 1)));
         if response.changed() {
-            commands.push(Action::Mask { rows: vec![index], masked });
+            edits.push(Edit::Mask { rows: vec![index], masked });
         }
     });
     let mut cell = |text: String| {

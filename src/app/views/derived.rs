@@ -2,9 +2,9 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
-use crate::app::work::document::Document;
 use crate::app::work::fit_setup::problem;
-use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
+use crate::app::work::workspace::Workspace;
 use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 
@@ -20,24 +20,31 @@ pub struct Derived {
     /// Whether every value that counts comes with its standard deviation, by generation of the document.
     states_sigmas: Memo<u64, bool>,
     fault: Memo<(Parameters, Model), Option<ParameterError>>,
-    outlook: Memo<(Settings, ParameterSet, u64), Option<Identifiability>>,
+    /// Whether the panel of fits shows what the data determine.
+    pub is_outlook_shown: bool,
+    outlook: Memo<OutlookKey, Option<Identifiability>>,
 }
+
+/// Surface, free parameters, options of the fit, generation of the measurement.
+type OutlookKey = (Surface, ParameterSet, FitOptions, u64);
 
 impl Derived {
     /// The measured points and the curves, for the panes that draw them.
-    pub fn refresh_curves(&mut self, settings: &Settings, document: &Document) {
+    pub fn refresh_curves(&mut self, work: &Workspace) {
+        let (settings, document) = (work.settings(), work.active());
         let times_cosine = settings.shown.times_cosine;
         self.marks.refresh((document.generation, times_cosine), |_| MarkSet::new(document, times_cosine));
-        self.curves.refresh(CurveKey::new(settings, document), |key| CurveSet::new(key, document));
+        self.curves.refresh(CurveKey::new(work), |key| CurveSet::new(key, document));
     }
 
     /// What is on screen whatever the panes are: ΔE, and why there is no curve.
-    pub fn refresh_status(&mut self, settings: &Settings, document: &Document) {
-        let Settings { parameters, model, .. } = *settings;
+    pub fn refresh_status(&mut self, work: &Workspace) {
+        let (surface, document) = (work.surface(), work.active());
+        let Surface { parameters, model, .. } = *surface;
         self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err());
         // ΔE does not depend on the options of a fit.
         self.problem.refresh((document.generation, model), |_| {
-            problem(settings, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
+            problem(surface, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
         });
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
         let problem = self.problem.get().and_then(Option::as_ref);
@@ -45,9 +52,10 @@ impl Derived {
     }
 
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
-    pub fn refresh_outlook(&mut self, settings: &Settings, document: &Document, free: ParameterSet, is_shown: bool) {
-        if is_shown {
-            self.outlook.refresh((settings.clone(), free, document.generation), |_| Identifiability::new(settings, document, free));
+    pub fn refresh_outlook(&mut self, work: &Workspace, free: ParameterSet) {
+        if self.is_outlook_shown {
+            let key = (work.surface().clone(), free, work.settings().choices, work.active().generation);
+            self.outlook.refresh(key, |_| Identifiability::new(work, free));
         } else {
             self.outlook.clear();
         }
@@ -89,11 +97,12 @@ pub struct Identifiability {
 }
 
 impl Identifiability {
-    fn new(settings: &Settings, document: &Document, free: ParameterSet) -> Option<Self> {
-        let parameters = settings.parameters;
+    fn new(work: &Workspace, free: ParameterSet) -> Option<Self> {
+        let (settings, surface) = (work.settings(), work.surface());
+        let parameters = surface.parameters;
         let with = |weights| {
             let choices = FitOptions { weights, loss: Loss::Squared, ..settings.choices };
-            problem(settings, &document.measurement, settings.model, free, choices).ok()
+            problem(surface, &work.active().measurement, surface.model, free, choices).ok()
         };
         let stated = with(Weights::Sigma);
         let from_stated = stated.is_some();

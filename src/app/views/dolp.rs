@@ -12,8 +12,10 @@ use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_v
 use crate::app::views::facets::{another, sigma_of_equal_median};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
 use crate::app::views::residuals::ResidualStrip;
-use crate::app::work::document::Document;
+use crate::app::work::edit::Switch;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::{Overlay, Settings, ViewOptions};
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, Rgb, SERIES, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
@@ -72,14 +74,14 @@ impl DolpView {
 
     /// ModelCurves of other surfaces than the sliders', and the band.
     fn refresh_others(&mut self, cx: &Cx<'_>, backscatter: bool) {
-        let (settings, document) = (&*cx.settings, cx.document);
+        let (settings, surface, document) = (cx.work.settings(), cx.work.surface(), cx.work.active());
         let key_of = |parameters, model| (parameters, model, document.generation, backscatter);
-        let of_sliders = key_of(settings.parameters, settings.model);
-        let fitted = cx.fit.map(|fit| key_of(fit.report.parameters, fit.report.model));
+        let of_sliders = key_of(surface.parameters, surface.model);
+        let fitted = cx.work.shown_fit().map(|fit| key_of(fit.report.parameters, fit.report.model));
         self.ghost.refresh(fitted.filter(|key| *key != of_sliders), |key| along_series(key.as_ref(), document));
-        let other = other_distribution(settings).map(|(parameters, model)| key_of(parameters, model));
+        let other = other_distribution(cx.work).map(|(parameters, model)| key_of(parameters, model));
         self.overlay.refresh(other, |key| along_series(key.as_ref(), document));
-        let fit = cx.fit.map(|fit| &**fit);
+        let fit = cx.work.shown_fit().map(|fit| &**fit);
         self.band.refresh(band_key(fit, document, backscatter, false, settings.show_band), |key| match (key, fit) {
             (Some((_, _, backscatter, _)), Some(fit)) => dolp_bands(&fit.report, document, *backscatter),
             _ => Vec::new(),
@@ -88,24 +90,24 @@ impl DolpView {
 
     /// The axis, up to the highest curve or point.
     fn follow(&mut self, curves: &CurveSet, marks: &MarkSet, cx: &Cx<'_>) {
-        let limit = cx.settings.show_limit;
+        let limit = cx.work.settings().show_limit;
         let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
         let points = marks.series.iter().flat_map(|marks| &marks.dolp.used).map(|point| point.bar.map_or(point.y, |bar| bar.1));
         let ghost = self.ghost.get().into_iter().flatten().flat_map(axis_values);
         let top = values.chain(ghost).chain(points).fold(0.0, f64::max);
-        let high = if cx.settings.shown.share { 1.05 } else { nice_ceiling(top).min(1.05) };
+        let high = if cx.work.settings().shown.share { 1.05 } else { nice_ceiling(top).min(1.05) };
         self.range.follow(Range { low: 0.0, high }, cx.interacting);
     }
 
     fn describe(&self, curves: &CurveSet, key: &CurveKey, marks: &MarkSet, cx: &Cx<'_>) -> Figure {
-        let names = Names::new(cx.settings);
+        let names = Names::new(cx.work);
         let mut series = Vec::new();
         for (i, ((curves, marks), color)) in curves.series.iter().zip(&marks.series).zip(SERIES).enumerate() {
             if !self.shows(Line::Series(i)) {
                 continue;
             }
             let of_series = |along: &Memo<Option<SurfaceKey>, Vec<Polyline>>| along.get().and_then(|curves| curves.get(i)).cloned();
-            self.push_limit(&mut series, curves, &names, color, cx.settings);
+            self.push_limit(&mut series, curves, &names, color, cx.work.settings());
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)).filter(|_| self.shows(Line::Band)) {
                 series.push(Series::band(&marks.name, band.clone()).colored(color));
             }
@@ -117,15 +119,15 @@ impl DolpView {
             }
             series.push(Series::line(&marks.name, curves.dolp.clone()).colored(color));
             series.extend(marks.dolp.series(&marks.name, color));
-            self.push_share(&mut series, curves, &names, color, cx.settings);
+            self.push_share(&mut series, curves, &names, color, cx.work.settings());
         }
         if curves.own_is_series.is_none() && self.shows(Line::Own) {
-            self.push_limit(&mut series, &curves.own, &names, FOREGROUND, cx.settings);
-            self.push_share(&mut series, &curves.own, &names, FOREGROUND, cx.settings);
+            self.push_limit(&mut series, &curves.own, &names, FOREGROUND, cx.work.settings());
+            self.push_share(&mut series, &curves.own, &names, FOREGROUND, cx.work.settings());
             series.push(Series::line(&names.own, curves.own.dolp.clone()).colored(FOREGROUND));
         }
         let (x, y) = (key.x().on(Axis::linear("θr", "°")), self.range.on(Axis::linear("DoLP", "")));
-        Figure { title: cx.document.title(), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
+        Figure { title: cx.work.active().title(), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
     }
 
     fn push_limit(&self, series: &mut Vec<Series>, curves: &ModelCurves, names: &Names, color: Rgb, settings: &Settings) {
@@ -147,13 +149,14 @@ const SHARE: f64 = 0.65;
 
 impl View for DolpView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        cx.derived.refresh_curves(cx.settings, cx.document);
+        cx.derived.refresh_curves(cx.work);
         let derived = &*cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);
         let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.ghost.stamp(), self.overlay.stamp(), self.band.stamp()];
-        let figure_key = (stamps, cx.settings.shown, cx.settings.show_limit, self.hidden.clone(), self.range.get(), i18n::current());
+        let figure_key =
+            (stamps, cx.work.settings().shown, cx.work.settings().show_limit, self.hidden.clone(), self.range.get(), i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
@@ -173,29 +176,28 @@ impl View for DolpView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let shown = &mut cx.settings.shown;
-        ui.checkbox(&mut shown.share, tr!("Specular share"))
-            .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
+        cx.view_options_ui(|shown| {
+            ui.checkbox(&mut shown.share, tr!("Specular share"))
+                .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
+            ui.separator();
+            ui.label(tr!("The other distribution"));
+            for (overlay, name, help) in [
+                (Overlay::Absent, tr!("not shown"), tr!("Only the distribution of the model")),
+                (
+                    Overlay::EqualSigma,
+                    tr!("with equal σ"),
+                    tr!("The same σ, which is not the same width: compare shapes with equal median slope"),
+                ),
+                (Overlay::EqualMedian, tr!("with equal median slope"), tr!("σ such that half of the facets stay below the same slope")),
+            ] {
+                ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
+            }
+        });
         ui.separator();
-        ui.label(tr!("The other distribution"));
-        for (overlay, name, help) in [
-            (Overlay::Absent, tr!("not shown"), tr!("Only the distribution of the model")),
-            (
-                Overlay::EqualSigma,
-                tr!("with equal σ"),
-                tr!("The same σ, which is not the same width: compare shapes with equal median slope"),
-            ),
-            (Overlay::EqualMedian, tr!("with equal median slope"), tr!("σ such that half of the facets stay below the same slope")),
-        ] {
-            ui.radio_value(&mut shown.overlay, overlay, name).on_hover_text(help);
-        }
-        ui.separator();
-        ui.checkbox(&mut cx.settings.show_band, tr!("Confidence band"))
-            .on_hover_text(tr!("One standard error of the fitted curve to either side"));
-        ui.checkbox(&mut cx.settings.show_limit, tr!("Fresnel limit"))
+        cx.switch_ui(Switch::Band, tr!("Confidence band"), ui).on_hover_text(tr!("One standard error of the fitted curve to either side"));
+        cx.switch_ui(Switch::Limit, tr!("Fresnel limit"), ui)
             .on_hover_text(tr!("DoLP without any depolarising term: no point can lie above it"));
-        ui.checkbox(&mut cx.settings.show_backscatter, tr!("Backscatter side"))
-            .on_hover_text(tr!("Negative θr, also where nothing was measured"));
+        cx.switch_ui(Switch::Backscatter, tr!("Backscatter side"), ui).on_hover_text(tr!("Negative θr, also where nothing was measured"));
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
@@ -206,7 +208,7 @@ impl View for DolpView {
 impl DolpView {
     fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32) {
         let Some(marks) = cx.derived.marks.get() else { return };
-        let entries = self.key_entries(marks, cx.settings, cx.fit.is_some(), ui.visuals().dark_mode);
+        let entries = self.key_entries(marks, cx.work, ui.visuals().dark_mode);
         let top = ui.cursor().top();
         switching_key_line_ui(&entries, &mut self.hidden, ui);
         let height = height - (ui.cursor().top() - top);
@@ -217,16 +219,16 @@ impl DolpView {
         let mask = clicked_mask(
             &response,
             ui,
-            cx.document,
+            cx.work.active(),
             |i, series| if self.shows(Line::Series(i)) { &series.dolp } else { &[] },
             |mark| Some(mark.quantity.value),
         );
-        cx.actions.extend(mask);
+        cx.edits.extend(mask);
     }
 
     /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot keeps its height while one moves.
-    fn key_entries(&self, marks: &MarkSet, settings: &Settings, is_fitted: bool, dark: bool) -> Vec<(Line, KeyEntry)> {
-        let names = Names::new(settings);
+    fn key_entries(&self, marks: &MarkSet, work: &Workspace, dark: bool) -> Vec<(Line, KeyEntry)> {
+        let (names, settings, is_fitted) = (Names::new(work), work.settings(), work.shown_fit().is_some());
         let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
         let curve = (LineStyle::Solid, 2.0);
         let series = marks.series.iter().enumerate();
@@ -247,15 +249,16 @@ impl DolpView {
 }
 
 /// DoLP of a surface along each series.
-fn along_series(key: Option<&SurfaceKey>, document: &Document) -> Vec<Polyline> {
+fn along_series(key: Option<&SurfaceKey>, document: &OpenMeasurement) -> Vec<Polyline> {
     let Some(&(parameters, model, _, backscatter)) = key else { return Vec::new() };
     let Ok(surface) = Pbrdf::new(model, parameters) else { return Vec::new() };
     drawn(document).map(|series| ModelCurves::new(&surface, series, backscatter, false).dolp).collect()
 }
 
 /// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.
-fn other_distribution(settings: &Settings) -> Option<(Parameters, Model)> {
-    let Settings { model, mut parameters, shown, .. } = *settings;
+fn other_distribution(work: &Workspace) -> Option<(Parameters, Model)> {
+    let (surface, shown) = (work.surface(), work.settings().shown);
+    let (model, mut parameters) = (surface.model, surface.parameters);
     let other = another(model.distribution);
     match shown.overlay {
         _ if !model.specular => return None,
@@ -294,8 +297,9 @@ struct Names {
 }
 
 impl Names {
-    fn new(settings: &Settings) -> Self {
-        let other = match (another(settings.model.distribution), settings.shown.overlay) {
+    fn new(work: &Workspace) -> Self {
+        let settings = work.settings();
+        let other = match (another(work.surface().model.distribution), settings.shown.overlay) {
             (SlopeDistribution::Gauss, Overlay::EqualMedian) => tr!("Gauss, equal median slope"),
             (SlopeDistribution::Gauss, _) => tr!("Gauss, equal σ"),
             (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),

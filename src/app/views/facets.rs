@@ -8,8 +8,8 @@ use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
-use crate::app::work::document::IncidenceSeries;
-use crate::app::work::settings::Settings;
+use crate::app::work::open_measurement::IncidenceSeries;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
@@ -150,7 +150,8 @@ impl FacetsView {
         self.range.follow(range, interacting);
     }
 
-    fn describe(&self, densities: &[Density; 2], masking: &Polyline, settings: &Settings) -> Option<Figure> {
+    fn describe(&self, densities: &[Density; 2], masking: &Polyline, work: &Workspace) -> Option<Figure> {
+        let (settings, surface) = (work.settings(), work.surface());
         let range = self.range.get()?;
         let y = if settings.shown.facets_log {
             Axis::log(tr!("density"), "sr⁻¹").between(libm::exp10(range.low), libm::exp10(range.high))
@@ -160,7 +161,7 @@ impl FacetsView {
         let mut series = Vec::new();
         for ((distribution, density), color) in SlopeDistribution::ALL.into_iter().zip(densities).zip(SERIES) {
             let name = name(distribution);
-            let width = if distribution == settings.model.distribution { OWN } else { OTHER };
+            let width = if distribution == surface.model.distribution { OWN } else { OTHER };
             series.push(Series::stroke(tr!("{}: P", name), density.p.clone(), width, Dash::Solid).colored(color));
             series.push(Series::dashed(tr!("{}: D = P / cos α", name), density.d.clone(), Dash::Dashed).colored(color));
             if let (Some(half), Some((low, high))) = (density.half_width, y.range) {
@@ -171,7 +172,7 @@ impl FacetsView {
             series.push(Series::upright(name, density.median).colored(color));
         }
         let tilts = Panel {
-            title: format!("σ = {}, q = {}", significant(settings.parameters.sigma), significant(settings.parameters.q)),
+            title: format!("σ = {}, q = {}", significant(surface.parameters.sigma), significant(surface.parameters.q)),
             x: self.tilts.on(Axis::linear("α", "°")),
             y,
             series,
@@ -179,7 +180,7 @@ impl FacetsView {
             ..Panel::default()
         };
         // Without masking, the model has G = 1 everywhere.
-        let ink = if settings.model.masking == Masking::None { MUTED } else { FOREGROUND };
+        let ink = if surface.model.masking == Masking::None { MUTED } else { FOREGROUND };
         let shadows = Panel {
             title: tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi),
             x: Axis::linear("θr", "°").between(-90.0, 90.0),
@@ -193,8 +194,8 @@ impl FacetsView {
 
 impl View for FacetsView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
-        let (parameters, model, shown) = (settings.parameters, settings.model, settings.shown);
+        let (settings, work) = (cx.work.settings(), cx.work);
+        let (parameters, model, shown) = (work.surface().parameters, work.surface().model, settings.shown);
         let key = (parameters.sigma, parameters.q, model.distribution, shown.facets_equal_median);
         self.densities.refresh(key, |&(sigma, q, own, equal_median)| {
             SlopeDistribution::ALL.map(|distribution| {
@@ -207,7 +208,7 @@ impl View for FacetsView {
         let stamps = [self.densities.stamp(), self.masking.stamp()];
         let key = (stamps, shown.facets_log, model.masking, [self.tilts.get(), self.range.get()], i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, settings));
+        plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, work));
         self.plot = plot;
     }
 
@@ -235,11 +236,12 @@ impl View for FacetsView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let shown = &mut cx.settings.shown;
-        ui.checkbox(&mut shown.facets_log, tr!("Logarithmic densities")).on_hover_text(tr!("Shows the tails, which q sets"));
-        ui.checkbox(&mut shown.facets_equal_median, tr!("Equal median slope")).on_hover_text(tr!(
-            "The distribution that the model does not have is drawn with the median slope of the other, not with the same σ"
-        ));
+        cx.view_options_ui(|shown| {
+            ui.checkbox(&mut shown.facets_log, tr!("Logarithmic densities")).on_hover_text(tr!("Shows the tails, which q sets"));
+            ui.checkbox(&mut shown.facets_equal_median, tr!("Equal median slope")).on_hover_text(tr!(
+                "The distribution that the model does not have is drawn with the median slope of the other, not with the same σ"
+            ));
+        });
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {

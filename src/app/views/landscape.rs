@@ -14,9 +14,9 @@ pub use state::LandscapeView;
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
-use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::settings::{LandscapeAxes, Settings};
+use crate::app::work::edit::Edit;
+use crate::app::work::settings::LandscapeAxes;
 use crate::figure::Figure;
 use axes::{axis_over, first, tidy, value, whole};
 use drawn::LandscapeImage;
@@ -26,7 +26,7 @@ use key::LandscapeKey;
 use map::map_ui;
 use marks::{Marks, MarksKey};
 use pbrdf::fit::Loss;
-use pbrdf::model::Parameter;
+use pbrdf::model::{Parameter, ParameterSet};
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -52,26 +52,26 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
 
 impl View for LandscapeView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let (settings, document) = (&*cx.settings, cx.document);
+        let (work, settings, surface, document) = (cx.work, cx.work.settings(), cx.work.surface(), cx.work.active());
         let LandscapeAxes { across, up, .. } = settings.landscape;
-        let fit = cx.fit.map(|fit| &**fit);
+        let fit = cx.work.shown_fit().map(|fit| &**fit);
         let seen = self.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
         if seen.is_none() {
             self.wanted = Some([first(across), first(up)]);
         }
         let Some([x, y]) = self.wanted.or(seen) else { return };
-        self.marks.refresh(MarksKey::new(settings, document, cx.fits, fit), |key| Marks::new(key, cx.fits, fit, document));
-        let mut others = settings.parameters;
+        self.marks.refresh(MarksKey::new(work), |key| Marks::new(key, work));
+        let mut others = surface.parameters;
         (others[across], others[up]) = (0.0, 0.0);
         // A value that is not a number would differ from itself, and a job follow a job for ever.
         if across == up || others.to_array().iter().any(|value| !value.is_finite()) {
             self.job = AsyncMemo::default();
             return;
         }
-        let Settings { model, choices, .. } = *settings;
+        let (model, choices) = (surface.model, settings.choices);
         let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.options() == choices);
         let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
-        let scale_at = is_scaled.then(|| fitted.map_or(settings.parameters, |fit| fit.report.parameters));
+        let scale_at = is_scaled.then(|| fitted.map_or(surface.parameters, |fit| fit.report.parameters));
         let rows = document.measurement.rows.len() - document.mask().len();
         let key = |fine: bool| {
             let count = if fine { nodes(rows, FINE, EVALUATIONS[0]) } else { nodes(rows, COARSE, EVALUATIONS[1]) };
@@ -81,16 +81,18 @@ impl View for LandscapeView {
         let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
         self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
-        let (settings, measurement, made_from) = (settings.clone(), document.measurement.clone(), key.clone());
-        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| LandscapeImage::new(settings, &measurement, &made_from, stopped));
+        let (surface, measurement, made_from) = (surface.clone(), document.measurement.clone(), key.clone());
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| LandscapeImage::new(surface, &measurement, &made_from, stopped));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        self.axes_ui(cx, ui);
-        let LandscapeAxes { across, up, .. } = cx.settings.landscape;
+        let mut axes = cx.work.settings().landscape;
+        self.axes_ui(&mut axes, cx.work.surface().model.parameters(), ui);
+        cx.edits.extend(changed(cx, axes));
+        let LandscapeAxes { across, up, .. } = cx.work.settings().landscape;
         let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
         let height = (ui.available_height() - line).max(80.0);
-        let response = map_ui(self, cx.settings, height, ui);
+        let response = map_ui(self, cx.work, height, ui);
         let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
         response.response.widget_info(name);
         let bounds = response.transform.bounds();
@@ -112,7 +114,9 @@ impl View for LandscapeView {
         if let Some(point) = pointed.filter(|_| response.response.clicked())
             && values(point).iter().all(|(parameter, value)| parameter.domain().contains(*value))
         {
-            cx.actions.push(Action::SetParameters(values(point).to_vec()));
+            let mut parameters = cx.work.surface().parameters;
+            values(point).iter().for_each(|(parameter, value)| parameters[*parameter] = *value);
+            cx.edits.push(Edit::SetParameters(parameters));
         }
         let reading = pointed.map(|point| {
             let [x, y] = values(point).map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));
@@ -125,13 +129,14 @@ impl View for LandscapeView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let shown = &mut cx.settings.landscape;
+        let mut shown = cx.work.settings().landscape;
         ui.checkbox(&mut shown.contours, tr!("Contours"));
         ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
             .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
         ui.checkbox(&mut shown.minima, tr!("Minima of the last fit")).on_hover_text(tr!("Where its starts ended, each place once"));
         ui.checkbox(&mut shown.metals, tr!("Tabulated metals"))
             .on_hover_text(tr!("All sources at the wavelength of the metals pane, where the axes are n and k"));
+        cx.edits.extend(changed(cx, shown));
     }
 
     fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
@@ -147,6 +152,11 @@ impl View for LandscapeView {
     }
 }
 
+/// The edit that sets these axes, if they are others.
+fn changed(cx: &Cx<'_>, axes: LandscapeAxes) -> Option<Edit> {
+    (axes != cx.work.settings().landscape).then_some(Edit::SetLandscapeAxes(axes))
+}
+
 /// What stands under the map while nothing is pointed at.
 fn status(is_there: bool, is_one: bool) -> String {
     if is_one {
@@ -159,10 +169,8 @@ fn status(is_there: bool, is_one: bool) -> String {
 }
 
 impl LandscapeView {
-    fn axes_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let settings = &mut *cx.settings;
-        let used = settings.model.parameters();
-        let LandscapeAxes { across, up, .. } = &mut settings.landscape;
+    fn axes_ui(&mut self, axes: &mut LandscapeAxes, used: ParameterSet, ui: &mut Ui) {
+        let LandscapeAxes { across, up, .. } = axes;
         let mut is_reset = false;
         ui.horizontal(|ui| {
             for (id, name, parameter) in [("across", tr!("Across"), across), ("up", tr!("Up"), up)] {
@@ -179,8 +187,7 @@ impl LandscapeView {
             is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
         });
         if is_reset {
-            let LandscapeAxes { across, up, .. } = settings.landscape;
-            self.wanted = Some([across, up].map(whole));
+            self.wanted = Some([axes.across, axes.up].map(whole));
             // The landscape over them is made before the next frame.
             ui.ctx().request_repaint();
         }

@@ -9,6 +9,7 @@ use crate::app::views::confidence_band::{Band, BandKey, band_key, brdf_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
+use crate::app::work::edit::Switch;
 use crate::app::work::settings::ViewOptions;
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Key, Ui};
@@ -69,7 +70,7 @@ impl LobesView {
         let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| !marks.brdf.is_empty()).map(|(curves, _)| curves);
         let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
         let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
-        let log = cx.settings.log_brdf;
+        let log = cx.work.settings().log_brdf;
         let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in of_curves.chain(of_marks).map(|value| if log { libm::log10(value) } else { value }).filter(|value| value.is_finite()) {
             (bottom, top) = (bottom.min(value), top.max(value));
@@ -84,7 +85,7 @@ impl LobesView {
     }
 
     fn describe(&self, curves: &CurveSet, key: &CurveKey, marks: &MarkSet, cx: &Cx<'_>) -> Option<Figure> {
-        let settings = &*cx.settings;
+        let settings = cx.work.settings();
         let range = self.range.get()?;
         let (quantity, unit) = (quantity(settings.shown.times_cosine), "sr⁻¹");
         let y = if settings.log_brdf {
@@ -113,7 +114,7 @@ impl LobesView {
         }
         let title = tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
         let panel = Panel { title, x: key.x().on(Axis::linear("θr", "°")), y, series, ..Panel::default() };
-        Some(Figure { title: cx.document.title(), panels: vec![panel], ..Figure::default() })
+        Some(Figure { title: cx.work.active().title(), panels: vec![panel], ..Figure::default() })
     }
 
     /// The measured series, then the terms.
@@ -133,20 +134,21 @@ fn quantity(times_cosine: bool) -> &'static str {
 
 impl View for LobesView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        cx.derived.refresh_curves(cx.settings, cx.document);
+        cx.derived.refresh_curves(cx.work);
         let derived = &*cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
         self.follow(curves, marks, cx);
         // Where no BRDF was measured there is no fitted lobe.
-        let shown = cx.settings.show_band && cx.document.measurement.has_brdf();
-        let (fit, document) = (cx.fit.map(|fit| &**fit), cx.document);
-        let band_key = band_key(fit, document, key.backscatter, cx.settings.shown.times_cosine, shown);
+        let shown = cx.work.settings().show_band && cx.work.active().measurement.has_brdf();
+        let (fit, document) = (cx.work.shown_fit().map(|fit| &**fit), cx.work.active());
+        let band_key = band_key(fit, document, key.backscatter, cx.work.settings().shown.times_cosine, shown);
         self.band.refresh(band_key, |key| match (key, fit) {
             (Some((_, _, backscatter, times_cosine)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *times_cosine),
             _ => Vec::new(),
         });
         let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp()];
-        let figure_key = (stamps, cx.settings.shown, cx.settings.log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
+        let figure_key =
+            (stamps, cx.work.settings().shown, cx.work.settings().log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| self.describe(curves, key, marks, cx));
         self.plot = plot;
@@ -155,7 +157,7 @@ impl View for LobesView {
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
         switching_key_line_ui(&Self::key_entries(curves, marks, ui.visuals().dark_mode), &mut self.hidden, ui);
-        let (log, times_cosine) = (cx.settings.log_brdf, cx.settings.shown.times_cosine);
+        let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().shown.times_cosine);
         let quantity = quantity(times_cosine);
         let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr\n{}", translated(MASK_HINT));
         let style = PanelStyle::new("lobes", ui.available_height(), &hover).named(tr!("Plot: BRDF against θr"));
@@ -164,10 +166,10 @@ impl View for LobesView {
             let value = drawn_brdf(theta_r, brdf, times_cosine);
             Some(if log { libm::log10(value) } else { value }).filter(|y| y.is_finite())
         };
-        cx.actions.extend(clicked_mask(
+        cx.edits.extend(clicked_mask(
             &response,
             ui,
-            cx.document,
+            cx.work.active(),
             // What is not drawn cannot be meant.
             |i, series| if self.shows(Line::Series(i)) { &series.brdf } else { &[] },
             |mark| place(mark.theta_r, mark.quantity.value),
@@ -175,14 +177,14 @@ impl View for LobesView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        ui.checkbox(&mut cx.settings.log_brdf, tr!("Logarithmic BRDF"));
-        ui.checkbox(&mut cx.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
-        ui.checkbox(&mut cx.settings.shown.times_cosine, tr!("Times cos θr"))
-            .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
-        ui.checkbox(&mut cx.settings.show_band, tr!("Confidence band"))
-            .on_hover_text(tr!("One standard error of the fitted curve to either side"));
-        ui.checkbox(&mut cx.settings.show_backscatter, tr!("Backscatter side"))
-            .on_hover_text(tr!("Negative θr, also where nothing was measured"));
+        cx.switch_ui(Switch::LogBrdf, tr!("Logarithmic BRDF"), ui);
+        cx.view_options_ui(|shown| {
+            ui.checkbox(&mut shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));
+            ui.checkbox(&mut shown.times_cosine, tr!("Times cos θr"))
+                .on_hover_text(tr!("BRDF × cos θr: its integral over all directions is the reflectance"));
+        });
+        cx.switch_ui(Switch::Band, tr!("Confidence band"), ui).on_hover_text(tr!("One standard error of the fitted curve to either side"));
+        cx.switch_ui(Switch::Backscatter, tr!("Backscatter side"), ui).on_hover_text(tr!("Negative θr, also where nothing was measured"));
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {

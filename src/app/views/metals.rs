@@ -8,7 +8,9 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::settings::{MetalSelection, Settings};
+use crate::app::work::edit::Edit;
+use crate::app::work::settings::MetalSelection;
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Align, ComboBox, DragValue, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -73,7 +75,8 @@ impl MetalsView {
         }
     }
 
-    fn describe(&self, metal: &Metal, settings: &Settings) -> Option<Figure> {
+    fn describe(&self, metal: &Metal, work: &Workspace) -> Option<Figure> {
+        let (settings, surface) = (work.settings(), work.surface());
         let (lines, found) = (self.lines.get()?, self.found.get()?);
         let wavelength_nm = settings.tabulated.wavelength_nm;
         let panels = PARTS.into_iter().enumerate().map(|(i, (parameter, part))| {
@@ -87,7 +90,7 @@ impl MetalsView {
                     series.push(Series::points(&source.name, [[wavelength_nm, part(*index)]]).colored(color));
                 }
             }
-            series.push(Series::level(tr!("slider"), settings.parameters[parameter]).colored(FOREGROUND));
+            series.push(Series::level(tr!("slider"), surface.parameters[parameter]).colored(FOREGROUND));
             series.push(Series::upright(format!("{wavelength_nm} nm"), wavelength_nm).colored(MUTED));
             let x = self.wavelengths.on(Axis::linear(tr!("wavelength"), "nm"));
             let y = self.ranges[i].on(Axis::linear(parameter.symbol(), ""));
@@ -119,7 +122,7 @@ const FOLLOWED: f64 = 2.0;
 
 impl View for MetalsView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
+        let (settings, surface, work) = (cx.work.settings(), cx.work.surface(), cx.work);
         let Some(metal) = chosen(&settings.tabulated) else { return };
         let wavelength_nm = settings.tabulated.wavelength_nm;
         self.found.refresh((metal.key.clone(), wavelength_nm), |_| {
@@ -131,33 +134,36 @@ impl View for MetalsView {
             };
             metal.sources.iter().map(|source| PARTS.map(|(_, part)| line(source, part))).collect()
         });
-        self.follow(metal, wavelength_nm, &settings.parameters, cx.interacting);
+        self.follow(metal, wavelength_nm, &surface.parameters, cx.interacting);
         let stamps = [self.found.stamp(), self.lines.stamp()];
-        let sliders = PARTS.map(|(parameter, _)| settings.parameters[parameter]);
+        let sliders = PARTS.map(|(parameter, _)| surface.parameters[parameter]);
         let axes = [self.wavelengths.get(), self.ranges[0].get(), self.ranges[1].get()];
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh((stamps, sliders, settings.tabulated.source.clone(), axes, i18n::current()), |_| self.describe(metal, settings));
+        plot.refresh((stamps, sliders, settings.tabulated.source.clone(), axes, i18n::current()), |_| self.describe(metal, work));
         self.plot = plot;
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let Some(metal) = chosen(&cx.settings.tabulated) else { return };
+        let before = &cx.work.settings().tabulated;
+        let Some(metal) = chosen(before) else { return };
+        let (mut tabulated, sliders) = (before.clone(), cx.work.surface().parameters);
         ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
-            let before = cx.settings.tabulated.clone();
-            choice_ui(&mut cx.settings.tabulated, metal, ui);
-            wavelength_ui(cx, ui);
+            choice_ui(&mut tabulated, metal, ui);
+            wavelength_ui(&mut tabulated.wavelength_nm, cx.work.active().wavelength_nm(), ui);
             finishes_ui(cx, ui);
-            let tabulated = &cx.settings.tabulated;
             // The followed source takes the sliders along the wavelength.
             if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
                 let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
                 let index = followed.and_then(|source| source.index_at(tabulated.wavelength_nm).ok());
-                cx.actions.extend(index.map(set));
+                cx.edits.extend(index.map(|index| set(sliders, index)));
             }
-            self.sources_ui(cx, metal, ui);
+            self.sources_ui(&mut tabulated, metal, cx, ui);
             ui.add_space(4.0);
             self.lines_ui(ui);
         });
+        if tabulated != *before {
+            cx.edits.push(Edit::SetMetalSelection(tabulated));
+        }
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
@@ -165,9 +171,10 @@ impl View for MetalsView {
     }
 }
 
-/// The command that sets n and k.
-fn set(index: RefractiveIndex) -> Action {
-    Action::SetParameters(PARTS.iter().map(|(parameter, part)| (*parameter, part(index))).collect())
+/// The edit that sets n and k.
+fn set(mut parameters: Parameters, index: RefractiveIndex) -> Edit {
+    PARTS.iter().for_each(|(parameter, part)| parameters[*parameter] = part(index));
+    Edit::SetParameters(parameters)
 }
 
 /// Its name, with its symbol where it has one of its own.
@@ -194,9 +201,7 @@ fn choice_ui(tabulated: &mut MetalSelection, metal: &Metal, ui: &mut Ui) {
     });
 }
 
-fn wavelength_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
-    let measured = cx.document.wavelength_nm();
-    let wavelength_nm = &mut cx.settings.tabulated.wavelength_nm;
+fn wavelength_ui(wavelength_nm: &mut f64, measured: Option<f64>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let help = tr!("Vacuum wavelength in nm");
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
@@ -221,7 +226,7 @@ const ROW: f32 = 21.0;
 
 impl MetalsView {
     /// Every source with n, k and where it was published.
-    fn sources_ui(&self, cx: &mut Cx<'_>, metal: &Metal, ui: &mut Ui) {
+    fn sources_ui(&self, tabulated: &mut MetalSelection, metal: &Metal, cx: &mut Cx<'_>, ui: &mut Ui) {
         let Some(found) = self.found.get() else { return };
         if found.iter().all(Option::is_none) {
             let (low, high) = metal.range_nm();
@@ -243,9 +248,9 @@ impl MetalsView {
             table.body(|mut body| {
                 for (i, (source, index)) in metal.sources.iter().zip(found).enumerate() {
                     body.row(ROW, |mut row| {
-                        if source_ui(&mut row, i, source, *index, &cx.settings.tabulated) {
-                            cx.settings.tabulated.source = Some(source.key.clone());
-                            cx.actions.extend(index.map(set));
+                        if source_ui(&mut row, i, source, *index, tabulated) {
+                            tabulated.source = Some(source.key.clone());
+                            cx.edits.extend(index.map(|index| set(cx.work.surface().parameters, index)));
                         }
                     });
                 }

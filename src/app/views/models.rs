@@ -8,9 +8,10 @@ use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::document::Document;
+use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::reason;
 use crate::app::work::model_fit::ModelFit;
+use crate::app::work::workspace::Workspace;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
 use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
@@ -48,7 +49,7 @@ impl View for ModelsView {
                 running_model_ui(at, ui);
             }
         });
-        let comparison = cx.comparison;
+        let comparison = cx.work.model_comparison();
         if comparison.is_empty() {
             if running.is_none() {
                 ui.label(tr!("Nothing is compared yet."));
@@ -56,7 +57,7 @@ impl View for ModelsView {
             return;
         }
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-            models_ui(comparison, cx.settings.model, cx.document, cx.actions, ui);
+            models_ui(cx.work, cx.edits, ui);
             ui.add_space(6.0);
             for sentence in verdicts(comparison) {
                 ui.label(sentence);
@@ -86,7 +87,8 @@ fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
     .inner
 }
 
-fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &Document, commands: &mut Vec<Action>, ui: &mut Ui) {
+fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, ui: &mut Ui) {
+    let (comparison, current, document) = (work.model_comparison(), work.surface().model, work.active());
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.statistics.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
@@ -112,7 +114,7 @@ fn models_ui(comparison: &[ModelFit], current: pbrdf::model::Model, document: &D
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
             let button = Button::selectable(is_current, text).truncate();
             if narrow(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
-                commands.push(Action::UseRung(index));
+                edits.push(Edit::UseModelFit(index));
             }
             match &rung.result {
                 Ok(report) => quality_ui(report, best, ui),

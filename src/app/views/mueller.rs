@@ -8,7 +8,7 @@ use crate::app::plots::{ColorScale, Polyline, Range, ink_on, theme};
 use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
-use crate::app::work::document::IncidenceSeries;
+use crate::app::work::open_measurement::IncidenceSeries;
 use crate::app::work::settings::Settings;
 use crate::figure::{Axis, ColorMap, Figure, Panel, SERIES, Series};
 use egui::{Align2, Color32, DragValue, FontId, Key, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
@@ -100,9 +100,9 @@ const GAP: f32 = 14.0;
 
 impl View for MuellerView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
-        let surface = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
-        let backscatter = settings.show_backscatter || cx.document.has_backscatter();
+        let (settings, surface) = (cx.work.settings(), cx.work.surface());
+        let surface = (surface.parameters, surface.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
+        let backscatter = settings.show_backscatter || cx.work.active().has_backscatter();
         self.curves.refresh((surface, backscatter), ElementCurves::new);
         let theta_r = self.theta_r(settings.theta_i, backscatter);
         self.matrix.refresh((surface, theta_r), |((parameters, model, theta_i, plane), theta_r)| {
@@ -112,8 +112,8 @@ impl View for MuellerView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let settings = &*cx.settings;
-        let low: f64 = if settings.show_backscatter || cx.document.has_backscatter() { -90.0 } else { 0.0 };
+        let settings = cx.work.settings();
+        let low: f64 = if settings.show_backscatter || cx.work.active().has_backscatter() { -90.0 } else { 0.0 };
         let mut theta_r = self.theta_r(settings.theta_i, low < 0.0);
         let before = theta_r;
         self.choice_ui(settings, low, &mut theta_r, ui);
@@ -168,7 +168,7 @@ impl View for MuellerView {
                 ..Panel::default()
             }
         });
-        let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", cx.document.title(), theta_i, plane);
+        let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", cx.work.active().title(), theta_i, plane);
         Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
     }
 }

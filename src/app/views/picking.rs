@@ -1,8 +1,8 @@
 //! Clicks on measured points.
 
-use crate::app::views::action::Action;
 use crate::app::views::curves::drawn;
-use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
+use crate::app::work::edit::Edit;
+use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use egui::Ui;
 use egui_plot::{PlotPoint, PlotResponse};
 
@@ -17,10 +17,10 @@ pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole
 pub fn clicked_mask(
     response: &PlotResponse<()>,
     ui: &Ui,
-    document: &Document,
+    document: &OpenMeasurement,
     marks: impl Fn(usize, &IncidenceSeries) -> &[DataPoint],
     coordinate: impl Fn(&DataPoint) -> Option<f64>,
-) -> Option<Action> {
+) -> Option<Edit> {
     let modifiers = ui.input(|input| input.modifiers);
     let at = response.response.interact_pointer_pos().filter(|_| response.response.clicked() && modifiers.command)?;
     let distance = |mark: &DataPoint| {
@@ -31,5 +31,5 @@ pub fn clicked_mask(
     let near = near.filter_map(|(series, mark)| Some((series, mark, distance(mark)?))).filter(|(.., distance)| *distance < NEAR);
     let (series, mark, _) = near.min_by(|a, b| a.2.total_cmp(&b.2))?;
     let rows = if modifiers.shift { series.rows.clone() } else { vec![mark.row] };
-    Some(Action::Mask { rows, masked: !mark.masked })
+    Some(Edit::Mask { rows, masked: !mark.masked })
 }

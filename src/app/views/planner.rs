@@ -8,11 +8,12 @@ use crate::app::text::i18n::{Language, translated};
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{percent, short, significant};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::work::design::{Plan, STEEPEST, Span};
-use crate::app::work::document::Document;
-use crate::app::work::fit_setup::free_in_plan;
+use crate::app::work::design::{AngleRange, DesignSettings, STEEPEST};
+use crate::app::work::edit::Edit;
+use crate::app::work::fit_setup::free_in_design;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::predicted_errors::PredictedErrors;
-use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
 use pbrdf::fit::{Undetermined, is_poorly_determined};
 use pbrdf::measurement::Columns;
@@ -20,7 +21,7 @@ use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
 
 /// What predictions depend on, the language of their words included.
-type Key = (Parameters, Model, ParameterSet, Plan, u64, Language);
+type Key = (Parameters, Model, ParameterSet, DesignSettings, u64, Language);
 
 pub static SPEC: PaneSpec = PaneSpec {
     title: "Angle planner",
@@ -45,38 +46,43 @@ const SIDE_BY_SIDE: f32 = 540.0;
 
 impl View for PlannerView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let (settings, document) = (&*cx.settings, cx.document);
-        let free = free_in_plan(settings, document.measurement.has_brdf());
-        let Settings { parameters, model, ref plan, .. } = *settings;
-        let key = (parameters, model, free, plan.clone(), document.generation, i18n::current());
+        let (design, surface, document) = (&cx.work.settings().plan, cx.work.surface(), cx.work.active());
+        let free = free_in_design(surface, design, document.measurement.has_brdf());
+        let key = (surface.parameters, surface.model, free, design.clone(), document.generation, i18n::current());
         self.predictions.refresh(key, |_| {
-            [PredictedErrors::of_measurement(settings, free, &document.measurement), PredictedErrors::of_plan(settings, free)]
+            let measured = PredictedErrors::of_measurement(surface, design, free, &document.measurement);
+            [measured, PredictedErrors::of_design(surface, design, free)]
         });
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let (before, document) = (&cx.work.settings().plan, cx.work.active());
+        let mut design = before.clone();
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
             if ui.available_width() > SIDE_BY_SIDE {
                 ui.horizontal_top(|ui| {
-                    ui.vertical(|ui| angles_ui(&mut cx.settings.plan, cx.document, ui));
+                    ui.vertical(|ui| angles_ui(&mut design, document, ui));
                     ui.separator();
-                    ui.vertical(|ui| predictions_ui(cx.settings, self, ui));
+                    ui.vertical(|ui| predictions_ui(cx.work, self, ui));
                 });
             } else {
-                angles_ui(&mut cx.settings.plan, cx.document, ui);
+                angles_ui(&mut design, document, ui);
                 ui.separator();
-                predictions_ui(cx.settings, self, ui);
+                predictions_ui(cx.work, self, ui);
             }
         });
+        if design != *before {
+            cx.edits.push(Edit::SetDesign(design));
+        }
     }
 }
 
-fn angles_ui(plan: &mut Plan, document: &Document, ui: &mut Ui) {
+fn angles_ui(plan: &mut DesignSettings, document: &OpenMeasurement, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.strong(tr!("Planned angles"));
         if ui.button(tr!("Dense")).on_hover_text(tr!("θi from 10° to 80°, θr from 0° to 85°")).clicked() {
-            let Plan { theta_i, theta_r, .. } = Plan::default();
-            *plan = Plan { theta_i, theta_r, ..plan.clone() };
+            let DesignSettings { theta_i, theta_r, .. } = DesignSettings::default();
+            *plan = DesignSettings { theta_i, theta_r, ..plan.clone() };
         }
         if ui.button(tr!("As measured")).on_hover_text(tr!("The angles of the open measurement, each for itself")).clicked() {
             as_measured(plan, document);
@@ -131,7 +137,7 @@ fn number_ui(value: &mut f64, name: &str, help: &str, suffix: &str, range: std::
 }
 
 /// Rows of angles of one kind, with buttons to add and to remove.
-fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
+fn spans_ui(spans: &mut Vec<AngleRange>, name: &str, least: f64, ui: &mut Ui) {
     let mut removed = None;
     for (i, span) in spans.iter_mut().enumerate() {
         ui.label(name);
@@ -157,7 +163,7 @@ fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
     ui.label("");
     if ui.button(tr!("add {}", name)).clicked() {
         let next = spans.last().map_or(45.0, |last| (last.to + last.step).min(STEEPEST));
-        spans.push(Span::new(next, next, spans.last().map_or(5.0, |last| last.step)));
+        spans.push(AngleRange::new(next, next, spans.last().map_or(5.0, |last| last.step)));
     }
     ui.end_row();
 }
@@ -166,19 +172,19 @@ fn spans_ui(spans: &mut Vec<Span>, name: &str, least: f64, ui: &mut Ui) {
 const MOST_SPANS: usize = 12;
 
 /// The angles of the open measurement, those an equal step apart in one row.
-fn as_measured(plan: &mut Plan, document: &Document) {
+fn as_measured(plan: &mut DesignSettings, document: &OpenMeasurement) {
     let used = || document.measurement.rows.iter().filter(|row| !row.masked).map(|row| row.geometry);
     let spans = |angles: &mut dyn Iterator<Item = f64>| {
         let mut angles: Vec<f64> = angles.collect();
         angles.sort_by(f64::total_cmp);
         angles.dedup();
-        let mut spans: Vec<Span> = Vec::new();
+        let mut spans: Vec<AngleRange> = Vec::new();
         for angle in angles {
             match spans.last_mut() {
                 // The second angle sets the step.
                 Some(last) if last.from == last.to => (last.to, last.step) = (angle, angle - last.from),
                 Some(last) if (last.to + last.step - angle).abs() < 1e-6 * last.step => last.to = angle,
-                _ => spans.push(Span::new(angle, angle, 5.0)),
+                _ => spans.push(AngleRange::new(angle, angle, 5.0)),
             }
         }
         spans.truncate(MOST_SPANS);
@@ -193,13 +199,14 @@ fn as_measured(plan: &mut Plan, document: &Document) {
     plan.dphi = document.series.first().map_or(180.0, |series| series.plane);
 }
 
-fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
+fn predictions_ui(work: &Workspace, view: &PlannerView, ui: &mut Ui) {
     let warning = theme::warning(ui.visuals().dark_mode);
     let Some([now, planned]) = view.predictions.get() else {
         ui.label("…");
         return;
     };
-    let (incidences, views) = settings.plan.counts();
+    let parameters = &work.surface().parameters;
+    let (incidences, views) = work.settings().plan.counts();
     ui.strong(tr!("Predicted standard errors: {0} × {1} planned points", incidences, views));
     ui.weak(tr!("At the sliders as they stand; both columns with the planned noise."));
     for sentence in [now, planned].into_iter().filter_map(|prediction| prediction.as_ref().err()) {
@@ -224,24 +231,24 @@ fn predictions_ui(settings: &Settings, view: &PlannerView, ui: &mut Ui) {
         }
         ui.end_row();
         for (parameter, _) in &any.errors {
-            error_row_ui(settings, *parameter, [now, planned], with_percent, ui);
+            error_row_ui(parameters, *parameter, [now, planned], with_percent, ui);
         }
     });
     for (prediction, angles) in [(planned, "With the planned angles"), (now, "With the measured angles")] {
         if let Ok(prediction) = prediction {
-            open_ui(&settings.parameters, prediction, angles, ui);
+            open_ui(parameters, prediction, angles, ui);
         }
     }
 }
 
 fn error_row_ui(
-    settings: &Settings,
+    parameters: &Parameters,
     parameter: Parameter,
     [now, planned]: [&Result<PredictedErrors, String>; 2],
     with_percent: bool,
     ui: &mut Ui,
 ) {
-    let value = settings.parameters[parameter];
+    let value = parameters[parameter];
     let error =
         |prediction: &Result<PredictedErrors, String>| prediction.as_ref().ok().and_then(|prediction| prediction.error_of(parameter));
     ui.label(parameter.symbol()).on_hover_text(translated(parameter.name()));

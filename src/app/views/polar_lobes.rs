@@ -10,7 +10,7 @@ use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{DECADES, ModelCurves, axis_values};
-use crate::app::work::document::IncidenceSeries;
+use crate::app::work::open_measurement::IncidenceSeries;
 use crate::figure::{Axis, Dash, Figure, Panel, Series};
 use egui::{Key, Ui};
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -157,9 +157,9 @@ impl PolarLobesView {
 
 impl View for PolarLobesView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
+        let (settings, surface) = (cx.work.settings(), cx.work.surface());
         let log = settings.shown.polar_log;
-        let key = (settings.parameters, settings.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
+        let key = (surface.parameters, surface.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
         self.curves.refresh(key, |&(parameters, model, theta_i, plane)| {
             let Ok(surface) = Pbrdf::new(model, parameters) else { return ModelCurves::default() };
             let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
@@ -177,18 +177,22 @@ impl View for PolarLobesView {
         };
         self.range.follow(wanted, cx.interacting);
         let Some(radius) = self.radius(log) else { return };
-        let title = cx.document.title();
+        let title = cx.work.active().title();
         let filled = settings.shown.filled;
         let figure_key = (self.curves.stamp(), self.range.get(), [log, filled], i18n::current());
         self.plot.refresh(figure_key, |_| Some(describe(curves, radius, (key.2, key.3), filled, title)));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let Some(radius) = self.radius(cx.settings.shown.polar_log) else { return };
+        let Some(radius) = self.radius(cx.work.settings().shown.polar_log) else { return };
         let Some(panel) = self.plot.panel(0) else { return };
         panel.key_line_ui(ui);
-        if cx.settings.dphi.rem_euclid(360.0) != 180.0 {
-            ui.weak(tr!("θi = {0}°, Δφ = {1}°: the incident ray is outside this plane", cx.settings.theta_i, cx.settings.dphi));
+        if cx.work.settings().dphi.rem_euclid(360.0) != 180.0 {
+            ui.weak(tr!(
+                "θi = {0}°, Δφ = {1}°: the incident ray is outside this plane",
+                cx.work.settings().theta_i,
+                cx.work.settings().dphi
+            ));
         }
         let hover = |name: &str, x: f64, y: f64| {
             let (brdf, theta_r) = (radius.brdf(libm::hypot(x, y)), libm::atan2(x, y).to_degrees());
@@ -199,8 +203,10 @@ impl View for PolarLobesView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        ui.checkbox(&mut cx.settings.shown.polar_log, tr!("Logarithmic radius")).on_hover_text(tr!("Shows weak lobes beside strong ones"));
-        ui.checkbox(&mut cx.settings.shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
+        cx.view_options_ui(|shown| {
+            ui.checkbox(&mut shown.polar_log, tr!("Logarithmic radius")).on_hover_text(tr!("Shows weak lobes beside strong ones"));
+            ui.checkbox(&mut shown.filled, tr!("Filled lobes")).on_hover_text(tr!("The area under each lobe"));
+        });
     }
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {

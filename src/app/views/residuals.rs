@@ -7,8 +7,8 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::context::Cx;
 use crate::app::views::curves::{CurveKey, MOST_POINTS, MOST_SERIES, MarkSet, drawn};
-use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
-use crate::app::work::settings::Settings;
+use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
+use crate::app::work::surface::Surface;
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 use egui::Ui;
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -37,9 +37,9 @@ const EXACT: f64 = 0.01;
 
 impl ResidualStrip {
     pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, cx: &Cx<'_>) {
-        let (settings, document) = (&*cx.settings, cx.document);
-        let key = (settings.parameters, settings.model, document.generation);
-        self.of_series.refresh(key, |_| of_all(settings, document));
+        let (surface, document) = (cx.work.surface(), cx.work.active());
+        let key = (surface.parameters, surface.model, document.generation);
+        self.of_series.refresh(key, |_| of_all(surface, document));
         self.is_there = document.series.iter().any(|series| !series.dolp.is_empty());
         let Some(residuals) = self.of_series.get() else { return };
         let largest = residuals.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
@@ -82,8 +82,8 @@ impl ResidualStrip {
 /// Below this height marks stand closer, so that there is more than that at 0.
 const LOW: f32 = 100.0;
 
-fn of_all(settings: &Settings, document: &Document) -> Vec<Vec<[f64; 2]>> {
-    let Ok(surface) = Pbrdf::new(settings.model, settings.parameters) else { return Vec::new() };
+fn of_all(surface: &Surface, document: &OpenMeasurement) -> Vec<Vec<[f64; 2]>> {
+    let Ok(surface) = Pbrdf::new(surface.model, surface.parameters) else { return Vec::new() };
     let of_one = |series: &IncidenceSeries| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);

@@ -7,7 +7,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
-use crate::app::work::document::{DataPoint, Document, IncidenceSeries};
+use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::figure::{Axis, Figure, Panel, SERIES, Series};
 use egui::Ui;
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -78,7 +78,7 @@ impl Quantity {
 
 impl QuantityResiduals {
     /// None where the quantity was not measured.
-    fn new(quantity: Quantity, surface: &Pbrdf, document: &Document) -> Option<Self> {
+    fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement) -> Option<Self> {
         let used = || drawn(document).flat_map(|series| quantity.points(series)).filter(|mark| !mark.masked);
         used().next()?;
         let in_sigma = used().all(|mark| mark.quantity.sigma.is_some_and(|sigma| sigma > 0.0));
@@ -108,9 +108,9 @@ impl QuantityResiduals {
 
 impl View for ResidualsAgainstAngleView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let (settings, document) = (&*cx.settings, cx.document);
-        let fit = cx.fit.filter(|fit| self.of_fit && fit.number == document.number);
-        let (parameters, model) = fit.map_or((settings.parameters, settings.model), |fit| (fit.report.parameters, fit.report.model));
+        let (settings, surface, document) = (cx.work.settings(), cx.work.surface(), cx.work.active());
+        let fit = cx.work.shown_fit().filter(|fit| self.of_fit && fit.number == document.number);
+        let (parameters, model) = fit.map_or((surface.parameters, surface.model), |fit| (fit.report.parameters, fit.report.model));
         self.residuals.refresh((parameters, model, document.generation), |_| match Pbrdf::new(model, parameters) {
             Ok(surface) => [Quantity::Dolp, Quantity::Brdf]
                 .into_iter()
@@ -139,7 +139,7 @@ impl View for ResidualsAgainstAngleView {
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         ui.horizontal(|ui| {
             ui.selectable_value(&mut self.of_fit, false, tr!("of the sliders"));
-            let has_fit = cx.fit.is_some_and(|fit| fit.number == cx.document.number);
+            let has_fit = cx.work.shown_fit().is_some_and(|fit| fit.number == cx.work.active().number);
             ui.add_enabled_ui(has_fit, |ui| ui.selectable_value(&mut self.of_fit, true, tr!("of the shown fit")));
         });
         let count = self.plot.panels().len();
@@ -165,13 +165,13 @@ impl View for ResidualsAgainstAngleView {
 
 #[cfg(test)]
 mod tests {
-    use super::{Document, Pbrdf, Quantity, QuantityResiduals};
+    use super::{OpenMeasurement, Pbrdf, Quantity, QuantityResiduals};
     use pbrdf::measurement::Measurement;
     use pbrdf::model::{Model, Parameters};
     use pbrdf::optics::SlopeDistribution;
 
-    fn document(text: &str) -> Document {
-        Document::new("a".to_owned(), Measurement::read(text.as_bytes()).expect("a table"))
+    fn document(text: &str) -> OpenMeasurement {
+        OpenMeasurement::new("a".to_owned(), Measurement::read(text.as_bytes()).expect("a table"))
     }
 
     #[test]

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Angles from one to another in steps, in degrees; a single one where both ends are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Span {
+pub struct AngleRange {
     pub from: f64,
     pub to: f64,
     pub step: f64,
@@ -16,7 +16,7 @@ pub struct Span {
 /// Slack of the last step, as a fraction of it: 0.1 + 0.1 + 0.1 is not 0.3.
 const SLACK: f64 = 1e-9;
 
-impl Span {
+impl AngleRange {
     pub const fn new(from: f64, to: f64, step: f64) -> Self {
         Self { from, to, step }
     }
@@ -43,10 +43,10 @@ impl Span {
 /// A measurement that might be made: every θi with every θr.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Plan {
-    pub theta_i: Vec<Span>,
+pub struct DesignSettings {
+    pub theta_i: Vec<AngleRange>,
     /// Negative on the backscatter side.
-    pub theta_r: Vec<Span>,
+    pub theta_r: Vec<AngleRange>,
     /// Degrees.
     pub dphi: f64,
     pub columns: Columns,
@@ -56,11 +56,11 @@ pub struct Plan {
     pub brdf_noise: f64,
 }
 
-impl Default for Plan {
+impl Default for DesignSettings {
     fn default() -> Self {
         Self {
-            theta_i: vec![Span::new(10.0, 80.0, 10.0)],
-            theta_r: vec![Span::new(0.0, 85.0, 5.0)],
+            theta_i: vec![AngleRange::new(10.0, 80.0, 10.0)],
+            theta_r: vec![AngleRange::new(0.0, 85.0, 5.0)],
             dphi: 180.0,
             columns: Columns::Dolp,
             noise: 0.005,
@@ -74,7 +74,7 @@ pub const STEEPEST: f64 = 89.9;
 /// Points that can be planned with: more would make the sliders wait.
 pub const MOST_PLANNED: usize = 4000;
 
-impl Plan {
+impl DesignSettings {
     /// Whether its values mean something.
     pub fn is_sound(&self) -> bool {
         self.theta_i.iter().all(|span| span.is_sound(0.0..=STEEPEST))
@@ -85,7 +85,7 @@ impl Plan {
 
     /// How many angles of incidence, and of view.
     pub fn counts(&self) -> (usize, usize) {
-        let count = |spans: &[Span]| spans.iter().map(Span::count).sum();
+        let count = |spans: &[AngleRange]| spans.iter().map(AngleRange::count).sum();
         (count(&self.theta_i), count(&self.theta_r))
     }
 
@@ -110,12 +110,12 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use super::Span;
+    use super::AngleRange;
 
     #[test]
     fn spans_count_both_ends() {
-        assert_eq!(Span::new(20.0, 60.0, 5.0).count(), 9);
-        assert_eq!(Span::new(0.0, 0.3, 0.1).angles().count(), 4);
-        assert_eq!(Span::new(30.0, 30.0, 5.0).count(), 1);
+        assert_eq!(AngleRange::new(20.0, 60.0, 5.0).count(), 9);
+        assert_eq!(AngleRange::new(0.0, 0.3, 0.1).angles().count(), 4);
+        assert_eq!(AngleRange::new(30.0, 30.0, 5.0).count(), 1);
     }
 }

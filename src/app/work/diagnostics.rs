@@ -1,6 +1,5 @@
 //! What is asked about a finished fit: the profile of a parameter, and a bootstrap.
 
-use egui_plot::PlotPoint;
 use pbrdf::fit::{BootstrapEstimate, FitResult, Problem, Profile, Weights};
 use pbrdf::model::Parameter;
 
@@ -37,7 +36,8 @@ impl Diagnostics {
 /// A profile as it is drawn: what the sum of squares gains over its minimum.
 pub struct ProfileCurve {
     pub parameter: Parameter,
-    pub points: Vec<PlotPoint>,
+    /// Value and gain.
+    pub points: Vec<[f64; 2]>,
     /// The gain that one standard error makes.
     pub limit: f64,
     /// Where the curve meets it, on either side; none where the scan ends before.
@@ -55,10 +55,10 @@ impl ProfileCurve {
         let is_chi2 = problem.options().weights == Weights::Sigma;
         #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
         let limit = if is_chi2 { 1.0 } else { smallest / report.statistics.dof.max(1) as f64 };
-        let points = profile.points.iter().map(|point| PlotPoint::new(point.value, point.rss - smallest));
+        let points = profile.points.iter().map(|point| [point.value, point.rss - smallest]);
         Self {
             parameter: profile.parameter,
-            points: points.filter(|point| point.y.is_finite()).collect(),
+            points: points.filter(|[_, gain]| gain.is_finite()).collect(),
             limit,
             low: profile.low,
             high: profile.high,

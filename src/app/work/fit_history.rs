@@ -1,6 +1,6 @@
 //! The fits of this session, to look back at and to return to.
 
-use crate::app::work::document::Mask;
+use crate::app::work::open_measurement::Mask;
 use pbrdf::fit::{FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameters;

@@ -1,7 +1,8 @@
 //! What a fit from the window is about: a measurement, the sliders, their bounds, the choices.
 
 use crate::app::text::localized::Localized as _;
-use crate::app::work::settings::Settings;
+use crate::app::work::design::DesignSettings;
+use crate::app::work::surface::Surface;
 use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters};
@@ -11,42 +12,42 @@ use tr::tr;
 ///
 /// A start outside bounds that somebody has set moves to the nearest bound; a slider's own range makes room for the start.
 pub fn problem(
-    settings: &Settings,
+    surface: &Surface,
     measurement: &Measurement,
     model: Model,
     free: ParameterSet,
     choices: FitOptions,
 ) -> Result<Problem, ProblemError> {
-    let (start, bounds) = start_in_bounds(settings, free);
+    let (start, bounds) = start_in_bounds(surface, free);
     Problem::new(measurement, model, start, free, bounds, choices)
 }
 
 /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
-pub fn free(settings: &Settings, has_brdf: bool) -> ParameterSet {
-    free_of_model(settings, has_brdf).without_all(settings.locked)
+pub fn free(surface: &Surface, has_brdf: bool) -> ParameterSet {
+    free_of_model(surface, has_brdf).without_all(surface.locked)
 }
 
 /// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
-pub fn free_in_plan(settings: &Settings, has_brdf: bool) -> ParameterSet {
-    let planned = settings.plan.has_brdf();
-    let locked = match settings.locked {
+pub fn free_in_design(surface: &Surface, design: &DesignSettings, has_brdf: bool) -> ParameterSet {
+    let planned = design.has_brdf();
+    let locked = match surface.locked {
         locked if has_brdf == planned => locked,
-        locked if planned || settings.model.dolp_formula == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
+        locked if planned || surface.model.dolp_formula == DolpFormula::AsPrinted => locked.without(Parameter::Ks),
         locked => locked.with(Parameter::Ks),
     };
-    free_of_model(settings, planned).without_all(locked)
+    free_of_model(surface, planned).without_all(locked)
 }
 
-fn free_of_model(settings: &Settings, has_brdf: bool) -> ParameterSet {
-    let model = settings.model;
+fn free_of_model(surface: &Surface, has_brdf: bool) -> ParameterSet {
+    let model = surface.model;
     if has_brdf { model.parameters() } else { model.dolp_parameters() }
 }
 
 /// The sliders inside the box, and the box.
-pub fn start_in_bounds(settings: &Settings, free: ParameterSet) -> (Parameters, Bounds) {
-    let mut start = settings.parameters;
+pub fn start_in_bounds(surface: &Surface, free: ParameterSet) -> (Parameters, Bounds) {
+    let mut start = surface.parameters;
     let mut bounds = Bounds::default();
-    for &(parameter, low, high) in &settings.bounds {
+    for &(parameter, low, high) in &surface.bounds {
         // Settings hold sound bounds only.
         if bounds.set(parameter, low, high).is_ok() && free.contains(parameter) {
             start[parameter] = bounds.clamp(parameter, start[parameter]);
@@ -72,19 +73,19 @@ pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
 #[cfg(test)]
 mod tests {
     use super::start_in_bounds;
-    use crate::app::work::settings::Settings;
+    use crate::app::work::surface::Surface;
     use pbrdf::model::{Parameter, ParameterSet};
 
     #[test]
     fn a_start_moves_into_bounds_that_were_set_and_widens_those_that_were_not() {
-        let mut settings = Settings::default();
-        settings.set_bounds(Parameter::N, 0.5, 1.5).expect("sound bounds");
-        settings.parameters.n = 2.0;
-        settings.parameters.k = 30.0;
-        let (start, bounds) = start_in_bounds(&settings, ParameterSet::ALL);
+        let mut surface = Surface::default();
+        surface.set_bounds(Parameter::N, 0.5, 1.5).expect("sound bounds");
+        surface.parameters.n = 2.0;
+        surface.parameters.k = 30.0;
+        let (start, bounds) = start_in_bounds(&surface, ParameterSet::ALL);
         assert_eq!((start.n, bounds.of(Parameter::N)), (1.5, (0.5, 1.5)));
         assert_eq!((start.k, bounds.of(Parameter::K)), (30.0, (0.0, 30.0)));
-        let (fixed, _) = start_in_bounds(&settings, ParameterSet::ALL.without(Parameter::N));
+        let (fixed, _) = start_in_bounds(&surface, ParameterSet::ALL.without(Parameter::N));
         assert_eq!(fixed.n, 2.0, "what is fixed stays where it is");
     }
 }

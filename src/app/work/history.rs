@@ -18,8 +18,8 @@ impl<S> Default for History<S> {
 }
 
 impl<S: PartialEq + Clone> History<S> {
-    /// Takes down where things have come to rest, if that is somewhere new.
-    pub fn rest(&mut self, at: S) {
+    /// Records a step if the state differs from the last one.
+    pub fn record(&mut self, at: S) {
         if self.current.as_ref() == Some(&at) {
             return;
         }

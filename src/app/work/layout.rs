@@ -1,7 +1,6 @@
-//! How the panes are arranged, as a value: kept in the settings, and turned into tiles and back.
+//! How the panes are arranged, as a value.
 
 use crate::app::work::pane_id::{DockArea, PaneId};
-use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// An arrangement of panes.
@@ -33,12 +32,16 @@ impl Layout {
     /// The arrangement in a file, or the default where that is damaged or names panes that do not exist: a session is not lost for
     /// its layout.
     pub fn lenient<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_json::Value::deserialize(deserializer)?;
-        Ok(serde_json::from_value(value).ok().filter(Self::is_sound).unwrap_or_default())
+        serde_json::Value::deserialize(deserializer).map(Self::from_value)
+    }
+
+    /// The same of a value.
+    pub fn from_value(value: serde_json::Value) -> Self {
+        serde_json::from_value(value).ok().filter(Self::is_sound).unwrap_or_default()
     }
 
     /// Whether no pane is there twice and shares are sizes.
-    fn is_sound(&self) -> bool {
+    pub fn is_sound(&self) -> bool {
         let mut panes = Vec::new();
         self.collect(&mut panes) && !panes.is_empty()
     }
@@ -56,64 +59,6 @@ impl Layout {
             }
         }
     }
-
-    /// The tiles so arranged.
-    pub fn tree(&self) -> Tree<PaneId> {
-        let mut tiles = Tiles::default();
-        let root = self.insert(&mut tiles);
-        Tree::new(egui::Id::unique("panes"), root, tiles)
-    }
-
-    fn insert(&self, tiles: &mut Tiles<PaneId>) -> TileId {
-        match self {
-            Self::PaneId(pane) => tiles.insert_pane(*pane),
-            Self::Tabs { active, parts } => {
-                let children: Vec<TileId> = parts.iter().map(|part| part.insert(tiles)).collect();
-                let mut tabs = Tabs::new(children.clone());
-                tabs.active = children.get(*active).or(children.first()).copied();
-                tiles.insert_container(tabs)
-            }
-            Self::Columns(parts) => insert_linear(LinearDir::Horizontal, parts, tiles),
-            Self::Rows(parts) => insert_linear(LinearDir::Vertical, parts, tiles),
-        }
-    }
-
-    /// How the tiles are arranged; none where there is no pane.
-    pub fn of(tree: &Tree<PaneId>) -> Option<Self> {
-        Self::of_tile(&tree.tiles, tree.root()?).filter(Self::is_sound)
-    }
-
-    fn of_tile(tiles: &Tiles<PaneId>, id: TileId) -> Option<Self> {
-        let of_all = |children: &[TileId]| -> Vec<(TileId, Self)> {
-            children.iter().filter_map(|child| Some((*child, Self::of_tile(tiles, *child)?))).collect()
-        };
-        match tiles.get(id)? {
-            Tile::Pane(pane) => Some(Self::PaneId(*pane)),
-            Tile::Container(Container::Tabs(tabs)) => {
-                let parts = of_all(&tabs.children);
-                let active = parts.iter().position(|(child, _)| tabs.active == Some(*child)).unwrap_or(0);
-                Some(Self::Tabs { active, parts: parts.into_iter().map(|(_, part)| part).collect() })
-            }
-            Tile::Container(Container::Linear(linear)) => {
-                let parts = of_all(&linear.children).into_iter().map(|(child, part)| (linear.shares[child], part)).collect();
-                Some(if linear.dir == LinearDir::Horizontal { Self::Columns(parts) } else { Self::Rows(parts) })
-            }
-            // Nothing here makes a grid; as columns its panes are at least there.
-            Tile::Container(Container::Grid(grid)) => {
-                let children: Vec<TileId> = grid.children().copied().collect();
-                Some(Self::Columns(of_all(&children).into_iter().map(|(_, part)| (1.0, part)).collect()))
-            }
-        }
-    }
-}
-
-fn insert_linear(dir: LinearDir, parts: &[(f32, Layout)], tiles: &mut Tiles<PaneId>) -> TileId {
-    let children: Vec<TileId> = parts.iter().map(|(_, part)| part.insert(tiles)).collect();
-    let mut linear = Linear::new(dir, children.clone());
-    for (child, (share, _)) in children.into_iter().zip(parts) {
-        linear.shares.set_share(child, *share);
-    }
-    tiles.insert_container(linear)
 }
 
 #[cfg(test)]
@@ -132,10 +77,9 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_survives_tiles_and_files() {
+    fn a_layout_survives_files() {
         let tabs = Layout::Tabs { active: 0, parts: vec![Layout::PaneId(PaneId::Lobes)] };
         let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::PaneId(PaneId::Dolp))]);
-        assert_eq!(Layout::of(&layout.tree()), Some(layout.clone()));
         assert_eq!(read(&serde_json::to_string(&layout).expect("a layout is JSON")), layout);
     }
 

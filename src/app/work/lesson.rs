@@ -45,6 +45,12 @@ impl Wording {
         self.translations.iter().find(|(other, _)| other == language).map_or(&self.plain, |(_, text)| text)
     }
 
+    /// The text as it was written first.
+    #[must_use]
+    pub fn original(&self) -> &str {
+        &self.plain
+    }
+
     /// Whether there is no text.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -2,7 +2,6 @@
 
 pub mod design;
 pub mod diagnostics;
-pub mod document;
 pub mod edit;
 pub mod fit_history;
 pub mod fit_setup;
@@ -10,9 +9,13 @@ pub mod history;
 pub mod layout;
 pub mod lesson;
 mod lesson_setup;
+pub mod measurement_list;
 pub mod model_fit;
+pub mod open_measurement;
 pub mod pane_id;
 pub mod parameter_text;
 pub mod predicted_errors;
 pub mod settings;
+pub mod settings_error;
+pub mod surface;
 pub mod workspace;

@@ -1,17 +1,14 @@
 //! What survives a restart: what the user set, all of which can be undone, and how the window stands.
 
 use crate::app::text::i18n::Language;
-use crate::app::text::localized::Localized;
-use crate::app::work::design::Plan;
-use crate::app::work::document::Document;
-use crate::app::work::layout::Layout;
-use pbrdf::fit::{Bounds, BoundsError, FitOptions, Starts};
-use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
-use pbrdf::optics::{Geometry, GeometryError, Metal, SlopeDistribution};
+use crate::app::work::design::DesignSettings;
+use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::settings_error::SettingsError;
+use pbrdf::fit::{FitOptions, Starts};
+use pbrdf::model::Parameter;
+use pbrdf::optics::{Geometry, Metal};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use tr::tr;
 
 /// Light or dark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -140,16 +137,10 @@ impl MetalSelection {
     pub const LONGEST_NM: f64 = 2500.0;
 }
 
-/// What the user sets: sliders, switches, views. Each change of it is a step of undo.
+/// What the user sets beside the surfaces: switches, views, options of fits. Each change of it is a step of undo.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    pub parameters: Parameters,
-    pub model: Model,
-    /// Parameters that a fit leaves alone.
-    pub locked: ParameterSet,
-    /// Bounds of fits where they are not the slider's range: parameter, lower, upper.
-    pub bounds: Vec<(Parameter, f64, f64)>,
     /// Whether the bounds stand under the sliders.
     pub show_bounds: bool,
     /// What a fit minimises.
@@ -159,7 +150,7 @@ pub struct Settings {
     /// Seed of the starts and of the bootstrap.
     pub seed: u64,
     /// Angles that might be measured.
-    pub plan: Plan,
+    pub plan: DesignSettings,
     /// Angle of incidence of the lobes, degrees.
     pub theta_i: f64,
     /// Relative azimuth of the lobes, degrees; 180 is the plane of incidence.
@@ -182,15 +173,11 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            parameters: Parameters::default(),
-            model: Model::full(SlopeDistribution::Cauchy),
-            locked: ParameterSet::EMPTY.with(Parameter::Ks),
-            bounds: Vec::new(),
             show_bounds: false,
             choices: FitOptions::default(),
             starts: Starts::Automatic,
             seed: 1,
-            plan: Plan::default(),
+            plan: DesignSettings::default(),
             theta_i: 40.0,
             dphi: 180.0,
             log_brdf: false,
@@ -205,74 +192,26 @@ impl Default for Settings {
     }
 }
 
-/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface: then the window says so.
-pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), ParameterError> {
-    match parameters.validate(used) {
-        Err(ParameterError::NoIndex) => Ok(()),
-        other => other,
-    }
-}
-
-/// A value of the settings that means nothing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SettingsError {
-    Parameters(ParameterError),
-    Bounds(BoundsError),
-    Angles(GeometryError),
-    /// The value of that key.
-    OutOfRange(&'static str),
-}
-
-/// The key first, as it stands in the file.
-impl Localized for SettingsError {
-    fn localized(&self) -> String {
-        match self {
-            Self::Parameters(error) => tr!("{0}: {1}", "parameters", error.localized()),
-            Self::Bounds(error) => tr!("{0}: {1}", "bounds", error.localized()),
-            Self::Angles(error) => tr!("{0}: {1}", "theta_i, dphi", error.localized()),
-            Self::OutOfRange(key) => tr!("{0}: {1}", key, tr!("a value is outside its range")),
-        }
-    }
-}
-
 impl Settings {
-    /// The defaults for data with or without a BRDF.
-    pub fn for_measurement(measurement: &Measurement) -> Self {
-        let mut settings = Self::default();
-        settings.lock_what_only_ratios_decide(measurement);
-        settings
-    }
-
-    /// What a measurement that was just opened decides: what can be fitted, and where to look first.
-    pub fn suit(&mut self, document: &Document) {
-        self.lock_what_only_ratios_decide(&document.measurement);
-        if document.brdf_spans_decades() {
+    /// What a measurement that was just opened decides: where to look first.
+    pub fn adapt_to(&mut self, opened: &OpenMeasurement) {
+        if opened.brdf_spans_decades() {
             self.log_brdf = true;
         }
-        if let Some(first) = document.series.first() {
+        if let Some(first) = opened.series.first() {
             self.theta_i = first.theta_i;
             self.dphi = first.plane;
         }
-        if let Some(wavelength_nm) = document.wavelength_nm() {
+        if let Some(wavelength_nm) = opened.wavelength_nm() {
             self.tabulated.wavelength_nm = wavelength_nm;
         }
-        self.tabulated.look_at(document.metal());
-    }
-
-    /// With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
-    pub fn lock_what_only_ratios_decide(&mut self, measurement: &Measurement) {
-        self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
+        self.tabulated.look_at(opened.metal());
     }
 
     /// What means nothing, if anything does: a file can be well-formed and still hold nonsense.
     pub fn fault(&self) -> Option<SettingsError> {
-        let bounds = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high).err();
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        if let Err(error) = can_be_set(&self.parameters, ParameterSet::ALL) {
-            Some(SettingsError::Parameters(error))
-        } else if let Some(error) = self.bounds.iter().find_map(bounds) {
-            Some(SettingsError::Bounds(error))
-        } else if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
+        if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
             Some(SettingsError::Angles(error))
         } else if !self.plan.is_sound() {
             Some(SettingsError::OutOfRange("plan"))
@@ -283,33 +222,6 @@ impl Settings {
         } else {
             None
         }
-    }
-
-    /// Lower and upper bound of a parameter in fits.
-    pub fn bounds_of(&self, parameter: Parameter) -> (f64, f64) {
-        let own = self.bounds.iter().find(|(other, ..)| *other == parameter);
-        own.map_or_else(|| Bounds::default().of(parameter), |&(_, low, high)| (low, high))
-    }
-
-    /// Whether a parameter's bounds are other ones than its slider's range.
-    pub fn has_own_bounds(&self, parameter: Parameter) -> bool {
-        self.bounds.iter().any(|(other, ..)| *other == parameter)
-    }
-
-    /// Sets the bounds of a parameter, or says why they are none.
-    pub fn set_bounds(&mut self, parameter: Parameter, low: f64, high: f64) -> Result<(), BoundsError> {
-        let default = Bounds::default().of(parameter);
-        Bounds::default().set(parameter, low, high)?;
-        self.reset_bounds(parameter);
-        if (low, high) != default {
-            self.bounds.push((parameter, low, high));
-        }
-        Ok(())
-    }
-
-    /// Back to the slider's range.
-    pub fn reset_bounds(&mut self, parameter: Parameter) {
-        self.bounds.retain(|(other, ..)| *other != parameter);
     }
 }
 
@@ -324,9 +236,6 @@ pub struct WindowSettings {
     pub maximized: bool,
     /// Whether the status line tells how long frames take.
     pub show_frame_times: bool,
-    /// Where the panes lie.
-    #[serde(deserialize_with = "Layout::lenient")]
-    pub layout: Layout,
     /// Measurements opened lately, the newest first.
     pub recent: Vec<PathBuf>,
 }
@@ -342,7 +251,6 @@ impl Default for WindowSettings {
             size: [1280.0, 800.0],
             maximized: false,
             show_frame_times: false,
-            layout: Layout::default(),
             recent: Vec::new(),
         }
     }
@@ -350,7 +258,7 @@ impl Default for WindowSettings {
 
 impl WindowSettings {
     /// Whether a window can have this size.
-    fn is_sound(&self) -> bool {
+    pub fn is_sound(&self) -> bool {
         self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
     }
 
@@ -364,21 +272,5 @@ impl WindowSettings {
     /// Takes a file that is gone from the recent ones.
     pub fn forget(&mut self, path: &Path) {
         self.recent.retain(|other| other != path);
-    }
-}
-
-/// The settings file.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct SettingsFile {
-    pub settings: Settings,
-    pub window: WindowSettings,
-}
-
-impl SettingsFile {
-    /// The key of a value that means nothing, and why.
-    pub fn fault(&self) -> Option<String> {
-        let size = || (!self.window.is_sound()).then(|| SettingsError::OutOfRange("window.size").localized());
-        self.settings.fault().map(|fault| format!("settings.{}", fault.localized())).or_else(size)
     }
 }

@@ -1,46 +1,58 @@
 //! The user's work as one value: what is open, what is set, and what was fitted.
 
 use crate::app::work::diagnostics::Diagnostics;
-use crate::app::work::document::{Document, Mask};
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::history::History;
+use crate::app::work::layout::Layout;
+use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::model_fit::ModelFit;
+use crate::app::work::open_measurement::{Mask, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::Settings;
+use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::FitResult;
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, Parameters};
-use std::path::PathBuf;
+use pbrdf::model::{Model, ParameterSet, Parameters};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The user's work.
 pub struct Workspace {
-    pub settings: Settings,
-    pub document: Document,
-    /// The fit that is shown.
-    pub shown_fit: Option<Arc<FitEntry>>,
-    /// The fits of this session, the newest first.
-    pub fit_history: FitHistory,
-    /// The presets fitted to the open measurement.
-    pub model_comparison: Vec<ModelFit>,
-    /// Profile and bootstrap of the shown fit.
-    pub diagnostics: Diagnostics,
-    pub undo: History<Setup>,
-    /// The parameters at which the last live refit began or ended.
-    pub last_refit_at: Option<Parameters>,
-    /// The file of the session that is open.
-    pub session_file: Option<PathBuf>,
+    settings: Settings,
+    measurements: MeasurementList,
+    pinned: Vec<PinnedSurface>,
+    layout: Layout,
+    shown_fit: Option<Arc<FitEntry>>,
+    fit_history: FitHistory,
+    model_comparison: Vec<ModelFit>,
+    diagnostics: Diagnostics,
+    session_file: Option<PathBuf>,
+    undo: History<Setup>,
     revision: u64,
+    /// The revision at which a step of undo was recorded last.
+    recorded_at: u64,
+    /// The revision at which the user last moved a value or masked a row; 0 where the values are those of a fit.
+    moved_at: u64,
 }
 
 /// What a step of undo restores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
-    pub settings: Settings,
-    /// The mask of the measurement of that number.
-    pub mask: Mask,
-    pub number: u64,
+    settings: Settings,
+    measurements: Vec<MeasurementSetup>,
+    shared: ParameterSet,
+    pinned: Vec<PinnedSurface>,
+}
+
+/// What a step of undo restores of the measurement at a place of the list.
+#[derive(Debug, Clone, PartialEq)]
+struct MeasurementSetup {
+    surface: Surface,
+    style: MeasurementStyle,
+    mask: Mask,
+    /// Whose mask and style those are.
+    number: u64,
 }
 
 fn next_revision() -> u64 {
@@ -48,37 +60,56 @@ fn next_revision() -> u64 {
     LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
+impl Default for Workspace {
+    fn default() -> Self {
+        Self::new(Settings::default(), Surface::default(), Layout::default())
+    }
+}
+
 impl Workspace {
-    /// Work with these settings and no measurement.
-    pub fn new(settings: Settings) -> Self {
+    /// Work without a measurement.
+    pub fn new(settings: Settings, surface: Surface, layout: Layout) -> Self {
+        let nothing = OpenMeasurement::new(String::new(), Measurement::default()).with_surface(surface);
+        let revision = next_revision();
         Self {
             settings,
-            document: Document::new(String::new(), Measurement::default()),
+            measurements: MeasurementList::single(nothing),
+            pinned: Vec::new(),
+            layout,
             shown_fit: None,
             fit_history: FitHistory::default(),
             model_comparison: Vec::new(),
             diagnostics: Diagnostics::default(),
-            undo: History::default(),
-            last_refit_at: None,
             session_file: None,
-            revision: next_revision(),
+            undo: History::default(),
+            revision,
+            recorded_at: 0,
+            moved_at: revision,
         }
     }
 
-    /// The workspace in which a lesson begins: the same measurement and fits, default settings, nothing to undo.
+    /// The workspace in which a lesson begins: the same measurement, fits and panes, default settings, nothing to undo.
     pub fn for_lesson(&self) -> Self {
-        let settings = Settings::for_measurement(&self.document.measurement);
+        let active = self.active().clone();
+        let surface = Surface::for_measurement(&active.measurement);
         Self {
-            last_refit_at: Some(settings.parameters),
-            document: self.document.clone(),
+            measurements: MeasurementList::single(active.with_surface(surface)),
             fit_history: self.fit_history.clone(),
-            ..Self::new(settings)
+            layout: self.layout.clone(),
+            moved_at: 0,
+            ..Self::default()
         }
     }
 
-    /// Work that was kept: these settings, and fits from the oldest to the newest, each with whether it is shown.
-    pub fn restored(settings: Settings, document: Document, fits: impl IntoIterator<Item = (FitEntry, bool)>) -> Self {
-        let mut work = Self { last_refit_at: Some(settings.parameters), document, ..Self::new(settings) };
+    /// Work that was kept; fits from the oldest to the newest, each with whether it is shown.
+    pub fn restored(
+        settings: Settings,
+        layout: Layout,
+        measurements: MeasurementList,
+        pinned: Vec<PinnedSurface>,
+        fits: impl IntoIterator<Item = (FitEntry, bool)>,
+    ) -> Self {
+        let mut work = Self { settings, layout, measurements, pinned, moved_at: 0, ..Self::default() };
         for (fit, is_shown) in fits {
             let fit = work.fit_history.push(fit);
             if is_shown {
@@ -89,27 +120,87 @@ impl Workspace {
         work
     }
 
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    pub fn measurements(&self) -> &MeasurementList {
+        &self.measurements
+    }
+
+    /// The measurement that panels and panes show.
+    pub fn active(&self) -> &OpenMeasurement {
+        self.measurements.active()
+    }
+
+    /// The surface that the sliders show.
+    pub fn surface(&self) -> &Surface {
+        &self.active().surface
+    }
+
+    pub fn pinned(&self) -> &[PinnedSurface] {
+        &self.pinned
+    }
+
+    /// Where the panes lie; while all are closed, where they lay before.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The fit that is shown.
+    pub fn shown_fit(&self) -> Option<&Arc<FitEntry>> {
+        self.shown_fit.as_ref()
+    }
+
+    /// The fits of this session, the newest first.
+    pub fn fit_history(&self) -> &FitHistory {
+        &self.fit_history
+    }
+
+    /// The presets fitted to the active measurement.
+    pub fn model_comparison(&self) -> &[ModelFit] {
+        &self.model_comparison
+    }
+
+    /// Profile and bootstrap of the shown fit.
+    pub fn diagnostics(&self) -> &Diagnostics {
+        &self.diagnostics
+    }
+
+    /// The file of the session that is open.
+    pub fn session_file(&self) -> Option<&Path> {
+        self.session_file.as_deref()
+    }
+
+    pub fn can_undo(&self) -> bool {
+        self.undo.can_undo()
+    }
+
+    pub fn can_redo(&self) -> bool {
+        self.undo.can_redo()
+    }
+
     /// Another number after every change, and none twice in a run of the program: work of the same revision is the same work.
-    #[cfg(test)]
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// Notes that something changes.
-    pub(super) fn touch(&mut self) {
-        self.revision = next_revision();
+    /// The revision at which the user last moved a value or masked a row, 0 where the values are those of a fit: a live refit of an
+    /// earlier one is out of date.
+    pub fn moved_at(&self) -> u64 {
+        self.moved_at
     }
 
     /// Makes one change.
     pub fn apply(&mut self, edit: Edit) {
-        self.touch();
+        self.revision = next_revision();
         match edit {
-            Edit::SetParameter(parameter, value) => self.settings.parameters[parameter] = value,
-            Edit::SetParameters(parameters) => self.settings.parameters = parameters,
-            Edit::SetModel(model) => self.settings.model = model,
-            Edit::SetLocked(locked) => self.settings.locked = locked,
-            Edit::SetBounds(parameter, None) => self.settings.reset_bounds(parameter),
-            Edit::SetBounds(parameter, Some((low, high))) => drop(self.settings.set_bounds(parameter, low, high)),
+            Edit::SetParameters(parameters) => self.move_to(parameters),
+            Edit::SetModel(model) => self.measurements.active_mut().surface.model = model,
+            Edit::SetSurface(surface) => {
+                self.move_to(surface.parameters);
+                self.measurements.active_mut().surface = *surface;
+            }
             Edit::SetDirection { theta_i, dphi } => (self.settings.theta_i, self.settings.dphi) = (theta_i, dphi),
             Edit::SetSwitch(switch, on) => switch.set(&mut self.settings, on),
             Edit::SetFitOptions(options) => self.settings.choices = options,
@@ -118,41 +209,49 @@ impl Workspace {
             Edit::SetViewOptions(options) => self.settings.shown = options,
             Edit::SetLandscapeAxes(axes) => self.settings.landscape = axes,
             Edit::SetMetalSelection(selection) => self.settings.tabulated = selection,
-            Edit::SetPlan(plan) => self.settings.plan = plan,
+            Edit::SetDesign(design) => self.settings.plan = design,
             Edit::Mask { rows, masked } => {
-                self.document.set_masked(&rows, masked);
-                self.last_refit_at = None;
+                self.measurements.active_mut().set_masked(&rows, masked);
+                self.moved_at = self.revision;
             }
-            Edit::Open(document) => self.open(*document),
+            Edit::Open(opened) => self.open(*opened),
+            Edit::SetProfiled(parameter) => self.diagnostics.parameter = Some(parameter),
             Edit::SetProfile(profile) => self.diagnostics.profile = profile,
+            Edit::SetReplicates(replicates) => self.diagnostics.replicates = replicates,
             Edit::SetBootstrap(scatter) => self.diagnostics.scatter = scatter,
             Edit::SetModelComparison(fits) => self.model_comparison = fits,
+            Edit::SetLayout(layout) => self.layout = layout,
+            Edit::SetSessionFile(file) => self.session_file = file,
             Edit::Undo => self.restore(History::undo),
             Edit::Redo => self.restore(History::redo),
             Edit::AddFit(fit) => {
-                self.take_values(fit.report.parameters, self.settings.model);
+                self.take_values(fit.report.parameters, self.surface().model);
                 let fit = self.fit_history.push(*fit);
                 self.show_fit(Some(fit));
             }
             Edit::Refit(report) => self.take_refit(&report),
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
             Edit::UseFit => {
-                if let Some(FitResult { parameters, model, .. }) = self.shown_fit.as_ref().map(|fit| &fit.report) {
-                    (self.settings.parameters, self.settings.model) = (*parameters, *model);
+                if let Some(fit) = self.shown_fit.clone() {
+                    self.measurements.active_mut().surface.model = fit.report.model;
+                    self.move_to(fit.report.parameters);
                 }
             }
             Edit::UseValuesBeforeFit => {
-                self.settings.parameters = self.shown_fit.as_ref().map_or(self.settings.parameters, |fit| fit.before);
+                if let Some(fit) = self.shown_fit.clone() {
+                    self.move_to(fit.before);
+                }
             }
             Edit::ReturnToFit(index) => {
                 if let Some(fit) = self.fit_history.get(index) {
                     self.take_values(fit.report.parameters, fit.report.model);
-                    self.show_fit(Some(fit).filter(|fit| fit.number == self.document.number));
+                    self.show_fit(Some(fit).filter(|fit| fit.number == self.active().number));
                 }
             }
             Edit::UseModelFit(index) => {
                 if let Some(ModelFit { result: Ok(report), .. }) = self.model_comparison.get(index) {
-                    self.take_values(report.parameters, report.model);
+                    let (parameters, model) = (report.parameters, report.model);
+                    self.take_values(parameters, model);
                 }
             }
         }
@@ -160,72 +259,157 @@ impl Workspace {
 
     /// Records a step of undo, if anything that undo restores differs from the step before. Called while no slider is held.
     pub fn record_step(&mut self) {
-        self.undo.rest(self.setup());
+        if self.recorded_at != self.revision {
+            self.recorded_at = self.revision;
+            self.undo.record(self.setup());
+        }
+    }
+
+    /// Makes the work as it is now the last step of undo, in place of the one before.
+    pub(super) fn replace_step(&mut self) {
+        self.recorded_at = self.revision;
+        self.undo.replace(self.setup());
+    }
+
+    /// Takes over the steps of undo of other work: the work as it is now becomes the next one.
+    pub fn continue_undo_of(&mut self, other: Self) {
+        self.undo = other.undo;
+        self.recorded_at = 0;
     }
 
     /// What a step of undo restores, as it is now.
     pub fn setup(&self) -> Setup {
-        Setup { settings: self.settings.clone(), mask: self.document.mask().clone(), number: self.document.number }
+        let of = |open: &OpenMeasurement| MeasurementSetup {
+            surface: open.surface.clone(),
+            style: open.style,
+            mask: open.mask().clone(),
+            number: open.number,
+        };
+        Setup {
+            settings: self.settings.clone(),
+            measurements: self.measurements.iter().map(of).collect(),
+            shared: self.measurements.shared(),
+            pinned: self.pinned.clone(),
+        }
     }
 
     fn restore(&mut self, step: fn(&mut History<Setup>) -> Option<Setup>) {
-        let Some(Setup { settings, mask, number }) = step(&mut self.undo) else { return };
-        self.settings = settings;
-        self.last_refit_at = Some(self.settings.parameters);
-        // The rows of another measurement are other rows.
-        if number == self.document.number {
-            self.document.restore_mask(&mask);
+        let Some(Setup { settings, measurements, shared, pinned }) = step(&mut self.undo) else { return };
+        (self.settings, self.pinned) = (settings, pinned);
+        self.measurements.share(shared);
+        self.moved_at = 0;
+        for (open, setup) in self.measurements.iter_mut().zip(measurements) {
+            open.surface = setup.surface;
+            // The rows of another measurement are other rows.
+            if open.number == setup.number {
+                open.style = setup.style;
+                open.restore_mask(&setup.mask);
+            }
         }
-        self.undo.replace(self.setup());
+        self.replace_step();
     }
 
-    /// Puts a measurement in the place of the active one, without its fits; no step of undo of its own.
-    pub(super) fn open(&mut self, document: Document) {
-        self.document = document;
-        self.settings.suit(&self.document);
-        self.show_fit(None);
-        self.model_comparison.clear();
-        self.undo.replace(self.setup());
+    /// Puts a measurement in the place of all that are open, without its fits; no step of undo of its own. The sliders stay.
+    pub(super) fn open(&mut self, mut opened: OpenMeasurement) {
+        opened.surface = self.surface().clone();
+        opened.surface.adapt_to(&opened.measurement);
+        self.settings.adapt_to(&opened);
+        self.measurements = MeasurementList::single(opened);
+        self.forget_fits();
+        self.replace_step();
+    }
+
+    /// Sets up settings, surface and mask as a lesson wants them.
+    pub(super) fn set_up(&mut self, settings: Settings, surface: Surface, mask: &Mask) {
+        self.revision = next_revision();
+        self.settings = settings;
+        self.moved_at = 0;
+        let active = self.measurements.active_mut();
+        active.surface = surface;
+        active.restore_mask(mask);
+    }
+
+    /// The user moves the sliders.
+    fn move_to(&mut self, parameters: Parameters) {
+        if parameters != self.surface().parameters {
+            self.moved_at = self.revision;
+        }
+        self.measurements.set_parameters(parameters);
     }
 
     /// Values and model from a fit: the live refit does not begin at them.
     fn take_values(&mut self, parameters: Parameters, model: Model) {
-        (self.settings.parameters, self.settings.model) = (parameters, model);
-        self.last_refit_at = Some(parameters);
+        self.measurements.set_parameters(parameters);
+        self.measurements.active_mut().surface.model = model;
+        self.moved_at = 0;
     }
 
     /// Takes what a live refit found. Sliders may have moved since it began: locked ones stay, free ones are the fit's.
     fn take_refit(&mut self, report: &FitResult) {
+        let Surface { mut parameters, locked, .. } = *self.surface();
         let free = report.estimates.iter().map(|estimate| estimate.parameter);
-        for parameter in free.filter(|parameter| !self.settings.locked.contains(*parameter)) {
-            self.settings.parameters[parameter] = report.parameters[parameter];
+        for parameter in free.filter(|parameter| !locked.contains(*parameter)) {
+            parameters[parameter] = report.parameters[parameter];
         }
-        if self.settings.parameters == report.parameters {
-            self.last_refit_at = Some(report.parameters);
-        }
+        self.measurements.set_parameters(parameters);
     }
 
     /// Shows a fit; profile and bootstrap of another one are dropped.
-    pub(super) fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
+    fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
         self.shown_fit = fit;
         self.diagnostics.forget();
+    }
+
+    /// Shows no fit, and no comparison of models.
+    pub(super) fn forget_fits(&mut self) {
+        self.show_fit(None);
+        self.model_comparison.clear();
+    }
+}
+
+/// Tests set things without a widget.
+#[cfg(test)]
+impl Workspace {
+    pub fn settings_mut(&mut self) -> &mut Settings {
+        self.revision = next_revision();
+        &mut self.settings
+    }
+
+    /// As if a user moved the sliders.
+    pub fn surface_mut(&mut self) -> &mut Surface {
+        self.revision = next_revision();
+        self.moved_at = self.revision;
+        &mut self.measurements.active_mut().surface
+    }
+
+    /// All that sliders, switches and menus set.
+    pub fn values(&self) -> (Settings, Surface) {
+        (self.settings.clone(), self.surface().clone())
+    }
+
+    pub fn set_shown_fit(&mut self, fit: FitEntry) {
+        self.revision = next_revision();
+        self.shown_fit = Some(Arc::new(fit));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Workspace;
-    use crate::app::work::document::{Document, EXAMPLES};
     use crate::app::work::edit::{Edit, Switch};
-    use crate::app::work::settings::Settings;
+    use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
     use pbrdf::measurement::Measurement;
-    use pbrdf::model::Parameter;
+    use pbrdf::model::{Parameter, ParameterSet, Parameters};
+
+    fn example(name: &str) -> Edit {
+        let measurement = Measurement::read(EXAMPLES[0].text.as_bytes()).expect("an example is a measurement");
+        Edit::Open(Box::new(OpenMeasurement::new(name.to_owned(), measurement)))
+    }
 
     /// Work on an example that holds as many rows as a user would mask by hand.
     fn opened() -> Workspace {
-        let mut work = Workspace::new(Settings::default());
-        let measurement = Measurement::read(EXAMPLES[0].text.as_bytes()).expect("an example is a measurement");
-        work.apply(Edit::Open(Box::new(Document::new(EXAMPLES[0].name.to_owned(), measurement))));
+        let mut work = Workspace::default();
+        work.apply(example("first"));
         work
     }
 
@@ -240,11 +424,15 @@ mod tests {
         let mut work = opened();
         let mut revisions = vec![work.revision()];
         let before = work.setup();
+        let mut surface = work.surface().clone();
+        surface.parameters.n = 2.5;
+        surface.locked = ParameterSet::EMPTY.with(Parameter::K);
+        surface.set_bounds(Parameter::K, 0.5, 4.0).expect("sound bounds");
         for edit in [
-            Edit::SetParameter(Parameter::N, 2.5),
+            Edit::SetParameters(Parameters { n: 2.5, ..Parameters::default() }),
             Edit::Mask { rows: vec![0, 3], masked: true },
             Edit::SetSwitch(Switch::LogBrdf, true),
-            Edit::SetBounds(Parameter::K, Some((0.5, 4.0))),
+            Edit::SetSurface(Box::new(surface.clone())),
         ] {
             work.apply(edit);
             revisions.push(work.revision());
@@ -252,17 +440,28 @@ mod tests {
         }
         assert!(revisions.is_sorted_by(|one, next| one < next), "{revisions:?}");
         let after = work.setup();
-        assert_eq!((after.mask.to_vec(), after.settings.parameters.n, after.settings.log_brdf), (vec![0, 3], 2.5, true));
+        assert_eq!((work.active().mask().to_vec(), work.surface(), work.settings().log_brdf), (vec![0, 3], &surface, true));
         for _ in 0..4 {
-            assert!(work.undo.can_undo());
+            assert!(work.can_undo());
             work.apply(Edit::Undo);
         }
         assert_eq!(work.setup(), before);
-        assert!(!work.undo.can_undo());
+        assert!(!work.can_undo());
         for _ in 0..4 {
             work.apply(Edit::Redo);
         }
         assert_eq!(work.setup(), after);
+    }
+
+    #[test]
+    fn a_change_that_is_taken_back_is_no_step() {
+        let mut work = opened();
+        work.record_step();
+        for value in [2.5, work.surface().parameters.n] {
+            work.apply(Edit::SetParameters(Parameters { n: value, ..Parameters::default() }));
+        }
+        work.record_step();
+        assert!(!work.can_undo());
     }
 
     #[test]
@@ -271,17 +470,26 @@ mod tests {
         work.record_step();
         work.apply(Edit::Mask { rows: vec![1], masked: true });
         work.record_step();
-        let document = work.document.clone();
-        work.apply(Edit::Open(Box::new(Document::new("again".to_owned(), (*document.measurement).clone()))));
-        let steps = work.undo.can_redo();
-        work.apply(Edit::Undo);
-        assert_eq!((work.document.name.as_str(), work.document.mask().to_vec(), steps), ("again", vec![1], false));
+        work.apply(example("second"));
+        work.apply(Edit::Mask { rows: vec![2], masked: true });
+        work.record_step();
+        for _ in 0..2 {
+            work.apply(Edit::Undo);
+        }
+        assert_eq!((work.active().name.as_str(), work.active().mask().len(), work.can_undo()), ("second", 0, false));
     }
 
     #[test]
-    fn bounds_that_mean_nothing_change_nothing() {
+    fn a_live_refit_is_out_of_date_when_the_user_moves_something_and_not_when_a_fit_does() {
         let mut work = opened();
-        work.apply(Edit::SetBounds(Parameter::N, Some((3.0, 1.0))));
-        assert!(!work.settings.has_own_bounds(Parameter::N));
+        let (parameters, model) = (work.surface().parameters, work.surface().model);
+        work.apply(Edit::TakeValues { parameters: Parameters { n: 3.5, ..parameters }, model });
+        work.apply(Edit::SetSwitch(Switch::Limit, false));
+        work.apply(Edit::SetParameters(Parameters { n: 3.5, ..parameters }));
+        assert_eq!(work.moved_at(), 0);
+        work.apply(Edit::SetParameters(parameters));
+        assert_eq!(work.moved_at(), work.revision());
+        work.apply(Edit::Mask { rows: vec![1], masked: true });
+        assert_eq!(work.moved_at(), work.revision());
     }
 }

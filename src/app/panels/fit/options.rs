@@ -2,10 +2,12 @@
 
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
+use crate::app::views::Cx;
+use crate::app::work::edit::Edit;
 use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
 use pbrdf::fit::{BrdfResiduals, FitOptions, Loss, Starts, Weights};
-use pbrdf::measurement::Measurement;
 use pbrdf::model::{DolpFormula, Parameter};
 use tr::tr;
 
@@ -14,30 +16,47 @@ const MOST_STARTS: usize = 100_000;
 /// Starts when a number of them is first asked for.
 const SOME_STARTS: usize = 100;
 
-pub fn options_ui(settings: &mut Settings, measurement: &Measurement, states_sigmas: bool, ui: &mut Ui) {
-    let are_defaults = settings.choices == FitOptions::default()
-        && settings.starts == Starts::Automatic
-        && settings.model.dolp_formula == DolpFormula::default();
+/// Copies of what the panel sets; those that change become edits.
+struct Draft {
+    choices: FitOptions,
+    starts: Starts,
+    seed: u64,
+    surface: Surface,
+}
+
+pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let Settings { choices, starts, seed, .. } = *cx.work.settings();
+    let surface = cx.work.surface();
+    let has_brdf = cx.work.active().measurement.has_brdf();
+    let mut draft = Draft { choices, starts, seed, surface: surface.clone() };
+    let are_defaults =
+        choices == FitOptions::default() && starts == Starts::Automatic && surface.model.dolp_formula == DolpFormula::default();
     let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
         Grid::new("fit options").num_columns(2).show(ui, |ui| {
-            residuals_ui(&mut settings.choices, ui);
-            loss_ui(&mut settings.choices, ui);
-            eq17_ui(settings, measurement.has_brdf(), ui);
-            starts_ui(settings, ui);
+            residuals_ui(&mut draft.choices, ui);
+            loss_ui(&mut draft.choices, ui);
+            eq17_ui(&mut draft.surface, has_brdf, ui);
+            starts_ui(&mut draft, ui);
         });
-        if settings.choices.weights == Weights::Sigma && !states_sigmas {
+        if choices.weights == Weights::Sigma && !cx.derived.states_sigmas() {
             let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
         if ui.add_enabled(!are_defaults, egui::Button::new(tr!("Default options"))).clicked() {
-            settings.choices = FitOptions::default();
-            settings.model.dolp_formula = DolpFormula::default();
-            settings.starts = Starts::Automatic;
-            settings.seed = 1;
-            keep_ks_where_only_ratios_count(settings, measurement.has_brdf());
+            let mut surface = surface.clone();
+            surface.model.dolp_formula = DolpFormula::default();
+            keep_ks_where_only_ratios_count(&mut surface, has_brdf);
+            draft = Draft { choices: FitOptions::default(), starts: Starts::Automatic, seed: 1, surface };
         }
     });
+    let edits = [
+        (draft.choices != choices).then_some(Edit::SetFitOptions(draft.choices)),
+        (draft.starts != starts).then_some(Edit::SetStarts(draft.starts)),
+        (draft.seed != seed).then_some(Edit::SetSeed(draft.seed)),
+        (draft.surface != *surface).then(|| Edit::SetSurface(Box::new(draft.surface))),
+    ];
+    cx.edits.extend(edits.into_iter().flatten());
 }
 
 /// One choice out of a few, with its name in front; true when it changed.
@@ -99,28 +118,28 @@ fn loss_ui(choices: &mut FitOptions, ui: &mut Ui) {
     ui.end_row();
 }
 
-fn eq17_ui(settings: &mut Settings, has_brdf: bool, ui: &mut Ui) {
+fn eq17_ui(surface: &mut Surface, has_brdf: bool, ui: &mut Ui) {
     let changed = choice(
         ui,
         "Eq. (17)",
         "Consistent: k_s in the numerator, as Eqs. (14, 15) have it. As printed: without it, so that k_s is a gain of its own and DoLP \
          may exceed 1.",
-        &mut settings.model.dolp_formula,
+        &mut surface.model.dolp_formula,
         &[(DolpFormula::Consistent, "consistent"), (DolpFormula::AsPrinted, "as printed")],
     );
     if changed {
-        keep_ks_where_only_ratios_count(settings, has_brdf);
+        keep_ks_where_only_ratios_count(surface, has_brdf);
     }
 }
 
 /// As printed k_s counts by itself; in the consistent reading DoLP alone knows only ratios to it.
-fn keep_ks_where_only_ratios_count(settings: &mut Settings, has_brdf: bool) {
-    let only_ratios = settings.model.dolp_formula == DolpFormula::Consistent && !has_brdf;
-    settings.locked = if only_ratios { settings.locked.with(Parameter::Ks) } else { settings.locked.without(Parameter::Ks) };
+fn keep_ks_where_only_ratios_count(surface: &mut Surface, has_brdf: bool) {
+    let only_ratios = surface.model.dolp_formula == DolpFormula::Consistent && !has_brdf;
+    surface.locked = if only_ratios { surface.locked.with(Parameter::Ks) } else { surface.locked.without(Parameter::Ks) };
 }
 
-fn starts_ui(settings: &mut Settings, ui: &mut Ui) {
-    let several = match settings.starts {
+fn starts_ui(draft: &mut Draft, ui: &mut Ui) {
+    let several = match draft.starts {
         Starts::Exactly(count) => count,
         Starts::Automatic | Starts::One => SOME_STARTS,
     };
@@ -128,17 +147,17 @@ fn starts_ui(settings: &mut Settings, ui: &mut Ui) {
         ui,
         "Starts",
         "Automatic: the sliders, a first guess, and spread points until nothing new is found. One: the sliders alone.",
-        &mut settings.starts,
+        &mut draft.starts,
         &[(Starts::Automatic, "automatic"), (Starts::One, "one, from the sliders"), (Starts::Exactly(several), "a number of them")],
     );
-    if let Starts::Exactly(count) = &mut settings.starts {
+    if let Starts::Exactly(count) = &mut draft.starts {
         let label = ui.label(tr!("Number of starts"));
         ui.add(DragValue::new(count).range(2..=MOST_STARTS)).labelled_by(label.id);
         ui.end_row();
     }
-    if settings.starts != Starts::One {
+    if draft.starts != Starts::One {
         let label = ui.label(tr!("Seed")).on_hover_text(tr!("The same seed gives the same starts, and the same result, on every machine"));
-        ui.add(DragValue::new(&mut settings.seed).speed(0.1)).labelled_by(label.id);
+        ui.add(DragValue::new(&mut draft.seed).speed(0.1)).labelled_by(label.id);
         ui.end_row();
     }
 }

@@ -3,13 +3,14 @@
 use crate::app::text::glossary::delta_e_help;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
-use crate::app::work::fit_history::{FitEntry, FitHistory};
+use crate::app::work::workspace::Workspace;
 use egui::{CollapsingHeader, Grid, Ui};
 use pbrdf::model::Preset;
 use std::sync::Arc;
 use tr::tr;
 
-pub fn past_fits_ui(fits: &FitHistory, shown: Option<&Arc<FitEntry>>, number: u64, commands: &mut Vec<Action>, ui: &mut Ui) {
+pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
+    let (fits, shown, number) = (work.fit_history(), work.shown_fit(), work.active().number);
     if fits.is_empty() {
         return;
     }

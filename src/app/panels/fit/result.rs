@@ -9,7 +9,7 @@ use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, Ui};
 use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
 use tr::tr;
@@ -17,10 +17,10 @@ use tr::tr;
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstrap>, commands: &mut Vec<Action>, ui: &mut Ui) {
-    let report = &fit.report;
+pub fn result_ui(fit: &FitEntry, work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
+    let (report, surface) = (&fit.report, work.surface());
     ui.horizontal(|ui| {
-        let are_sliders = settings.parameters == report.parameters && settings.model == report.model;
+        let are_sliders = surface.parameters == report.parameters && surface.model == report.model;
         let take = ui.add_enabled(!are_sliders, Button::new(tr!("Use as sliders"))).on_hover_text(tr!("The fitted values to the sliders"));
         if take.on_disabled_hover_text(tr!("The sliders are those of the fit.")).clicked() {
             commands.push(Action::UseFit);
@@ -59,7 +59,7 @@ pub fn result_ui(fit: &FitEntry, settings: &Settings, bootstrap: Option<&Bootstr
         }
     });
     ui.add_space(6.0);
-    estimates_ui(report, bootstrap, ui);
+    estimates_ui(report, work.diagnostics().scatter.as_ref(), ui);
     ui.add_space(6.0);
     minima_ui(report, ui);
     correlations_ui(report, ui);

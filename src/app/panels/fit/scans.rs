@@ -5,62 +5,68 @@ use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
 use crate::app::plots::theme;
 use crate::app::text::numbers::significant;
+use crate::app::views::Cx;
 use crate::app::views::action::Action;
-use crate::app::work::diagnostics::{Diagnostics, ProfileCurve};
+use crate::app::work::diagnostics::ProfileCurve;
+use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
 use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
-use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoints, Points, VLine};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, VLine};
 use pbrdf::model::Parameter;
 use tr::tr;
 
 /// Data sets that a bootstrap deals out at most.
 const MOST_REPLICATES: usize = 100_000;
 
-pub fn scans_ui(fit: &FitEntry, scans: &mut Diagnostics, running: bool, commands: &mut Vec<Action>, ui: &mut Ui) {
+pub fn scans_ui(fit: &FitEntry, cx: &mut Cx<'_>, ui: &mut Ui) {
     let free = fit.problem.free();
     if free.is_empty() || fit.problem.is_empty() {
         return;
     }
+    let (running, scans) = (cx.jobs.fits.is_scanning(), cx.work.diagnostics());
     CollapsingHeader::new(tr!("Profile and bootstrap")).id_salt("scans").show(ui, |ui| {
-        profile_choice_ui(free, scans, running, commands, ui);
+        profile_choice_ui(free, cx, ui);
         if let Some(profile) = &scans.profile {
             profile_ui(profile, ui);
         }
         ui.horizontal(|ui| {
             let help = tr!("Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results");
             if ui.add_enabled(!running, Button::new(tr!("Bootstrap"))).on_hover_text(help).clicked() {
-                commands.push(Action::Bootstrap);
+                cx.actions.push(Action::Bootstrap);
             }
             let label = ui.label(tr!("data sets"));
-            ui.add(DragValue::new(&mut scans.replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id);
+            let mut replicates = scans.replicates;
+            if ui.add(DragValue::new(&mut replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id).changed() {
+                cx.edits.push(Edit::SetReplicates(replicates));
+            }
         });
         if running {
             ui.horizontal(|ui| {
                 ui.spinner();
                 if ui.button(tr!("Stop the scan")).on_hover_text(tr!("Stop and keep what is there")).clicked() {
-                    commands.push(Action::CancelScan);
+                    cx.actions.push(Action::CancelScan);
                 }
             });
         }
     });
 }
 
-fn profile_choice_ui(free: &[Parameter], scans: &mut Diagnostics, running: bool, commands: &mut Vec<Action>, ui: &mut Ui) {
-    let chosen = scans.parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
+fn profile_choice_ui(free: &[Parameter], cx: &mut Cx<'_>, ui: &mut Ui) {
+    let chosen = cx.work.diagnostics().parameter.filter(|parameter| free.contains(parameter)).unwrap_or(free[0]);
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Profile of"));
         let combo = ComboBox::from_id_salt("profile").width(60.0).selected_text(chosen.symbol()).show_ui(ui, |ui| {
             for parameter in free {
                 if ui.selectable_label(*parameter == chosen, parameter.symbol()).clicked() {
-                    scans.parameter = Some(*parameter);
+                    cx.edits.push(Edit::SetProfiled(*parameter));
                 }
             }
         });
         combo.response.labelled_by(label.id);
         let help = tr!("Hold it at values around the fitted one and fit the rest again: the interval that holds where errors are not \
              symmetric, or where the data leave directions open");
-        if ui.add_enabled(!running, Button::new(tr!("Scan"))).on_hover_text(help).clicked() {
-            commands.push(Action::Profile(chosen));
+        if ui.add_enabled(!cx.jobs.fits.is_scanning(), Button::new(tr!("Scan"))).on_hover_text(help).clicked() {
+            cx.actions.push(Action::Profile(chosen));
         }
     });
 }
@@ -73,9 +79,10 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let name = if profile.is_chi2 { "Δχ²" } else { "ΔΣ²" };
     ui.label(interval_text(profile)).on_hover_text(tr!("Where the sum of squares rises by as much as one standard error makes"));
-    let highest = profile.points.iter().map(|point| point.y).fold(0.0, f64::max);
+    let points: Vec<PlotPoint> = profile.points.iter().map(|&[value, gain]| PlotPoint::new(value, gain)).collect();
+    let highest = points.iter().map(|point| point.y).fold(0.0, f64::max);
     let top = if profile.limit > 0.0 { highest.clamp(2.0 * profile.limit, SHOWN * profile.limit) } else { highest };
-    let (Some(first), Some(last)) = (profile.points.first(), profile.points.last()) else { return };
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     if !(first.x < last.x && top > 0.0) {
         return;
     }
@@ -110,8 +117,8 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
             plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
         }
         plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
-        plot.line(line(&tr!("profile"), &profile.points).color(color).width(1.5).allow_hover(false));
-        plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&profile.points)).color(color).radius(2.0));
+        plot.line(line(&tr!("profile"), &points).color(color).width(1.5).allow_hover(false));
+        plot.points(Points::new(tr!("profile"), PlotPoints::Borrowed(&points)).color(color).radius(2.0));
     });
     let said = || WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", name, profile.parameter.symbol()));
     response.response.widget_info(said);

@@ -11,7 +11,7 @@ use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
 use crate::app::plots::{AutoRange, BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
-use crate::app::work::document::Document;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Series, Symbol};
 use disc::{Disc, MARGIN, incident_mark, legend_ui, measured_mark, mirror_mark};
@@ -138,7 +138,7 @@ impl HemisphereView {
 }
 
 /// Directions measured at that θi.
-fn measured(document: &Document, theta_i: f64) -> Vec<Vec2> {
+fn measured(document: &OpenMeasurement, theta_i: f64) -> Vec<Vec2> {
     let geometries = document.measurement.rows.iter().map(|row| row.geometry);
     let at = geometries.filter(|geometry| geometry.theta_i() == Degrees(theta_i));
     at.map(|geometry: Geometry| place(geometry.theta_r().0, geometry.dphi().0)).take(MOST_POINTS).collect()
@@ -146,8 +146,8 @@ fn measured(document: &Document, theta_i: f64) -> Vec<Vec2> {
 
 impl View for HemisphereView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let settings = &*cx.settings;
-        let (parameters, model, theta_i) = (settings.parameters, settings.model, settings.theta_i);
+        let (settings, surface) = (cx.work.settings(), cx.work.surface());
+        let (parameters, model, theta_i) = (surface.parameters, surface.model, settings.theta_i);
         let Ok(surface) = Pbrdf::new(model, parameters) else {
             // Values that are not numbers differ from themselves: a job would follow a job for ever.
             self.job = AsyncMemo::default();
@@ -156,7 +156,7 @@ impl View for HemisphereView {
         let before = self.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
         let key = (parameters, model, theta_i);
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(&surface, theta_i, before, stopped));
-        self.measured.refresh((cx.document.generation, theta_i), |_| measured(cx.document, theta_i));
+        self.measured.refresh((cx.work.active().generation, theta_i), |_| measured(cx.work.active(), theta_i));
         let (Some(key), Some(Some(made))) = (self.job.key(), self.job.get()) else { return };
         let quantity = settings.shown.hemisphere;
         let range = &mut self.ranges[quantity as usize];
@@ -168,12 +168,14 @@ impl View for HemisphereView {
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
-            for quantity in HemisphereQuantity::ALL {
-                let [name, help] = quantity.texts();
-                ui.selectable_value(&mut cx.settings.shown.hemisphere, quantity, name).on_hover_text(help);
-            }
+            cx.view_options_ui(|shown| {
+                for quantity in HemisphereQuantity::ALL {
+                    let [name, help] = quantity.texts();
+                    ui.selectable_value(&mut shown.hemisphere, quantity, name).on_hover_text(help);
+                }
+            });
         });
-        let (quantity, theta_i) = (cx.settings.shown.hemisphere, cx.settings.theta_i);
+        let (quantity, theta_i) = (cx.work.settings().shown.hemisphere, cx.work.settings().theta_i);
         if let Some(image) = self.fresh.take() {
             match &mut self.texture {
                 Some(texture) => texture.set(image, TextureOptions::LINEAR),
@@ -192,7 +194,7 @@ impl View for HemisphereView {
     /// θr from the middle outwards in degrees, so that axes can tell it.
     fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
         let (theta_i, made) = (self.job.key()?.2, self.job.get()?.as_ref()?);
-        let quantity = cx.settings.shown.hemisphere;
+        let quantity = cx.work.settings().shown.hemisphere;
         let range = self.ranges[quantity as usize].get()?;
         let mut series = vec![Series::heat_map(made.heat_map(quantity, range, quantity.axis()))];
         let ring = |theta_r: f64| (0..=120).map(|i| in_degrees(place(theta_r, 3.0 * f64::from(i)))).collect();
@@ -217,7 +219,7 @@ impl View for HemisphereView {
             equal_aspect: true,
             ..Panel::default()
         };
-        let title = cx.document.title();
+        let title = cx.work.active().title();
         Some(Figure { title, panels: vec![panel], width_mm: 130.0, height_mm: 125.0, ..Figure::default() })
     }
 

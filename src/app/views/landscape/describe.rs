@@ -19,7 +19,7 @@ const MINIMA: Rgb = Rgb(255, 214, 90);
 const METALS: Rgb = Rgb(150, 220, 255);
 
 pub fn describe(view: &LandscapeView, cx: &Cx<'_>) -> Option<Figure> {
-    let settings = &*cx.settings;
+    let (settings, surface) = (cx.work.settings(), cx.work.surface());
     let (key, drawn) = (view.job.key()?, view.job.get()?.as_ref()?);
     let mut series = vec![Series::heat_map(heat_map(drawn, key))];
     let back = |[x, y]: [f64; 2]| [value(key.across.parameter, x), value(key.up.parameter, y)];
@@ -35,10 +35,10 @@ pub fn describe(view: &LandscapeView, cx: &Cx<'_>) -> Option<Figure> {
         share * (high - low)
     });
     series.extend(marks(view, settings, room, back));
-    let sliders = [key.across, key.up].map(|nodes| settings.parameters[nodes.parameter]);
+    let sliders = [key.across, key.up].map(|nodes| surface.parameters[nodes.parameter]);
     series.push(pointed(tr!("sliders"), vec![sliders], Symbol::Cross, MARK));
     let panel = Panel { x: axis(key.across), y: axis(key.up), series, ..Panel::default() };
-    Some(Figure { title: cx.document.title(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
+    Some(Figure { title: cx.work.active().title(), panels: vec![panel], width_mm: 160.0, height_mm: 125.0, ..Figure::default() })
 }
 
 fn axis(nodes: LandscapeAxis) -> Axis {

@@ -6,7 +6,7 @@ use crate::app::plots::{ColorScale, Range, ink_on};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::views::landscape::key::LandscapeKey;
 use crate::app::work::fit_setup::problem;
-use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
 use crate::figure::ColorMap;
 use egui::{Color32, ColorImage};
 use egui_plot::PlotPoint;
@@ -31,14 +31,14 @@ const DECADES: f64 = 6.0;
 const LINES: usize = 12;
 
 impl LandscapeImage {
-    /// Of the measurement with the choices of the settings; none where there is no problem or no node has a value.
-    pub fn new(mut settings: Settings, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
+    /// Of the measurement with the model and the choices of the key, in the bounds of the surface; none where there is no problem or no node has a value.
+    pub fn new(mut surface: Surface, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
         // Where its own two sliders stand is no matter, not even if that is nowhere.
         for axis in [key.across, key.up] {
-            settings.parameters[axis.parameter] = axis.low;
+            surface.parameters[axis.parameter] = axis.low;
         }
-        let problem = problem(&settings, measurement, settings.model, free, settings.choices).ok()?;
+        let problem = problem(&surface, measurement, key.model, free, key.choices).ok()?;
         let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
         let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
         let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();

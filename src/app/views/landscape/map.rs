@@ -7,15 +7,15 @@ use crate::app::views::landscape::drawn::LandscapeImage;
 use crate::app::views::landscape::legend::legend_ui;
 use crate::app::views::landscape::marks::{marks_in, sliders_in};
 use crate::app::views::landscape::state::LandscapeView;
-use crate::app::work::settings::Settings;
+use crate::app::work::workspace::Workspace;
 use egui::{TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotBounds, PlotImage, PlotPoint, PlotResponse, PlotUi};
 use pbrdf::fit::LandscapeAxis;
 use pbrdf::model::Parameter;
 
 /// The map with what lies on it.
-pub fn map_ui(view: &mut LandscapeView, settings: &Settings, height: f32, ui: &mut Ui) -> PlotResponse<()> {
-    let shown = settings.landscape;
+pub fn map_ui(view: &mut LandscapeView, work: &Workspace, height: f32, ui: &mut Ui) -> PlotResponse<()> {
+    let shown = work.settings().landscape;
     let drawn = view.job.get().and_then(Option::as_ref);
     if let (Some(key), Some(drawn)) = (view.job.key(), drawn) {
         let (texture, ctx) = (&mut view.texture, ui.ctx());
@@ -51,7 +51,7 @@ pub fn map_ui(view: &mut LandscapeView, settings: &Settings, height: f32, ui: &m
             if let Some(marks) = marks {
                 marks_in(plot, marks, shown);
             }
-            let sliders = [shown.across, shown.up].map(|parameter| coordinate(parameter, settings.parameters[parameter]));
+            let sliders = [shown.across, shown.up].map(|parameter| coordinate(parameter, work.surface().parameters[parameter]));
             if sliders.iter().all(|place| place.is_finite()) {
                 sliders_in(plot, sliders);
             }

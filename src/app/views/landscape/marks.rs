@@ -4,9 +4,9 @@ use crate::app::plots::line;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::landscape::axes::coordinate;
-use crate::app::work::document::Document;
-use crate::app::work::fit_history::{FitEntry, FitHistory};
-use crate::app::work::settings::{LandscapeAxes, Settings};
+use crate::app::work::fit_history::FitEntry;
+use crate::app::work::settings::LandscapeAxes;
+use crate::app::work::workspace::Workspace;
 use egui::{Align2, Color32, Rect, RichText};
 use egui_plot::{MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
@@ -31,11 +31,12 @@ pub struct MarksKey {
 }
 
 impl MarksKey {
-    pub fn new(settings: &Settings, document: &Document, past: &FitHistory, shown: Option<&FitEntry>) -> Self {
+    pub fn new(work: &Workspace) -> Self {
+        let settings = work.settings();
         let LandscapeAxes { across, up, .. } = settings.landscape;
         let wavelength_nm = settings.tabulated.wavelength_nm;
-        let (axes, shown) = ((across, up), shown.map(|fit| fit.id));
-        Self { axes, fits: past.made(), shown, number: document.number, wavelength_nm, language: i18n::current() }
+        let (axes, shown) = ((across, up), work.shown_fit().map(|fit| fit.id));
+        Self { axes, fits: work.fit_history().made(), shown, number: work.active().number, wavelength_nm, language: i18n::current() }
     }
 }
 
@@ -72,7 +73,7 @@ impl Noted {
 }
 
 impl Marks {
-    pub fn new(key: &MarksKey, past: &FitHistory, shown: Option<&FitEntry>, document: &Document) -> Self {
+    pub fn new(key: &MarksKey, work: &Workspace) -> Self {
         let (across, up) = key.axes;
         let place = |parameters: &Parameters| {
             let point = PlotPoint::new(coordinate(across, parameters[across]), coordinate(up, parameters[up]));
@@ -89,10 +90,10 @@ impl Marks {
             way.push(place(&fit.report.parameters), || tr!("end of fit {}", fit.id));
             way
         };
-        let own = past.iter().filter(|fit| fit.number == document.number);
+        let own = work.fit_history().iter().filter(|fit| fit.number == key.number);
         let ways = own.take(WAYS).map(|fit| way(fit)).collect();
         let mut minima = Noted::default();
-        for (i, minimum) in shown.iter().flat_map(|fit| &fit.report.course.minima).take(MOST_MINIMA).enumerate() {
+        for (i, minimum) in work.shown_fit().iter().flat_map(|fit| &fit.report.course.minima).take(MOST_MINIMA).enumerate() {
             minima.push(place(&minimum.parameters), || {
                 let objective = format!("{:.4e}", minimum.objective);
                 tr!("minimum {0}: ΔE = {1}, starts that ended there: {2}", i + 1, objective, minimum.hits)

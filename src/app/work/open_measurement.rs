@@ -1,9 +1,12 @@
-//! The measurement that is open, in the groups that it is plotted in.
+//! A measurement that is open, in the groups that it is plotted in.
 
 use crate::app::text::i18n::translated;
+use crate::app::work::surface::Surface;
+use crate::figure::Symbol;
 use pbrdf::measurement::{Measurement, Row};
 use pbrdf::optics;
 use pbrdf::optics::Metal;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tr::tr;
@@ -23,9 +26,26 @@ pub const EXAMPLES: [Example; 3] = [
     Example { name: "Aluminium 650 nm (simulated)", text: include_str!("../../../assets/examples/aluminium_650nm_simulated.csv") },
 ];
 
-/// A measurement with its name and its groups.
+/// How a measurement is drawn beside others.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MeasurementStyle {
+    /// Number of its colour among those of series.
+    pub color: usize,
+    pub marker: Symbol,
+    /// Whether it is drawn.
+    pub shown: bool,
+}
+
+impl Default for MeasurementStyle {
+    fn default() -> Self {
+        Self { color: 0, marker: Symbol::Disc, shown: true }
+    }
+}
+
+/// A measurement with its name, its groups and its surface.
 #[derive(Debug, Clone)]
-pub struct Document {
+pub struct OpenMeasurement {
     pub name: String,
     /// SHA-256 of the bytes of its file, where there is one.
     pub sha256: Option<String>,
@@ -34,33 +54,43 @@ pub struct Document {
     pub series: Vec<IncidenceSeries>,
     /// Which measurement of this session it is.
     pub number: u64,
-    /// Another one for every document and after every change of one, so that what is derived knows.
+    /// Another one for every measurement and after every change of one, so that what is derived knows.
     pub generation: u64,
+    pub surface: Surface,
+    pub style: MeasurementStyle,
     mask: Mask,
 }
 
 /// The rows that are masked, in ascending order.
 pub type Mask = Arc<[usize]>;
 
-/// The generation that came last: none comes twice, though a lesson gives back a document of before.
+/// The generation that came last: none comes twice, though a lesson gives back a measurement of before.
 static LAST: AtomicU64 = AtomicU64::new(0);
 
 fn next_generation() -> u64 {
     LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
-impl Document {
+impl OpenMeasurement {
     pub fn new(name: String, measurement: Measurement) -> Self {
         let number = next_generation();
         let series = IncidenceSeries::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
-        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number, mask }
+        let surface = Surface::for_measurement(&measurement);
+        let style = MeasurementStyle::default();
+        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number, surface, style, mask }
     }
 
     /// The same, read from a file with that SHA-256.
     #[must_use]
     pub fn of_file(self, sha256: Option<String>) -> Self {
         Self { sha256, ..self }
+    }
+
+    /// The same with another surface.
+    #[must_use]
+    pub fn with_surface(self, surface: Surface) -> Self {
+        Self { surface, ..self }
     }
 
     /// The rows that are masked.

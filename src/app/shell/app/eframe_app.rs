@@ -1,0 +1,27 @@
+//! The window as eframe runs it.
+
+use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::save_on_exit;
+use crate::app::shell::app::{logic, ui};
+use std::io::Write as _;
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        logic::logic(self, ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        if let Some(seconds) = frame.info().cpu_usage {
+            self.frame_times.push(seconds, self.views.lag(&self.dock.on_screen()));
+        }
+        ui::ui(self, ui);
+    }
+
+    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.window.show_frame_times {
+            // Where drawing is too slow, or switched off, to read the status line.
+            let _ = writeln!(std::io::stderr(), "{}", self.frame_times.text());
+        }
+        save_on_exit(self);
+    }
+}

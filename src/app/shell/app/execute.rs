@@ -1,0 +1,172 @@
+//! Carries out what menus, keys, panes and panels ask for.
+
+use crate::app::shell::app::App;
+use crate::app::shell::app::fits::{compare_models, start_bootstrap, start_fit, start_profile};
+use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
+use crate::app::shell::app::open::{cancel_import, open, start_import};
+use crate::app::shell::dialogs::OverwritePrompt;
+use crate::app::shell::docking::Dock;
+use crate::app::shell::file_dialogs::request_for;
+use crate::app::shell::theme;
+use crate::app::storage::export;
+use crate::app::storage::export::ExportKind;
+use crate::app::views::action::Action;
+use crate::app::views::table_text;
+use crate::app::work::edit::Edit;
+use crate::app::work::layout::Layout;
+use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
+use crate::app::work::pane_id::PaneId;
+use crate::app::work::parameter_text;
+use egui::ViewportCommand;
+use pbrdf::model::{FINISHES, PRESETS, Parameters};
+use pbrdf::selftest::Setting;
+use std::path::PathBuf;
+use tr::tr;
+
+/// Carries out an action; the error is a sentence.
+pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(), String> {
+    match action {
+        Action::ChooseMeasurement | Action::ChooseSession | Action::ChooseSave | Action::ChooseExport(_) => {
+            request_for(app.work.active(), &action).map_or(Ok(()), |request| app.jobs.files.ask(request))?;
+        }
+        Action::OpenMeasurement(path) if ExportKind::Session.check(&path).is_ok() => app.jobs.files.open_session(path)?,
+        Action::OpenMeasurement(path) => app.jobs.files.open(path)?,
+        Action::OpenSession(path) => app.jobs.files.open_session(path)?,
+        Action::SaveSession => return execute(app, ctx, saving_session(app)),
+        Action::Export(kind, path) => export(app, kind, path)?,
+        Action::CopyPlot(pane) => ctx.copy_image(export::image(app.figure(pane))?),
+        Action::CopyTable => copy_table(app, ctx),
+        Action::SaveNew(path) => write_new(app, ctx, path.clone(), Action::SaveMeasurement(path))?,
+        Action::ExportNew(kind, path) => {
+            kind.check(&path)?;
+            write_new(app, ctx, path.clone(), Action::Export(kind, path))?;
+        }
+        Action::Replace => return app.dialogs.overwrite.take().map_or(Ok(()), |asked| execute(app, ctx, asked.command)),
+        Action::KeepFile => app.dialogs.overwrite = None,
+        Action::SaveMeasurement(path) => app.jobs.files.save(path, app.work.active().measurement.clone())?,
+        Action::OpenExample(index) => open_example(app, index)?,
+        Action::ShowStep(lesson, step) => show_step(app, lesson, step)?,
+        Action::CloseLesson => end_lesson(app)?,
+        Action::KeepLesson => keep_lesson(app),
+        Action::ImportDialog => start_import(app)?,
+        Action::CancelImport => cancel_import(app),
+        Action::CancelLoading => app.jobs.files.cancel_load(),
+        Action::StartFit => start_fit(app)?,
+        Action::CancelFit => app.jobs.fits.fit.cancel(),
+        Action::Profile(parameter) => start_profile(app, parameter)?,
+        Action::Bootstrap => start_bootstrap(app)?,
+        Action::CancelScan => app.jobs.fits.cancel_scan(),
+        Action::CompareModels => {
+            app.dock.show(PaneId::Models);
+            compare_models(app)?;
+        }
+        Action::CancelComparison => app.jobs.fits.compare.cancel(),
+        Action::MakeReport(id) => app.jobs.benchmarks.start(id)?,
+        Action::ForgetReport(id) => app.jobs.benchmarks.forget(id),
+        Action::CancelReport => app.jobs.benchmarks.cancel(),
+        Action::UseCase(index) => use_case(app, index),
+        Action::UseFit => app.work.apply(Edit::UseFit),
+        Action::Back => app.work.apply(Edit::UseValuesBeforeFit),
+        Action::ReturnTo(index) => {
+            app.work.apply(Edit::ReturnToFit(index));
+            app.jobs.fits.abandon_scan();
+        }
+        Action::Undo => app.work.apply(Edit::Undo),
+        Action::Redo => app.work.apply(Edit::Redo),
+        Action::Toggle(switch) => app.work.apply(Edit::SetSwitch(switch, !switch.is_on(app.work.settings()))),
+        Action::PasteParameters(text) => {
+            let parameters = parameter_text::read(&text, app.work.surface().parameters)?;
+            app.work.apply(Edit::SetParameters(parameters));
+        }
+        Action::ResetParameters => app.work.apply(Edit::SetParameters(Parameters::default())),
+        Action::UseFinish(index) => use_finish(app, index),
+        Action::UseModel(key) => use_model(app, key),
+        Action::CopyParameters => ctx.copy_text(parameter_text::text(&app.work.surface().parameters)),
+        Action::RequestPaste => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
+        Action::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
+        Action::TogglePane(pane) if app.dock.is_on_screen(pane) => app.dock.close(pane),
+        Action::TogglePane(pane) => app.dock.show(pane),
+        Action::ClosePane(pane) => app.dock.close(pane),
+        Action::ResetLayout => reset_layout(app),
+        Action::ForgetRecent => app.window.recent.clear(),
+        Action::OpenPalette => app.dialogs.palette.open(),
+        Action::ShowHelp(page) => app.dialogs.help = Some(page),
+        Action::CloseHelp => app.dialogs.help = None,
+        Action::DismissToasts => app.toasts.clear(),
+        Action::SetLanguage(language) => app.window.language = language,
+        Action::SetTheme(theme) => {
+            app.window.theme = theme;
+            theme::set(ctx, theme);
+        }
+        Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+    }
+    Ok(())
+}
+
+/// Into the file that the session came from or went to last; asks where there is none.
+fn saving_session(app: &App) -> Action {
+    let kind = ExportKind::Session;
+    app.work.session_file().map_or(Action::ChooseExport(kind), |path| Action::Export(kind, path.to_owned()))
+}
+
+fn use_finish(app: &mut App, index: usize) {
+    if let Some(finish) = FINISHES.get(index) {
+        app.work.apply(Edit::SetParameters(finish.on(app.work.surface().parameters)));
+    }
+}
+
+fn use_model(app: &mut App, key: &str) {
+    if let Some(preset) = PRESETS.iter().find(|preset| preset.key == key) {
+        let formula = app.work.surface().model.dolp_formula;
+        app.work.apply(Edit::SetModel(preset.model.with_dolp_formula(formula)));
+    }
+}
+
+/// Writes into a file whose path was typed; asks first, if there is one already.
+fn write_new(app: &mut App, ctx: &egui::Context, path: PathBuf, command: Action) -> Result<(), String> {
+    if path.is_file() {
+        app.dialogs.overwrite = Some(OverwritePrompt { path, command });
+        return Ok(());
+    }
+    execute(app, ctx, command)
+}
+
+fn export(app: &mut App, kind: ExportKind, path: PathBuf) -> Result<(), String> {
+    kind.check(&path)?;
+    let figure = if let ExportKind::Plot(pane) = kind { app.figure(pane) } else { None };
+    let write = kind.snapshot(&app.work, figure)?;
+    app.jobs.files.export(kind, path, write)
+}
+
+fn open_example(app: &mut App, index: usize) -> Result<(), String> {
+    EXAMPLES.get(index).map_or(Ok(()), |example| app.jobs.files.open_text(example.name.to_owned(), example.text))
+}
+
+/// The table of the pane Data to the clipboard.
+fn copy_table(app: &mut App, ctx: &egui::Context) {
+    ctx.copy_text(table_text(&app.work));
+    app.toasts.info(tr!("{} rows are copied; paste them into a spreadsheet.", app.work.active().measurement.rows.len()));
+}
+
+fn reset_layout(app: &mut App) {
+    let layout = Layout::default();
+    app.dock = Dock::new(&layout);
+    app.work.apply(Edit::SetLayout(layout));
+}
+
+/// Sliders, terms and angles of a case of the stability gallery; of a fit, its data as well.
+fn use_case(app: &mut App, index: usize) {
+    let Some(row) = app.benchmarks.stability.as_ref().and_then(|shown| shown.report.rows.get(index)) else { return };
+    let (case, setting) = (row.case.clone(), row.setting.clone());
+    match setting {
+        Setting::Evaluation { model, parameters, geometry } => {
+            app.work.apply(Edit::TakeValues { parameters, model });
+            app.work.apply(Edit::SetDirection { theta_i: geometry.theta_i().0, dphi: geometry.dphi().0 });
+        }
+        Setting::Fit { model, start, measurement } => {
+            open(app, OpenMeasurement::new(case.to_string(), measurement));
+            app.work.apply(Edit::TakeValues { parameters: start, model });
+            app.work.apply(Edit::SetSessionFile(None));
+        }
+    }
+}

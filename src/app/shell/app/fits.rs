@@ -1,0 +1,98 @@
+//! Fits that the window starts, and what it does with their results.
+
+use crate::app::shell::app::App;
+use crate::app::tasks::fits::{FinishedBootstrap, FinishedFit};
+use crate::app::text::localized::Localized as _;
+use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
+use crate::app::work::edit::Edit;
+use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_setup::{problem, reason};
+use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::settings::Settings;
+use crate::app::work::surface::Surface;
+use pbrdf::fit::{FitOptions, FitResult, Problem, Profile, free_by_default};
+use pbrdf::model::{PRESETS, Parameter};
+use tr::tr;
+
+pub fn start_fit(app: &mut App) -> Result<(), String> {
+    let Settings { choices, starts, seed, .. } = *app.work.settings();
+    let (surface, open) = (app.work.surface(), app.work.active());
+    let Surface { parameters, model, .. } = *surface;
+    parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
+    match problem(surface, &open.measurement, model, app.free(), choices) {
+        Ok(problem) => app.jobs.fits.fit(problem, open, starts, seed),
+        Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, &open.measurement))),
+    }
+}
+
+pub fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: FinishedFit) {
+    let OpenMeasurement { name, sha256, measurement, number, surface, .. } = app.work.active();
+    let (document, sha256, data, number) = (name.clone(), sha256.clone(), measurement.clone(), *number);
+    let before = surface.parameters;
+    // The history numbers its fits.
+    let fit = FitEntry { id: 0, report: *report, problem, before, document, sha256, data, number, generation, mask };
+    app.work.apply(Edit::AddFit(Box::new(fit)));
+    app.jobs.fits.abandon_scan();
+}
+
+/// Fits what is free again after the user moved a slider, one fit at a time.
+pub fn refit_if_moved(app: &mut App) {
+    let fits = &mut app.jobs.fits;
+    let moved_at = app.work.moved_at();
+    if !app.work.settings().refit_live || fits.refit.is_running() || fits.fit.is_running() || moved_at <= fits.refitted_at {
+        return;
+    }
+    fits.refitted_at = moved_at;
+    let surface = app.work.surface();
+    let Surface { parameters, model, .. } = *surface;
+    let free = app.free();
+    if parameters.validate(model.parameters()).is_err() || free.is_empty() {
+        return;
+    }
+    // Why a fit is not possible is said when one is asked for.
+    if let Ok(problem) = problem(surface, &app.work.active().measurement, model, free, app.work.settings().choices)
+        && let Err(sentence) = app.jobs.fits.refit(problem)
+    {
+        app.toasts.error(sentence);
+    }
+}
+
+pub fn compare_models(app: &mut App) -> Result<(), String> {
+    let (settings, surface, measurement) = (app.work.settings(), app.work.surface(), &app.work.active().measurement);
+    let problems = PRESETS.iter().map(|preset| {
+        let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
+        let model = preset.model.with_dolp_formula(surface.model.dolp_formula);
+        let free = free_by_default(model, measurement, &choices);
+        (preset, problem(surface, measurement, model, free, choices))
+    });
+    let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
+    app.work.apply(Edit::SetModelComparison(Vec::new()));
+    app.jobs.fits.compare(problems, starts, seed)
+}
+
+pub fn start_profile(app: &mut App, parameter: Parameter) -> Result<(), String> {
+    app.work.apply(Edit::SetProfile(None));
+    shown_fit(app).map_or(Ok(()), |(problem, report)| app.jobs.fits.profile(problem, report, parameter))
+}
+
+pub fn profiled(app: &mut App, profile: &Profile) {
+    let curve = app.work.shown_fit().map(|fit| ProfileCurve::new(profile, &fit.problem, &fit.report));
+    app.work.apply(Edit::SetProfile(curve));
+}
+
+pub fn start_bootstrap(app: &mut App) -> Result<(), String> {
+    app.work.apply(Edit::SetBootstrap(None));
+    let (replicates, seed) = (app.work.diagnostics().replicates, app.work.settings().seed);
+    shown_fit(app).map_or(Ok(()), |(problem, report)| app.jobs.fits.bootstrap(problem, report, replicates, seed))
+}
+
+pub fn bootstrapped(app: &mut App, FinishedBootstrap { replicates, scatter }: FinishedBootstrap) {
+    app.work.apply(Edit::SetBootstrap(Some(Bootstrap { replicates, scatter })));
+}
+
+/// The fit that is shown, with the problem that it solved.
+fn shown_fit(app: &App) -> Option<(Problem, FitResult)> {
+    let fit = app.work.shown_fit()?;
+    // An automatic scale of the loss belongs to the fit, not to its problem.
+    Some((fit.problem.with_loss_scales(fit.report.statistics.loss_scales), fit.report.clone()))
+}

@@ -1,0 +1,69 @@
+//! What happens before each frame: results of jobs, dropped files, actions, what is derived, what is kept.
+
+use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::{autosave_when_rested, save_when_rested};
+use crate::app::shell::app::execute::execute;
+use crate::app::shell::app::fits::refit_if_moved;
+use crate::app::shell::app::job_results::poll_jobs;
+use crate::app::shell::commands;
+use crate::app::text::i18n;
+use crate::app::views::action::Action;
+
+/// Before each frame.
+pub fn logic(app: &mut App, ctx: &egui::Context) {
+    for file in ctx.input(|input| input.raw.dropped_files.clone()) {
+        app.actions.push(Action::OpenMeasurement(file.path().to_owned()));
+    }
+    i18n::set(app.window.language);
+    listen_to_keys(app, ctx);
+    app.jobs.spawner.begin_frame();
+    poll_jobs(app);
+    for action in std::mem::take(&mut app.actions) {
+        if let Err(sentence) = execute(app, ctx, action) {
+            app.toasts.error(sentence);
+        }
+    }
+    app.interacting = ctx.input(|input| input.pointer.any_down());
+    refit_if_moved(app);
+    if !app.interacting && !app.jobs.fits.refit.is_running() {
+        app.work.record_step();
+    }
+    refresh(app);
+    remember_window(app, ctx);
+    save_when_rested(app, ctx);
+    autosave_when_rested(app, ctx);
+}
+
+/// Makes anew what is on screen and has other inputs than before.
+fn refresh(app: &mut App) {
+    app.derived.refresh_status(&app.work);
+    let free = app.free();
+    app.derived.refresh_outlook(&app.work, free);
+    if let Some(import) = &mut app.dialogs.import {
+        import.refresh();
+    }
+    app.dock.activate_tabs();
+    let on_screen = app.dock.on_screen();
+    let (mut cx, views, _) = app.split();
+    views.refresh(&on_screen, &mut cx);
+    app.apply_edits();
+}
+
+fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
+    // Keys belong to the field that is being typed into, or to the question that is asked.
+    if ctx.text_edit_focused() || app.dialogs.import.is_some() || app.dialogs.overwrite.is_some() {
+        return;
+    }
+    app.actions.extend(commands::pressed(app, ctx));
+    let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };
+    let pasted = ctx.input(|input| input.events.iter().find_map(text));
+    app.actions.extend(pasted.map(Action::PasteParameters));
+}
+
+fn remember_window(app: &mut App, ctx: &egui::Context) {
+    let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
+    app.window.maximized = maximized.unwrap_or(false);
+    if let Some(size) = size.filter(|_| !app.window.maximized) {
+        app.window.size = [size.x.round(), size.y.round()];
+    }
+}

@@ -1,0 +1,42 @@
+//! What lies over the window: command palette, help, questions about files; and the paths typed by hand.
+
+use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::path_entry::PathEntry;
+use crate::app::text::help::Help;
+use crate::app::views::action::Action;
+use std::path::PathBuf;
+
+/// The dialogs that are open.
+#[derive(Default)]
+pub struct Dialogs {
+    pub palette: Palette,
+    /// The page of help.
+    pub help: Option<Help>,
+    /// A foreign file that waits for answers.
+    pub import: Option<ImportDialog>,
+    /// A file that is asked about before it is replaced.
+    pub overwrite: Option<OverwritePrompt>,
+    pub path_entry: PathEntry,
+}
+
+/// What the command palette keeps while it is open.
+#[derive(Debug, Default)]
+pub struct Palette {
+    pub is_open: bool,
+    pub filter: String,
+    pub chosen: usize,
+}
+
+/// A file that is there, and what would be written in its place.
+#[derive(Debug)]
+pub struct OverwritePrompt {
+    pub path: PathBuf,
+    pub command: Action,
+}
+
+impl Palette {
+    /// Opens it empty.
+    pub fn open(&mut self) {
+        *self = Self { is_open: true, ..Self::default() };
+    }
+}

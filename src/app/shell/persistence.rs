@@ -1,0 +1,37 @@
+//! Which files keep settings and work without being asked, and what of both they hold.
+
+use crate::app::platform::Instant;
+use crate::app::work::settings::WindowSettings;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long work rests before it is written.
+pub const SAVE_AFTER: Duration = Duration::from_millis(1500);
+
+/// The files of the program itself, with the revisions that they hold.
+#[derive(Default)]
+pub struct Persistence {
+    /// Where the settings go; nowhere in tests.
+    pub settings_path: Option<PathBuf>,
+    /// The revision of the user's own work, and the window, as the settings file holds them.
+    pub saved_settings: Option<(u64, WindowSettings)>,
+    pub settings_dirty_since: Option<Instant>,
+    /// Where the working state goes; nowhere in tests.
+    pub autosave_path: Option<PathBuf>,
+    pub autosaved_revision: Option<AutosaveRevision>,
+    pub autosave_dirty_since: Option<Instant>,
+}
+
+/// Revisions of the user's own work, and of that of the lesson over it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AutosaveRevision {
+    pub own: u64,
+    pub lesson: Option<u64>,
+}
+
+impl Persistence {
+    /// Whether a path is that of the working state.
+    pub fn is_autosave(&self, path: &Path) -> bool {
+        self.autosave_path.as_deref() == Some(path)
+    }
+}

@@ -1,0 +1,113 @@
+//! A surface: a model with its nine values, and what a fit may do with them.
+
+use crate::app::work::settings_error::SettingsError;
+use pbrdf::fit::{Bounds, BoundsError};
+use pbrdf::measurement::Measurement;
+use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use pbrdf::optics::SlopeDistribution;
+use serde::{Deserialize, Serialize};
+
+/// The surface of a measurement: what its sliders show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Surface {
+    pub parameters: Parameters,
+    pub model: Model,
+    /// Parameters that a fit leaves alone.
+    pub locked: ParameterSet,
+    /// Bounds of fits where they are not the slider's range: parameter, lower, upper.
+    pub bounds: Vec<(Parameter, f64, f64)>,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self {
+            parameters: Parameters::default(),
+            model: Model::full(SlopeDistribution::Cauchy),
+            locked: ParameterSet::EMPTY.with(Parameter::Ks),
+            bounds: Vec::new(),
+        }
+    }
+}
+
+/// A snapshot of a surface, to be drawn beside others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PinnedSurface {
+    pub name: String,
+    /// Number of its colour among those of series.
+    pub color: usize,
+    pub model: Model,
+    pub parameters: Parameters,
+}
+
+/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface: then the window says so.
+pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), ParameterError> {
+    match parameters.validate(used) {
+        Err(ParameterError::NoIndex) => Ok(()),
+        other => other,
+    }
+}
+
+impl Surface {
+    /// The defaults for data with or without a BRDF.
+    pub fn for_measurement(measurement: &Measurement) -> Self {
+        let mut surface = Self::default();
+        surface.adapt_to(measurement);
+        surface
+    }
+
+    /// With DoLP alone only ratios of the weights enter: k_s stays as it is. A BRDF lifts this.
+    pub fn adapt_to(&mut self, measurement: &Measurement) {
+        self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
+    }
+
+    /// What means nothing, if anything does: a file can be well-formed and still hold nonsense.
+    pub fn fault(&self) -> Option<SettingsError> {
+        let bounds = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high).err();
+        let parameters = can_be_set(&self.parameters, ParameterSet::ALL).err().map(SettingsError::Parameters);
+        parameters.or_else(|| self.bounds.iter().find_map(bounds).map(SettingsError::Bounds))
+    }
+
+    /// Lower and upper bound of a parameter in fits.
+    pub fn bounds_of(&self, parameter: Parameter) -> (f64, f64) {
+        let own = self.bounds.iter().find(|(other, ..)| *other == parameter);
+        own.map_or_else(|| Bounds::default().of(parameter), |&(_, low, high)| (low, high))
+    }
+
+    /// Whether a parameter's bounds are other ones than its slider's range.
+    pub fn has_own_bounds(&self, parameter: Parameter) -> bool {
+        self.bounds.iter().any(|(other, ..)| *other == parameter)
+    }
+
+    /// Sets the bounds of a parameter.
+    ///
+    /// # Errors
+    /// They are no bounds, as [`Bounds::set`] has it; those of before stay.
+    pub fn set_bounds(&mut self, parameter: Parameter, low: f64, high: f64) -> Result<(), BoundsError> {
+        let default = Bounds::default().of(parameter);
+        Bounds::default().set(parameter, low, high)?;
+        self.reset_bounds(parameter);
+        if (low, high) != default {
+            self.bounds.push((parameter, low, high));
+        }
+        Ok(())
+    }
+
+    /// Back to the slider's range.
+    pub fn reset_bounds(&mut self, parameter: Parameter) {
+        self.bounds.retain(|(other, ..)| *other != parameter);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Surface;
+    use pbrdf::model::Parameter;
+
+    #[test]
+    fn bounds_that_mean_nothing_change_nothing() {
+        let mut surface = Surface::default();
+        assert!(surface.set_bounds(Parameter::N, 3.0, 1.0).is_err());
+        assert!(!surface.has_own_bounds(Parameter::N));
+    }
+}
