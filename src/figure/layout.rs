@@ -3,7 +3,7 @@
 use crate::figure::canvas::POINTS_PER_MM;
 use crate::figure::text::Font;
 use crate::figure::ticks::{Tick, ticks};
-use crate::figure::{Axis, Figure, HeatMap, Mark, Panel, Scale, Series};
+use crate::figure::{Axis, Figure, Panel, Scale, Series};
 
 /// Sizes of text in points.
 pub const TITLE: f64 = 10.0;
@@ -126,11 +126,6 @@ pub fn entry_width(series: &Series, font: &Font) -> f64 {
     LEGEND_SAMPLE + GAP + font.width(&series.name, SMALL) + LEGEND_SPACE
 }
 
-/// The map whose colours a panel explains.
-pub fn heat_map(panel: &Panel) -> Option<&HeatMap> {
-    panel.series.iter().find_map(|series| if let Mark::HeatMap(map) = &series.mark { Some(map) } else { None })
-}
-
 /// A cell of the grid of panels and the margins inside it, all in points.
 struct Cell {
     outer: Frame,
@@ -161,9 +156,9 @@ fn cell(panel: &Panel, outer: Frame, font: &Font) -> Cell {
     let y = Ruled::new(&panel.y, crate::figure::range::y(panel), most(height, 20.0, 3.0));
     let y_label = if panel.y.title().is_empty() { 0.0 } else { LABEL + GAP };
     let left = y_label + y.label_width(font).min(WIDEST_LABELS * outer.width) + TICK + 2.0 * GAP;
-    let color = heat_map(panel).map(|map| Ruled::new(&map.color_axis, crate::figure::range::color(map), most(height, 20.0, 3.0)));
+    let color = panel.heat_map().map(|map| Ruled::new(&map.color_axis, crate::figure::range::color(map), most(height, 20.0, 3.0)));
     let bar = color.as_ref().map_or(0.0, |color| {
-        let label = heat_map(panel).map_or(0.0, |map| if map.color_axis.title().is_empty() { 0.0 } else { LABEL + GAP });
+        let label = panel.heat_map().map_or(0.0, |map| if map.color_axis.title().is_empty() { 0.0 } else { LABEL + GAP });
         2.0 * GAP + COLOR_BAR + TICK + GAP + color.label_width(font) + label
     });
     Cell { outer, above, below, left, right: bar + 12.0, y, color, legend }

@@ -37,6 +37,9 @@ pub const SERIES: [Rgb; 12] = [
     Rgb(90, 120, 150),
 ];
 
+/// Black and white, for ink on the colours of a map.
+const INKS: [Rgb; 2] = [Rgb(0, 0, 0), Rgb(255, 255, 255)];
+
 /// Colours of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ColorMap {
@@ -104,6 +107,15 @@ const TWILIGHT: [Rgb; 17] = [
 ];
 
 impl ColorMap {
+    /// Black or white, whichever is easier to read on the colour at a fraction from 0 to 1.
+    #[must_use]
+    pub fn ink_on(self, fraction: f64) -> Rgb {
+        let Rgb(r, g, b) = self.at(fraction);
+        // Rec. 709.
+        let luma = 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
+        INKS[usize::from(luma <= 130.0)]
+    }
+
     /// The colour at a fraction from 0 to 1; values outside are clamped.
     #[must_use]
     pub fn at(self, fraction: f64) -> Rgb {

@@ -1,8 +1,9 @@
 //! A figure and its panels.
 
 use crate::figure::axis::Axis;
+use crate::figure::heat_map::HeatMap;
 use crate::figure::palette::{Rgb, SERIES};
-use crate::figure::series::Series;
+use crate::figure::series::{Mark, Series};
 
 /// Panels under a title.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +77,12 @@ impl Panel {
             series: self.series.iter().map(|series| series.translated(translate)).collect(),
             ..self.clone()
         }
+    }
+
+    /// The map whose colours the panel explains.
+    #[must_use]
+    pub fn heat_map(&self) -> Option<&HeatMap> {
+        self.series.iter().find_map(|series| if let Mark::HeatMap(map) = &series.mark { Some(map) } else { None })
     }
 
     /// The colour of each series: its own, else that of an earlier series of the same name, else the

@@ -35,7 +35,7 @@ impl Figure {
 
 fn draw_panel(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed) {
     let colors: Vec<Rgb> = panel.series.iter().zip(panel.colors()).map(|(series, color)| color.on_white(series.opacity)).collect();
-    let heat_map = layout::heat_map(panel);
+    let heat_map = panel.heat_map();
     if heat_map.is_none() {
         draw_grid(canvas, placed);
     }
@@ -134,7 +134,7 @@ fn draw_legend(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed, colors: 
             // One sample of each kind; a name for curves of several colours has none of them.
             let is_one = parts.iter().all(|(_, color)| *color == parts[0].1);
             // Colours made for a map need one behind them.
-            if layout::heat_map(panel).is_some() {
+            if panel.heat_map().is_some() {
                 let plate = rectangle(left, middle - 0.5 * LEGEND_LINE + 1.0, LEGEND_SAMPLE, LEGEND_LINE - 2.0);
                 canvas.path(&plate, Paint::Fill(crate::figure::ColorMap::Sequential.at(LIKE_A_MAP), 1.0));
             }

@@ -30,6 +30,11 @@ impl Axes {
         }
     }
 
+    /// Whether the user has panned or zoomed.
+    pub fn is_moved(&self) -> bool {
+        self.by_hand
+    }
+
     /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the plot answered.
     pub fn track_interaction<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));

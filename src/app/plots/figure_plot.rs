@@ -3,13 +3,16 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::axes::{Axes, plot};
 use crate::app::plots::axis::axis;
+use crate::app::plots::color_scale::BAR_ROOM;
 use crate::app::plots::key_line::{KeyEntry, key_line_ui};
+use crate::app::plots::map_image::MapImage;
 use crate::app::plots::plot_axis::PlotAxis;
 use crate::app::plots::plot_item::{PlotItem, coordinates};
 use crate::app::plots::range::Range;
+use crate::app::plots::theme;
 use crate::figure::{Figure, Panel};
-use egui::Ui;
-use egui_plot::{AxisHints, HoverPosition, PlotResponse, PlotUi};
+use egui::{Align2, FontId, Role, TextureHandle, Ui, Vec2, WidgetInfo, vec2};
+use egui_plot::{AxisHints, HoverPosition, PlotResponse};
 use tr::tr;
 
 /// A figure with its panels ready to be painted, made anew when its inputs `K` are others.
@@ -39,6 +42,12 @@ impl<K: PartialEq> FigurePlot<K> {
         self.figure.get()?.as_ref()
     }
 
+    /// Whether a texture does not show its map yet.
+    #[cfg(test)]
+    pub fn is_fresh(&self) -> bool {
+        self.panels.iter().any(PanelPlot::is_fresh)
+    }
+
     /// A panel of it.
     pub fn panel(&mut self, index: usize) -> Option<&mut PanelPlot> {
         self.panels.get_mut(index)
@@ -55,6 +64,8 @@ impl<K: PartialEq> FigurePlot<K> {
 pub struct PanelPlot {
     content: Option<Content>,
     axes: Axes,
+    /// Of its map.
+    texture: Option<TextureHandle>,
 }
 
 /// A panel in the coordinates of the plot.
@@ -62,6 +73,7 @@ struct Content {
     title: String,
     x: PlotAxis,
     y: PlotAxis,
+    map: Option<MapImage>,
     items: Vec<PlotItem>,
     equal_aspect: bool,
 }
@@ -104,19 +116,36 @@ impl PanelPlot {
         let y = PlotAxis::new(&panel.y, seen.iter().map(|at| at.1));
         let series = panel.series.iter().zip(panel.colors());
         let items = series.filter_map(|(series, color)| PlotItem::new(series, color, &x, &y)).collect();
-        self.content = Some(Content { title: panel.title.clone(), x, y, items, equal_aspect: panel.equal_aspect });
+        let map = panel.heat_map().and_then(|map| MapImage::new(map, &x, &y));
+        self.content = Some(Content { title: panel.title.clone(), x, y, map, items, equal_aspect: panel.equal_aspect });
+    }
+
+    /// Looks at the axes as the panel has them, however the user has moved them.
+    pub fn look_at_all(&mut self) {
+        self.axes = Axes::default();
+    }
+
+    /// Whether the user looks elsewhere than the panel has it.
+    pub fn is_moved(&self) -> bool {
+        self.axes.is_moved()
+    }
+
+    #[cfg(test)]
+    fn is_fresh(&self) -> bool {
+        self.content.as_ref().and_then(|content| content.map.as_ref()).is_some_and(MapImage::is_fresh)
     }
 
     /// The names of what is drawn, in lines above it, where they hide nothing.
     pub fn key_line_ui(&self, ui: &mut Ui) {
-        let Some(Content { items, .. }) = &self.content else { return };
+        let Some(Content { items, map, .. }) = &self.content else { return };
+        let on_map = map.is_some();
         let dark = ui.visuals().dark_mode;
         let is_first = |(i, item): &(usize, &PlotItem)| !items[..*i].iter().any(|before| before.name == item.name);
         let named = items.iter().enumerate().filter(|(_, item)| !item.name.is_empty()).filter(is_first);
         let entries: Vec<KeyEntry> = named
             .map(|(_, item)| {
                 let (style, width) = item.sample();
-                KeyEntry { name: item.name.clone(), color: item.color(dark), style, width }
+                KeyEntry { name: item.name.clone(), color: item.color(dark), style, width, symbol: item.symbol(), on_map }
             })
             .collect();
         key_line_ui(&entries, ui);
@@ -124,23 +153,19 @@ impl PanelPlot {
 
     /// Paints it; the answer has the place of a click.
     pub fn ui(&mut self, style: &PanelStyle<'_>, ui: &mut Ui) -> Option<PlotResponse<()>> {
-        self.ui_with(style, ui, |_| ())
-    }
-
-    /// Like [`PanelPlot::ui`], with something behind it.
-    pub fn ui_with(&mut self, style: &PanelStyle<'_>, ui: &mut Ui, behind: impl FnOnce(&mut PlotUi<'_>)) -> Option<PlotResponse<()>> {
-        let Self { content: Some(Content { title, x, y, items, equal_aspect }), axes } = self else { return None };
-        let (x, y) = (&*x, &*y);
+        let Self { content: Some(Content { title, x, y, map, items, equal_aspect }), axes, texture } = self else { return None };
+        map.iter_mut().for_each(|map| map.upload(texture, ui));
+        let (x, y, map) = (&*x, &*y, map.as_ref());
+        let width = ui.available_width() - if map.is_some() { BAR_ROOM } else { 0.0 };
         let dark = ui.visuals().dark_mode;
         let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
         let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(40.0);
         let y_axis = axis(AxisHints::new_y(), ui, &y.title, |at, step| y.label(at, step)).min_thickness(style.left);
-        let ranges = if *equal_aspect {
-            of_equal_units([x.range, y.range], ui.available_width() - style.left, style.height - 40.0)
-        } else {
-            [x.range, y.range]
-        };
+        let ranges =
+            if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, style.height - 40.0) } else { [x.range, y.range] };
         let figure = plot(style.id, ui, style.height, x_axis, y_axis)
+            .width(width.max(80.0))
+            .show_grid(map.is_none())
             .x_grid_spacer(|input| x.marks(&input, 7.0))
             .y_grid_spacer(|input| y.marks(&input, style.spread))
             .label_formatter(|hover: &HoverPosition<'_>| match hover {
@@ -152,12 +177,43 @@ impl PanelPlot {
         let figure = if *equal_aspect { figure.data_aspect(1.0) } else { figure };
         let response = figure.show(ui, |plot| {
             axes.apply(plot, Some(ranges[0]), Some(ranges[1]));
-            behind(plot);
-            items.iter().for_each(|item| item.draw(plot, dark));
+            map.zip(texture.as_ref()).into_iter().for_each(|(map, texture)| map.draw(plot, texture));
+            items.iter().for_each(|item| item.draw(plot, dark, map.is_some()));
         });
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
         axes.track_interaction(&response, &name, ui);
+        map.into_iter().for_each(|map| map.bar_ui(response.response.rect, ui));
         Some(response)
+    }
+}
+
+impl PanelPlot {
+    /// Paints it as one of many, of that size: what is along its vertical axis stands in its corner, numbers stand at the axes that lie
+    /// at the rim and take so much room. It cannot be moved; the answer is the place of the pointer along the horizontal axis.
+    pub fn cell_ui(&self, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<f64> {
+        let Content { x, y, items, .. } = self.content.as_ref()?;
+        let dark = ui.visuals().dark_mode;
+        let x_axis = axis(AxisHints::new_x(), ui, "", |at, step| x.label(at, step)).min_thickness(room.y);
+        let y_axis = axis(AxisHints::new_y(), ui, "", |at, step| y.label(at, step)).min_thickness(room.x);
+        let figure = plot("cell", ui, size.y, x_axis, y_axis).width(size.x).show_axes([below, left]).show_x(false).show_y(false);
+        let figure = figure.x_grid_spacer(|input| x.marks(&input, 7.0)).y_grid_spacer(|input| y.marks(&input, 5.0));
+        let figure = figure.allow_drag(false).allow_zoom(false).allow_boxed_zoom(false).label_formatter(|_| None);
+        let response = figure.show(ui, |plot| {
+            plot.set_plot_bounds_x(x.range.low..=x.range.high);
+            plot.set_plot_bounds_y(y.range.low..=y.range.high);
+            items.iter().for_each(|item| item.draw(plot, dark, false));
+        });
+        response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", y.title, x.title)));
+        let title = ui.painter().layout_no_wrap(y.title.clone(), FontId::proportional(11.0), ui.visuals().text_color());
+        // Away from where the curve begins.
+        let middle = f64::midpoint(y.range.low, y.range.high);
+        let is_below = items.iter().find_map(PlotItem::first_height).is_some_and(|height| height > middle);
+        let anchor = if is_below { Align2::LEFT_BOTTOM } else { Align2::LEFT_TOP };
+        let corner = anchor.anchor_size(anchor.pos_in_rect(&response.response.rect.shrink2(vec2(4.0, 2.0))), title.size());
+        ui.painter().rect_filled(corner.expand(1.0), 2.0, theme::plate(dark));
+        ui.painter().galley(corner.min, title, ui.visuals().text_color());
+        let at = response.response.hover_pos()?;
+        Some(x.value(response.transform.value_from_position(at).x))
     }
 }
 

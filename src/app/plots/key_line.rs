@@ -1,5 +1,6 @@
 //! What the lines of a plot mean, in a line above it, where it covers no curve, and a broken line is told from a whole one.
 
+use crate::figure::Symbol;
 use egui::{Align2, Color32, CursorIcon, FontId, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::LineStyle;
 use std::collections::BTreeSet;
@@ -12,6 +13,10 @@ pub struct KeyEntry {
     pub style: LineStyle,
     /// In points of the screen.
     pub width: f32,
+    /// Drawn in the place of a line.
+    pub symbol: Option<Symbol>,
+    /// Whether the colour is made for a map, which stands behind the sample then.
+    pub on_map: bool,
 }
 
 /// Size of the letters, length of a sample, and what is free around it.
@@ -21,6 +26,9 @@ const GAP: f32 = 5.0;
 const BETWEEN: f32 = 10.0;
 /// Length of a gap over that of a dash, as the plots have it.
 const GAP_OVER_DASH: f32 = 0.618;
+
+/// A dark colour of a map.
+const MAP: Color32 = Color32::from_rgb(49, 104, 142);
 
 impl KeyEntry {
     /// Room for the sample and the name.
@@ -33,11 +41,23 @@ impl KeyEntry {
         let ends = [rect.left_center(), rect.left_center() + vec2(SAMPLE, 0.0)];
         let color = self.color.gamma_multiply(strength);
         let stroke = Stroke::new(self.width, color);
+        let middle = rect.left_center() + vec2(0.5 * SAMPLE, 0.0);
+        let cross = [vec2(3.0, 3.0), vec2(3.0, -3.0)].map(|arm| Shape::line_segment([middle - arm, middle + arm], (1.5, color)));
         let shapes = match self.style {
+            _ if self.symbol == Some(Symbol::Disc) => vec![Shape::circle_filled(middle, 3.0, color)],
+            _ if self.symbol == Some(Symbol::Circle) => vec![Shape::circle_stroke(middle, 3.0, (1.0, color))],
+            _ if self.symbol == Some(Symbol::Square) => {
+                vec![Shape::rect_filled(Rect::from_center_size(middle, vec2(5.0, 5.0)), 0.0, color)]
+            }
+            _ if self.symbol == Some(Symbol::Cross) => cross.into(),
             LineStyle::Solid => vec![Shape::line_segment(ends, stroke)],
             LineStyle::Dashed { length } => Shape::dashed_line(&ends, stroke, length, GAP_OVER_DASH * length),
             LineStyle::Dotted { spacing } => Shape::dotted_line(&ends, color, spacing, self.width),
         };
+        if self.on_map {
+            let plate = Rect::from_center_size(middle, vec2(SAMPLE + 4.0, rect.height()));
+            ui.painter().rect_filled(plate, 3.0, MAP);
+        }
         ui.painter().extend(shapes);
         let ink = ui.visuals().text_color().gamma_multiply(strength);
         ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, &self.name, FontId::proportional(LETTERS), ink);

@@ -7,14 +7,14 @@ pub mod contours;
 mod error_bars;
 mod figure_plot;
 mod key_line;
+mod map_image;
 mod plot_axis;
 mod plot_item;
 mod polyline;
 mod range;
 pub mod theme;
 
-pub use axes::plot;
-pub use color_scale::{BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar, ink_on};
+pub use color_scale::ColorScale;
 pub use figure_plot::{FigurePlot, PanelPlot, PanelStyle};
 pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui};
 pub use polyline::{Polyline, finite, line};

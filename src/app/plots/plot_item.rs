@@ -39,6 +39,8 @@ enum PlotShape {
 const ZOOM: f64 = 1.6;
 /// Radius of a point.
 const RADIUS: f32 = 3.0;
+/// Width of the rim of points on a map.
+const RIM: f32 = 1.0;
 /// Opacity of a band and of an area: curves and points stay readable through several.
 const FILLED: f32 = 0.2;
 /// Size of letters.
@@ -79,7 +81,7 @@ impl PlotItem {
             Mark::Rule { upright: false, at } => PlotShape::Level(y.coordinate(*at)?),
             Mark::Rule { upright: true, at } => PlotShape::Upright(x.coordinate(*at)?),
             Mark::Labels(labels) => PlotShape::Labels(labels.iter().filter_map(|(at, text)| Some((point(*at)?, text.clone()))).collect()),
-            // Panes paint maps themselves, and bars stand in files alone.
+            // A map is an image behind all items, and bars stand in files alone.
             Mark::Bars { .. } | Mark::HeatMap(_) => return None,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
@@ -102,8 +104,18 @@ impl PlotItem {
         }
     }
 
-    /// Puts it into the plot.
-    pub fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool) {
+    /// The height at which a curve begins.
+    pub fn first_height(&self) -> Option<f64> {
+        if let PlotShape::Line { pieces, .. } = &self.shape { Some(pieces.first()?.first()?.y) } else { None }
+    }
+
+    /// The symbol of points.
+    pub fn symbol(&self) -> Option<Symbol> {
+        if let PlotShape::Points { symbol, .. } = self.shape { Some(symbol) } else { None }
+    }
+
+    /// Puts it into the plot; words on a map have a plate behind them, points a rim.
+    pub fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool, on_map: bool) {
         let (name, color) = (self.name.as_str(), self.color(dark));
         match &self.shape {
             PlotShape::Line { pieces, style, width } => curve(plot, pieces, name, color, *style, *width),
@@ -112,7 +124,14 @@ impl PlotItem {
                     plot.add(ErrorBars::new(name.to_owned(), bars, color));
                 }
                 let (shape, filled) = marker(*symbol);
-                plot.points(Points::new(name, PlotPoints::Borrowed(points)).color(color).radius(RADIUS).shape(shape).filled(filled));
+                let of = |name: &str, color: Color32, radius: f32| {
+                    Points::new(name, PlotPoints::Borrowed(points)).color(color).radius(radius).shape(shape).filled(filled)
+                };
+                if on_map {
+                    // A rim, so that points are seen on every colour.
+                    plot.points(of("", Color32::BLACK, RADIUS + RIM).allow_hover(false));
+                }
+                plot.points(of(name, color, RADIUS));
             }
             PlotShape::Band(pieces) => {
                 for [x, low, high] in pieces {
@@ -133,7 +152,8 @@ impl PlotItem {
             }
             PlotShape::Labels(labels) => {
                 for (at, text) in labels {
-                    let text = RichText::new(format!("  {text}")).size(LETTERS).color(theme::foreground(dark));
+                    let text = RichText::new(format!(" {text} ")).size(LETTERS).color(theme::foreground(dark));
+                    let text = if on_map { text.background_color(theme::plate(dark)) } else { text };
                     plot.text(Text::new("", *at, text).anchor(Align2::LEFT_CENTER).allow_hover(false));
                 }
             }

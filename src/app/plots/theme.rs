@@ -62,6 +62,11 @@ pub fn grid(dark: bool) -> Color32 {
     pick(dark, (205, 205, 205), (72, 72, 72))
 }
 
+/// Behind words on a map.
+pub fn plate(dark: bool) -> Color32 {
+    if dark { Color32::from_black_alpha(170) } else { Color32::from_white_alpha(190) }
+}
+
 /// Masked points.
 pub fn muted(dark: bool) -> Color32 {
     on_screen(MUTED, dark)

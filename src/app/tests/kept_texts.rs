@@ -39,7 +39,7 @@ fn what_a_pointer_reads_on_the_landscape() {
         explorer(&mut harness).actions.push(Action::SetLanguage(language));
         harness.run_steps(4);
         let marks = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
-        let text = marks.text(&translated("minima"), 0).expect("a minimum");
+        let text = marks.text(&translated("minima"), marks.minima.points[0]).expect("a minimum");
         assert!(text.contains(part), "{text}");
     }
 }

@@ -127,7 +127,7 @@ fn ways_minima_and_metals_lie_on_it() {
         .map(|metal| metal.sources.iter().filter(|source| source.index_at(650.0).is_ok()).count())
         .sum();
     assert_eq!((marks.ways.len(), marks.minima.len(), marks.metals.len()), (0, 0, sources));
-    assert!(marks.text("metals", 0).expect("a text").starts_with("silver"));
+    assert!(marks.text("metals", marks.metals.points[0]).expect("a text").starts_with("silver"));
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
     let explorer = explorer(&mut harness);
@@ -135,8 +135,8 @@ fn ways_minima_and_metals_lie_on_it() {
     let (steps, minima) = (report.course.path.len(), report.course.minima.len());
     let marks = explorer.views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
     assert_eq!((marks.ways.len(), marks.ways[0].len(), marks.minima.len()), (1, steps + 1, minima.min(24)));
-    assert!(marks.text("way of the last fit", 0).expect("a text").contains("evaluation 1"));
-    assert!(marks.text("minima", 0).expect("a text").contains("minimum 1"));
+    assert!(marks.text("way of the last fit", marks.ways[0].points[0]).expect("a text").contains("evaluation 1"));
+    assert!(marks.text("minima", marks.minima.points[0]).expect("a text").contains("minimum 1"));
     // Metals have no place where the axes are others.
     explorer.work.settings_mut().landscape.up = Parameter::Kd;
     wait(&mut harness);

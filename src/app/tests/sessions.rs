@@ -203,7 +203,8 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         let at = good.find(&format!("\"{key}\": ")).expect("the key");
         good[at..].split(",\n").next().expect("its value").to_owned()
     };
-    let row = good.lines().map(str::trim).find(|line| line.starts_with("\"30,") && line.ends_with(",0\",")).expect("a row of data").to_owned();
+    let row =
+        good.lines().map(str::trim).find(|line| line.starts_with("\"30,") && line.ends_with(",0\",")).expect("a row of data").to_owned();
     let bad_angle = row.replacen("\"30,", "\"95,", 1).replacen("\"40,", "\"95,", 1).replacen("\"50,", "\"95,", 1);
     let cases = [
         (String::new(), "line 1"),

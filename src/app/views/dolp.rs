@@ -244,7 +244,10 @@ impl DolpView {
             (settings.shown.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
         ];
         let others = others.into_iter().filter(|(is_shown, _)| *is_shown).map(|(_, entry)| entry);
-        series.chain(others).map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width })).collect()
+        series
+            .chain(others)
+            .map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width, symbol: None, on_map: false }))
+            .collect()
     }
 }
 

@@ -272,7 +272,7 @@ fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
         }
     });
     let ink = ui.visuals().text_color();
-    let entry = |name, style, width| KeyEntry { name, color: ink, style, width };
+    let entry = |name, style, width| KeyEntry { name, color: ink, style, width, symbol: None, on_map: false };
     let entries = [
         entry("P".to_owned(), LineStyle::Solid, 2.0),
         entry("D = P / cos α".to_owned(), LineStyle::dashed_dense(), 1.5),

@@ -5,25 +5,24 @@ mod axes;
 mod describe;
 mod drawn;
 mod key;
-mod legend;
-mod map;
 mod marks;
 mod state;
 
 pub use state::LandscapeView;
 
 use crate::app::jobs::async_memo::AsyncMemo;
-use crate::app::plots::{BarLabels, BarMarks, Range, color_bar};
+use crate::app::plots::{PanelPlot, PanelStyle, Range};
+use crate::app::text::i18n;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
 use crate::app::work::settings::LandscapeAxes;
+use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
-use axes::{axis_over, first, tidy, value, whole};
+use axes::{axis_over, coordinate, first, tidy, value, whole};
+use describe::describe;
 use drawn::LandscapeImage;
-use egui::{ComboBox, Role, Ui, WidgetInfo, vec2};
-use egui_plot::PlotPoint;
+use egui::{ComboBox, Ui};
 use key::LandscapeKey;
-use map::map_ui;
 use marks::{Marks, MarksKey};
 use pbrdf::fit::Loss;
 use pbrdf::model::{Parameter, ParameterSet};
@@ -55,12 +54,8 @@ impl View for LandscapeView {
         let (work, settings, surface, document) = (cx.work, cx.work.settings(), cx.work.surface(), cx.work.active());
         let LandscapeAxes { across, up, .. } = settings.landscape;
         let fit = cx.work.shown_fit().map(|fit| &**fit);
-        let seen = self.seen.filter(|seen| (seen.0, seen.1) == (across, up)).map(|(_, _, seen)| seen);
-        if seen.is_none() {
-            self.wanted = Some([first(across), first(up)]);
-        }
-        let Some([x, y]) = self.wanted.or(seen) else { return };
         self.marks.refresh(MarksKey::new(work), |key| Marks::new(key, work));
+        let [x, y] = self.look_at(across, up);
         let mut others = surface.parameters;
         (others[across], others[up]) = (0.0, 0.0);
         // A value that is not a number would differ from itself, and a job follow a job for ever.
@@ -83,49 +78,22 @@ impl View for LandscapeView {
         self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
         let (surface, measurement, made_from) = (surface.clone(), document.measurement.clone(), key.clone());
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| LandscapeImage::new(surface, &measurement, &made_from, stopped));
+        self.refresh_plot(work);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let mut axes = cx.work.settings().landscape;
         self.axes_ui(&mut axes, cx.work.surface().model.parameters(), ui);
-        cx.edits.extend(changed(cx, axes));
-        let LandscapeAxes { across, up, .. } = cx.work.settings().landscape;
+        if let Some(edit) = changed(cx, axes) {
+            self.look_anew(None);
+            cx.edits.push(edit);
+        }
         let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
         let height = (ui.available_height() - line).max(80.0);
-        let response = map_ui(self, cx.work, height, ui);
-        let name = || WidgetInfo::labeled(Role::Image, true, tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
-        response.response.widget_info(name);
-        let bounds = response.transform.bounds();
-        let [x, y] = [0, 1].map(|side| Range { low: bounds.min()[side], high: bounds.max()[side] });
-        if self.seen != Some((across, up, [x, y])) {
-            self.seen = Some((across, up, [x, y]));
-            ui.ctx().request_repaint();
-        }
-        let rect = response.response.rect;
-        let drawn = self.job.get().and_then(Option::as_ref);
-        if let Some(drawn) = drawn {
-            let at = rect.right_top() + vec2(14.0, 20.0);
-            let labels = BarLabels { title: drawn.title, marks: BarMarks::Log };
-            color_bar(ui, at, (rect.height() - 24.0).max(20.0), drawn.scale, &labels, ui.visuals().text_color(), ui.visuals().dark_mode);
-        }
-        let pointed = response.response.hover_pos().map(|at| response.transform.value_from_position(at));
-        let values =
-            |point: PlotPoint| [(across, point.x), (up, point.y)].map(|(parameter, place)| (parameter, tidy(value(parameter, place))));
-        if let Some(point) = pointed.filter(|_| response.response.clicked())
-            && values(point).iter().all(|(parameter, value)| parameter.domain().contains(*value))
-        {
-            let mut parameters = cx.work.surface().parameters;
-            values(point).iter().for_each(|(parameter, value)| parameters[*parameter] = *value);
-            cx.edits.push(Edit::SetParameters(parameters));
-        }
-        let reading = pointed.map(|point| {
-            let [x, y] = values(point).map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));
-            match drawn.and_then(|drawn| Some((drawn.title, drawn.at(point)?))) {
-                Some((title, objective)) => format!("{x}, {y}: {title} = {objective:.4e}"),
-                None => format!("{x}, {y}"),
-            }
-        });
-        ui.add(egui::Label::new(reading.unwrap_or_else(|| status(drawn.is_some(), across == up))).truncate());
+        let reading = self.map_ui(cx, height, ui);
+        let is_there = matches!(self.job.get(), Some(Some(_)));
+        let text = reading.unwrap_or_else(|| status(is_there, axes.across == axes.up));
+        ui.add(egui::Label::new(text).truncate());
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -139,8 +107,8 @@ impl View for LandscapeView {
         cx.edits.extend(changed(cx, shown));
     }
 
-    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
-        describe::describe(self, cx)
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
     }
 
     fn suspend(&mut self) {
@@ -169,6 +137,74 @@ fn status(is_there: bool, is_one: bool) -> String {
 }
 
 impl LandscapeView {
+    /// What is looked at of these axes: all that is seen first, until the user moves it.
+    fn look_at(&mut self, across: Parameter, up: Parameter) -> [Range; 2] {
+        match self.look.filter(|look| (look.0, look.1) == (across, up)) {
+            Some((.., look)) => look,
+            None => {
+                let look = [across, up].map(first);
+                self.look_anew(Some((across, up, look)));
+                look
+            }
+        }
+    }
+
+    /// Looks at other ranges than the user has moved to.
+    fn look_anew(&mut self, look: Option<(Parameter, Parameter, [Range; 2])>) {
+        self.look = look;
+        self.plot.panels().iter_mut().for_each(PanelPlot::look_at_all);
+    }
+
+    fn refresh_plot(&mut self, work: &Workspace) {
+        let (Some(key), Some(drawn)) = (self.job.key(), self.job.get()) else { return };
+        let shown = work.settings().landscape;
+        // The marks have other axes than a landscape of before.
+        if (key.across.parameter, key.up.parameter) != (shown.across, shown.up) {
+            return;
+        }
+        let sliders = [key.across, key.up].map(|nodes| work.surface().parameters[nodes.parameter]);
+        let figure_key = (key.clone(), shown, self.marks.stamp(), sliders.map(f64::to_bits), i18n::current());
+        self.plot.refresh(figure_key, |(key, ..)| {
+            Some(describe(drawn.as_ref()?, key, self.marks.get(), (shown, sliders), work.active().title()))
+        });
+    }
+
+    /// The map; what the pointer reads there.
+    fn map_ui(&mut self, cx: &mut Cx<'_>, height: f32, ui: &mut Ui) -> Option<String> {
+        let (marks, key, drawn) = (self.marks.get(), self.job.key()?, self.job.get()?.as_ref());
+        let (across, up) = (key.across.parameter, key.up.parameter);
+        let at = |x: f64, y: f64| [coordinate(across, x), coordinate(up, y)];
+        let hover = |name: &str, x: f64, y: f64| marks.and_then(|marks| marks.text(name, at(x, y))).unwrap_or(name).to_owned();
+        let panel = self.plot.panel(0)?;
+        let top = ui.cursor().top();
+        panel.key_line_ui(ui);
+        let style = PanelStyle::new("landscape", height - (ui.cursor().top() - top), &hover);
+        let style = style.named(tr!("Map: the objective over {0} and {1}", across.symbol(), up.symbol()));
+        let response = panel.ui(&style, ui)?;
+        if response.response.double_clicked() {
+            self.look = None;
+        } else if panel.is_moved() {
+            let bounds = response.transform.bounds();
+            let look = [0, 1].map(|side| Range { low: bounds.min()[side], high: bounds.max()[side] });
+            if self.look != Some((across, up, look)) {
+                self.look = Some((across, up, look));
+                ui.ctx().request_repaint();
+            }
+        }
+        let point = response.transform.value_from_position(response.response.hover_pos()?);
+        let values = [(across, point.x), (up, point.y)].map(|(parameter, place)| (parameter, tidy(value(parameter, place))));
+        if response.response.clicked() && values.iter().all(|(parameter, value)| parameter.domain().contains(*value)) {
+            let mut parameters = cx.work.surface().parameters;
+            values.iter().for_each(|(parameter, value)| parameters[*parameter] = *value);
+            cx.edits.push(Edit::SetParameters(parameters));
+        }
+        let [x, y] = values.map(|(parameter, value)| format!("{} = {value}", parameter.symbol()));
+        Some(match drawn.and_then(|drawn| Some((drawn.title, drawn.at([point.x, point.y])?))) {
+            Some((title, objective)) => format!("{x}, {y}: {title} = {objective:.4e}"),
+            None => format!("{x}, {y}"),
+        })
+    }
+
     fn axes_ui(&mut self, axes: &mut LandscapeAxes, used: ParameterSet, ui: &mut Ui) {
         let LandscapeAxes { across, up, .. } = axes;
         let mut is_reset = false;
@@ -187,7 +223,7 @@ impl LandscapeView {
             is_reset = ui.button(tr!("Whole ranges")).on_hover_text(tr!("Both axes over the whole ranges of the sliders")).clicked();
         });
         if is_reset {
-            self.wanted = Some([axes.across, axes.up].map(whole));
+            self.look_anew(Some((axes.across, axes.up, [axes.across, axes.up].map(whole))));
             // The landscape over them is made before the next frame.
             ui.ctx().request_repaint();
         }
@@ -215,9 +251,9 @@ impl LandscapeView {
         self.marks.get()
     }
 
-    /// Where a value of each axis lies on the screen.
+    /// What is looked at of each axis.
     pub fn seen(&self) -> Option<[Range; 2]> {
-        self.seen.map(|(_, _, seen)| seen)
+        self.look.map(|(.., look)| look)
     }
 }
 

@@ -119,7 +119,9 @@ impl LobesView {
 
     /// The measured series, then the terms.
     fn key_entries(curves: &CurveSet, marks: &MarkSet, dark: bool) -> Vec<(Line, KeyEntry)> {
-        let entry = |line, name: &str, color, width| (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width });
+        let entry = |line, name: &str, color, width| {
+            (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width, symbol: None, on_map: false })
+        };
         let measured = marks.series.iter().enumerate().filter(|(_, marks)| !marks.brdf.is_empty());
         let measured = measured.map(|(i, marks)| entry(Line::Series(i), &marks.name, theme::series(i, dark), 2.0));
         let terms = curves.own.terms().map(|(term, _)| entry(Line::Term(term), &term.name(), theme::on_screen(term.ink(), dark), 1.5));

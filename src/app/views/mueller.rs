@@ -4,14 +4,16 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
-use crate::app::plots::{ColorScale, Polyline, Range, ink_on, theme};
+use crate::app::plots::{ColorScale, FigurePlot, Polyline, Range, theme};
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
 use crate::app::work::open_measurement::IncidenceSeries;
 use crate::app::work::settings::Settings;
 use crate::figure::{Axis, ColorMap, Figure, Panel, SERIES, Series};
-use egui::{Align2, Color32, DragValue, FontId, Key, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{Align2, DragValue, FontId, Key, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Mueller;
 use tr::tr;
@@ -32,6 +34,8 @@ pub struct MuellerView {
     /// θr that the numbers belong to, in degrees, negative on the backscatter side; the mirror direction until the user chooses another.
     cursor: Option<f64>,
     matrix: Memo<(SurfaceKey, f64), Option<Mueller>>,
+    /// Of curves and matrix by their stamps; the language.
+    plot: FigurePlot<([u64; 2], Language)>,
 }
 
 /// Parameters, model, θi, plane.
@@ -109,6 +113,10 @@ impl View for MuellerView {
             let geometry = in_plane(*theta_i, *plane).geometry(*theta_r)?;
             Some(Pbrdf::new(*model, *parameters).ok()?.mueller(geometry))
         });
+        let title = cx.work.active().title();
+        let mut plot = std::mem::take(&mut self.plot);
+        plot.refresh(([self.curves.stamp(), self.matrix.stamp()], i18n::current()), |_| self.describe(&title));
+        self.plot = plot;
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -119,18 +127,12 @@ impl View for MuellerView {
         self.choice_ui(settings, low, &mut theta_r, ui);
         let room = ui.available_size();
         let (rect, response) = ui.allocate_exact_size(room.max(vec2(120.0, 120.0)), Sense::hover());
-        let painter = ui.painter_at(rect);
-        let style = Style { ink: ui.visuals().text_color(), dark: ui.visuals().dark_mode };
         let [left, right] = parts(rect);
-        let multiples = Multiples::new(left, Range { low, high: 90.0 });
-        if let Some(curves) = self.curves.get() {
-            multiples.draw(&painter, curves, theta_r, style);
-        }
-        if let Some(at) = response.hover_pos().and_then(|at| multiples.theta_r(at)) {
-            theta_r = at.clamp(low.max(-LAST), LAST);
+        if let Some(at) = self.curves_ui(left, ui) {
+            theta_r = ((at / STEP).round() * STEP).clamp(low.max(-LAST), LAST);
         }
         if let Some(Some(matrix)) = self.matrix.get() {
-            heat_map(&painter, right, matrix, before, style);
+            table_ui(right, matrix, before, ui);
             response.widget_info(|| WidgetInfo::labeled(Role::Image, true, spoken(matrix, before)));
         }
         if theta_r != before {
@@ -139,11 +141,38 @@ impl View for MuellerView {
         }
     }
 
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
+    }
+}
+
+impl MuellerView {
+    /// The sixteen plots; the θr under the pointer.
+    fn curves_ui(&mut self, room: Rect, ui: &mut Ui) -> Option<f64> {
+        let cell = 0.25 * (room.size() - vec2(LEFT, BELOW) - 3.0 * vec2(SEAM, SEAM));
+        let mut pointed = None;
+        for (element, panel) in self.plot.panels().iter_mut().enumerate() {
+            let (row, column) = (element / 4, element % 4);
+            // Numbers stand at the left and at the lower rim.
+            let rim = [row == 3, column == 0];
+            #[expect(clippy::cast_precision_loss, reason = "0 to 3")]
+            let corner = room.min + vec2(LEFT, 0.0) + vec2(column as f32, row as f32) * (cell + vec2(SEAM, SEAM));
+            let (left, below) = (if rim[1] { LEFT } else { 0.0 }, if rim[0] { BELOW } else { 0.0 });
+            let place = Rect::from_min_size(corner - vec2(left, 0.0), cell + vec2(left, below));
+            let mut child = ui.new_child(UiBuilder::new().id_salt(element).max_rect(place));
+            let at = panel.cell_ui(place.size(), rim, vec2(LEFT, BELOW), &mut child);
+            pointed = pointed.or(at);
+        }
+        pointed
+    }
+
     /// Sixteen plots against θr, and all elements as numbers at the θr of the pane.
-    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+    fn describe(&self, title: &str) -> Option<Figure> {
         let (curves, ((_, _, theta_i, plane), backscatter)) = (self.curves.get()?, self.curves.key()?);
         let matrix = self.matrix.get().and_then(Option::as_ref).zip(self.matrix.key().map(|key| key.1));
-        let reach = f64::from(REACH);
+        let low = if *backscatter { -90.0 } else { 0.0 };
+        let angles = [low, f64::midpoint(low, 90.0), 90.0].map(|at| (at, at.to_string().replace('-', "−"))).to_vec();
+        let values = [(-1.0, "−1"), (0.0, "0"), (1.0, "1")].map(|(at, label)| (at, label.to_owned())).to_vec();
         let panels = curves.0.iter().enumerate().map(|(element, curve)| {
             let mut series = vec![Series::line("", curve.clone()).colored(SERIES[0])];
             let mut title = String::new();
@@ -161,14 +190,15 @@ impl View for MuellerView {
             }
             Panel {
                 title,
-                x: Axis::linear("θr", "°").between(if *backscatter { -90.0 } else { 0.0 }, 90.0),
-                y: Axis::linear(format!("m{}{} / m00", element / 4, element % 4), "").between(-reach, reach),
+                x: Axis { ticks: Some(angles.clone()), ..Axis::linear("θr", "°") }.between(low, 90.0),
+                y: Axis { ticks: Some(values.clone()), ..Axis::linear(format!("m{}{} / m00", element / 4, element % 4), "") }
+                    .between(-REACH, REACH),
                 series,
                 legend: false,
                 ..Panel::default()
             }
         });
-        let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", cx.work.active().title(), theta_i, plane);
+        let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", title, theta_i, plane);
         Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
     }
 }
@@ -193,140 +223,24 @@ fn parts(rect: Rect) -> [Rect; 2] {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Style {
-    ink: Color32,
-    dark: bool,
-}
-
-/// Sixteen small plots with common axes.
-struct Multiples {
-    /// All cells together.
-    rect: Rect,
-    x: Range,
-}
-
-/// Room for the numbers at the axes.
+/// Room for the numbers at the axes, and between cells.
 const LEFT: f32 = 26.0;
-const BELOW: f32 = 34.0;
-/// Between cells.
+const BELOW: f32 = 20.0;
 const SEAM: f32 = 3.0;
 /// Ends of the common axis of values: a little beyond what any matrix reaches.
-const REACH: f32 = 1.12;
-
-impl Multiples {
-    fn new(room: Rect, x: Range) -> Self {
-        Self { rect: Rect::from_min_max(room.min + vec2(LEFT, 6.0), room.max - vec2(6.0, BELOW)), x }
-    }
-
-    fn cell(&self, row: usize, column: usize) -> Rect {
-        #[expect(clippy::cast_precision_loss, reason = "0 to 3")]
-        let at = vec2(column as f32, row as f32);
-        let size = 0.25 * (self.rect.size() - 3.0 * vec2(SEAM, SEAM));
-        Rect::from_min_size(self.rect.min + at * (size + vec2(SEAM, SEAM)), size)
-    }
-
-    fn place(&self, cell: Rect, theta_r: f64, value: f64) -> Pos2 {
-        #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
-        let (x, y) = (((theta_r - self.x.low) / (self.x.high - self.x.low)) as f32, value as f32);
-        Pos2::new(cell.left() + x * cell.width(), cell.center().y - 0.5 * cell.height() * y / REACH)
-    }
-
-    /// The θr under the pointer, in whichever cell it is.
-    fn theta_r(&self, at: Pos2) -> Option<f64> {
-        let cells = (0..16).map(|element| self.cell(element / 4, element % 4));
-        let cell = cells.into_iter().find(|cell| cell.contains(at))?;
-        let share = f64::from((at.x - cell.left()) / cell.width());
-        Some(((self.x.low + share * (self.x.high - self.x.low)) / STEP).round() * STEP)
-    }
-
-    fn draw(&self, painter: &Painter, curves: &ElementCurves, theta_r: f64, style: Style) {
-        let font = FontId::proportional(LETTERS);
-        let grid = Stroke::new(1.0, theme::grid(style.dark));
-        for (element, curve) in curves.0.iter().enumerate() {
-            let (row, column) = (element / 4, element % 4);
-            let cell = self.cell(row, column);
-            for value in [-1.0, 0.0, 1.0] {
-                painter.hline(cell.x_range(), self.place(cell, 0.0, value).y, grid);
-            }
-            painter.vline(self.place(cell, theta_r, 0.0).x, cell.y_range(), Stroke::new(1.0, theme::muted(style.dark)));
-            let inside = painter.with_clip_rect(cell);
-            for piece in curve.split(|point| !point[1].is_finite()) {
-                inside.add(Shape::line(self.thinned(cell, piece), Stroke::new(1.5, theme::series(0, style.dark))));
-            }
-            painter.rect_stroke(cell, 0.0, grid, StrokeKind::Inside);
-            let label = painter.layout_no_wrap(format!("m{row}{column}"), font.clone(), style.ink);
-            // Where the curve seldom is: m00 is 1, and m11 is near it.
-            let (anchor, corner) = if matches!(element, 0 | 5) {
-                (Align2::LEFT_BOTTOM, cell.left_bottom() + vec2(3.0, -2.0))
-            } else {
-                (Align2::LEFT_TOP, cell.left_top() + vec2(3.0, 2.0))
-            };
-            let corner = anchor.anchor_size(corner, label.size());
-            painter.rect_filled(corner.expand2(vec2(2.0, 0.0)), 2.0, background(style.dark).gamma_multiply(0.8));
-            painter.galley(corner.min, label, style.ink);
-        }
-        self.draw_axes(painter, &font, style.ink);
-    }
-
-    /// The curve without points that would fall together on the screen.
-    fn thinned(&self, cell: Rect, piece: &[[f64; 2]]) -> Vec<Pos2> {
-        let mut points: Vec<Pos2> = Vec::new();
-        for &[theta_r, value] in piece {
-            let point = self.place(cell, theta_r, value);
-            match points.last() {
-                Some(last) if (point - *last).length_sq() < 1.0 => {}
-                _ => points.push(point),
-            }
-        }
-        points
-    }
-
-    fn draw_axes(&self, painter: &Painter, font: &FontId, ink: Color32) {
-        let small = FontId::proportional(LETTERS - 1.0);
-        for row in 0..4 {
-            let cell = self.cell(row, 0);
-            let values = if cell.height() > 40.0 { &[-1.0, 0.0, 1.0][..] } else { &[0.0] };
-            for value in values {
-                let at = self.place(cell, self.x.low, *value) - vec2(3.0, 0.0);
-                painter.text(at, Align2::RIGHT_CENTER, value.to_string(), small.clone(), ink);
-            }
-        }
-        let middle = f64::midpoint(self.x.low, self.x.high);
-        for column in 0..4 {
-            let cell = self.cell(3, column);
-            // Both ends of neighbours would run into each other, and in narrow cells all three marks.
-            let wide = cell.width() > 100.0;
-            for (theta_r, anchor, is_drawn) in [
-                (self.x.low, Align2::LEFT_TOP, column == 0),
-                (middle, Align2::CENTER_TOP, wide || (1..3).contains(&column)),
-                (self.x.high, Align2::RIGHT_TOP, wide || column == 3),
-            ] {
-                if is_drawn {
-                    let at = Pos2::new(self.place(cell, theta_r, 0.0).x, cell.bottom() + 2.0);
-                    painter.text(at, anchor, theta_r.to_string(), small.clone(), ink);
-                }
-            }
-        }
-        let at = Pos2::new(self.rect.center().x, self.rect.bottom() + BELOW);
-        painter.text(at, Align2::CENTER_BOTTOM, tr!("θr / °: each element over m00"), font.clone(), ink);
-    }
-}
-
-fn background(dark: bool) -> Color32 {
-    if dark { Color32::from_gray(27) } else { Color32::from_gray(248) }
-}
+const REACH: f64 = 1.12;
 
 /// Colours of −1 to 1.
 const SCALE: ColorScale = ColorScale { map: ColorMap::Diverging, range: Range { low: -1.0, high: 1.0 } };
 
 /// The matrix as a table of colours and numbers.
-fn heat_map(painter: &Painter, room: Rect, matrix: &Mueller, theta_r: f64, style: Style) {
+fn table_ui(room: Rect, matrix: &Mueller, theta_r: f64, ui: &Ui) {
+    let (painter, ink) = (ui.painter(), ui.visuals().text_color());
     let title = tr!("m / m00 at θr = {}°", format!("{theta_r:.1}"));
     let head = 28.0;
     let side = room.width().min(room.height() - head).max(40.0);
     let top = Pos2::new(room.center().x, room.top() + 6.0);
-    painter.text(top, Align2::CENTER_TOP, title, FontId::proportional(LETTERS), style.ink);
+    painter.text(top, Align2::CENTER_TOP, title, FontId::proportional(LETTERS), ink);
     let corner = Pos2::new(room.center().x - 0.5 * side, room.top() + head);
     let cell = 0.25 * side;
     let letters = (0.26 * cell).clamp(9.0, 15.0);
@@ -336,8 +250,8 @@ fn heat_map(painter: &Painter, room: Rect, matrix: &Mueller, theta_r: f64, style
         let rect = Rect::from_min_size(corner + cell * at, vec2(cell, cell)).shrink(1.0);
         let value = normalised(matrix, element);
         let color = SCALE.color(value);
-        painter.rect(rect, 2.0, color, Stroke::new(1.0, theme::grid(style.dark)), StrokeKind::Inside);
-        painter.text(rect.center(), Align2::CENTER_CENTER, number(value), FontId::proportional(letters), ink_on(color));
+        painter.rect(rect, 2.0, color, Stroke::new(1.0, theme::grid(ui.visuals().dark_mode)), StrokeKind::Inside);
+        painter.text(rect.center(), Align2::CENTER_CENTER, number(value), FontId::proportional(letters), SCALE.ink_on(value));
     }
 }
 
@@ -360,22 +274,9 @@ fn spoken(matrix: &Mueller, theta_r: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{ElementCurves, Multiples, Range, number};
-    use egui::{Rect, pos2};
+    use super::{ElementCurves, number};
     use pbrdf::model::{Model, Parameters};
     use pbrdf::optics::SlopeDistribution;
-
-    #[test]
-    fn the_pointer_finds_the_theta_r_under_it_in_every_cell() {
-        let multiples = Multiples::new(Rect::from_min_max(pos2(10.0, 20.0), pos2(410.0, 330.0)), Range { low: -90.0, high: 90.0 });
-        for element in 0..16 {
-            let cell = multiples.cell(element / 4, element % 4);
-            let at = multiples.place(cell, 37.3, 0.2);
-            // Steps of 0.1° and places in single precision.
-            assert!((multiples.theta_r(at).expect("inside") - 37.3).abs() < 0.1 + 1e-3);
-        }
-        assert_eq!(multiples.theta_r(pos2(0.0, 0.0)), None);
-    }
 
     #[test]
     fn a_curve_is_broken_where_there_is_no_light() {

@@ -105,10 +105,21 @@ fn protractor(rings: &[(f64, String)]) -> Vec<Series> {
     let mut series: Vec<Series> = rings.iter().map(|(radius, _)| still(arc(*radius))).collect();
     // Along the surface stands the axis.
     let directions = || (-60_i32..=60).step_by(30);
+    // Beside the directions, which have words of their own.
+    series.push(Series::labels(rings.iter().map(|(radius, brdf)| (direction(RING_LABELS, *radius), brdf.clone())).collect()));
     series.extend(directions().map(|degrees| still(vec![[0.0, 0.0], direction(f64::from(degrees), 1.0)])));
     let labels = directions().map(|degrees| (direction(f64::from(degrees), 1.0), format!("{}°", degrees.abs())));
     series.push(Series::labels(labels.collect()));
     series
+}
+
+/// Where the words at rings stand, in degrees of θr.
+const RING_LABELS: f64 = -13.0;
+
+/// A ray from the outermost ring to the origin, with its tip; it comes from that θr in degrees.
+fn arrow(theta_r: f64) -> Polyline {
+    let barb = |turn: f64| direction(theta_r + turn, 0.06);
+    vec![direction(theta_r, 1.0), [0.0, 0.0], [f64::NAN; 2], barb(20.0), [0.0, 0.0], barb(-20.0)]
 }
 
 /// The figure, of lobes in a plane at that θi.
@@ -116,7 +127,7 @@ fn describe(curves: &ModelCurves, radius: Radius, (theta_i, plane): (f64, f64), 
     let rings = radius.rings();
     let mut series = protractor(&rings);
     if plane == 180.0 {
-        series.push(Series::line(tr!("incident ray"), vec![direction(-theta_i, 1.0), [0.0, 0.0]]).colored(MUTED));
+        series.push(Series::line(tr!("incident ray"), arrow(-theta_i)).colored(MUTED));
         let mirror = vec![[0.0, 0.0], direction(theta_i, 1.0)];
         series.push(Series::dashed(tr!("mirror direction"), mirror, Dash::Dashed).colored(MUTED));
     }

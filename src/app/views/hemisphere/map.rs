@@ -1,11 +1,10 @@
 //! The map of all directions of view: its values, their range and colours.
 
 use crate::app::jobs::async_memo::Stopped;
-use crate::app::plots::{ColorScale, Range, nice_ceiling};
+use crate::app::plots::{Range, nice_ceiling};
 use crate::app::views::curves::{DECADES, SETS_AXES};
 use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Axis, ColorMap, HeatMap};
-use egui::{ColorImage, Vec2, vec2};
 use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
 use pbrdf::optics::Degrees;
 use std::sync::Arc;
@@ -49,13 +48,6 @@ impl Made {
         map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
         let extremes = HemisphereQuantity::ALL.map(|quantity| extremes(values(&map, quantity)));
         Some(Self { hemisphere, theta_i, map, extremes })
-    }
-
-    pub fn image(&self, quantity: HemisphereQuantity, scale: ColorScale) -> ColorImage {
-        let table = scale.table();
-        // The first row of an image is the uppermost, that of a map has the smallest y.
-        let rows = values(&self.map, quantity).chunks(SIZE).rev();
-        ColorImage::new([SIZE; 2], rows.flatten().map(|&value| table.color(value)).collect())
     }
 }
 
@@ -115,12 +107,10 @@ pub fn index(coordinate: f64) -> Option<usize> {
     (-1.0..1.0).contains(&coordinate).then_some(place as usize)
 }
 
-/// Where a direction lies on the disc of radius 1, x to the right and y upwards.
-pub fn place(theta_r: f64, dphi: f64) -> Vec2 {
+/// Where a direction lies on the disc, in degrees of θr from the middle: x to the right and y upwards.
+pub fn place(theta_r: f64, dphi: f64) -> [f64; 2] {
     let (sin, cos) = Degrees(dphi - 180.0).sin_cos();
-    #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
-    let at = |coordinate: f64| (theta_r / 90.0 * coordinate) as f32;
-    vec2(at(cos), at(sin))
+    [theta_r * cos, theta_r * sin]
 }
 
 impl HemisphereQuantity {
@@ -131,32 +121,28 @@ impl HemisphereQuantity {
 
 #[cfg(test)]
 mod tests {
-    use super::{ColorScale, HemisphereQuantity, Made, Range, SIZE, extremes, index, place, values, wanted};
+    use super::{HemisphereQuantity, Made, Range, SIZE, extremes, index, place, values, wanted};
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
 
     #[test]
-    fn the_image_has_the_values_of_the_map_with_y_upwards() {
+    fn a_cell_has_the_value_of_the_direction_that_lies_there() {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("the defaults");
         let made = Made::new(&surface, 50.0, None, &|| false).expect("a map");
         // On either side of the plane of incidence the angle of polarisation has the other sign.
-        let scale = ColorScale { map: HemisphereQuantity::Angle.colors(), range: Range { low: -90.0, high: 90.0 } };
-        let image = made.image(HemisphereQuantity::Angle, scale);
         let (row, column) = (3 * SIZE / 4, SIZE / 2);
         let (theta_r, dphi) = made.map.direction(row, column).expect("inside the disc");
-        let at = place(theta_r, dphi);
-        assert!(at.y > 0.4, "above the middle: {at:?}");
-        let value = values(&made.map, HemisphereQuantity::Angle)[row * SIZE + column];
-        assert!(value.abs() > 5.0);
-        assert_eq!(image.pixels[(SIZE - 1 - row) * SIZE + column], scale.table().color(value));
-        assert_ne!(image.pixels[row * SIZE + column], scale.table().color(value));
+        let [x, y] = place(theta_r, dphi);
+        assert!(y > 36.0, "above the middle: {x} {y}");
+        assert_eq!((index(y / 90.0), index(x / 90.0)), (Some(row), Some(column)));
+        let value = |row: usize| values(&made.map, HemisphereQuantity::Angle)[row * SIZE + column];
+        assert!(value(row).abs() > 5.0 && value(row) * value(SIZE - 1 - row) < 0.0);
     }
 
     #[test]
     fn light_comes_from_the_left_and_the_mirror_is_to_the_right() {
-        for (dphi, x, y) in [(0.0, -0.5, 0.0), (180.0, 0.5, 0.0), (270.0, 0.0, 0.5), (90.0, 0.0, -0.5)] {
-            let at = place(45.0, dphi);
-            assert_eq!((at.x, at.y), (x, y), "{dphi}");
+        for (dphi, x, y) in [(0.0, -45.0, 0.0), (180.0, 45.0, 0.0), (270.0, 0.0, 45.0), (90.0, 0.0, -45.0)] {
+            assert_eq!(place(45.0, dphi), [x, y], "{dphi}");
         }
         assert_eq!((index(-1.0), index(0.999_9), index(1.0), index(-1.1)), (Some(0), Some(255), None, None));
     }

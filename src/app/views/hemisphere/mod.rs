@@ -2,20 +2,20 @@
 //!
 //! The disc is that of [`pbrdf::model::Hemisphere`]: light from the left, forward side to the right, θr = 90° at the rim.
 
-mod disc;
 mod map;
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
-use crate::app::plots::{AutoRange, BAR_ROOM, BarLabels, BarMarks, ColorScale, color_bar};
+use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range};
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::HemisphereQuantity;
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Series, Symbol};
-use disc::{Disc, MARGIN, incident_mark, legend_ui, measured_mark, mirror_mark};
-use egui::{Color32, ColorImage, Key, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2, vec2};
+use egui::{Key, Ui};
 use map::{Made, MapKey, SIZE, index, place, values, wanted};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::{Degrees, Geometry};
@@ -35,13 +35,13 @@ pub static SPEC: PaneSpec = PaneSpec {
 pub struct HemisphereView {
     job: AsyncMemo<MapKey, Option<Made>>,
     ranges: [AutoRange; HemisphereQuantity::ALL.len()],
-    colored: Memo<(MapKey, HemisphereQuantity, ColorScale), ()>,
-    /// An image that the texture does not show yet.
-    fresh: Option<ColorImage>,
-    texture: Option<TextureHandle>,
-    /// Directions measured at the sliders' θi, as places on the disc of radius 1.
-    measured: Memo<(u64, f64), Vec<Vec2>>,
+    /// Directions measured at the sliders' θi, as places on the disc.
+    measured: Memo<(u64, f64), Vec<[f64; 2]>>,
+    plot: FigurePlot<FigureKey>,
 }
+
+/// The map by its inputs, what it shows, the range of its colours, the measured directions by their stamp, the language.
+type FigureKey = (MapKey, HemisphereQuantity, Option<Range>, u64, Language);
 
 impl HemisphereQuantity {
     /// Its name and what the pointer finds out about it.
@@ -61,7 +61,7 @@ impl HemisphereQuantity {
     fn axis(self) -> Axis {
         match self {
             Self::Dolp => Axis::linear("DoLP", ""),
-            Self::Angle => Axis::linear(tr!("angle of polarisation"), "°"),
+            Self::Angle => Axis { ticks: Some(ticks(&[-90, -45, 0, 45, 90])), ..Axis::linear(tr!("angle of polarisation"), "°") },
             Self::Brdf => Axis::log("BRDF", "sr⁻¹"),
             Self::SpecularShare => Axis::linear(tr!("specular share"), ""),
         }
@@ -80,10 +80,10 @@ impl HemisphereQuantity {
 }
 
 impl HemisphereView {
-    /// What is known at a place of the disc, x to the right and y upwards; none outside it.
-    fn reading(&self, x: f64, y: f64, quantity: HemisphereQuantity) -> Option<String> {
+    /// What is known at a place of the disc; none outside it.
+    fn reading(&self, [x, y]: [f64; 2], quantity: HemisphereQuantity) -> Option<String> {
         let map = &self.job.get()?.as_ref()?.map;
-        let (row, column) = (index(y)?, index(x)?);
+        let (row, column) = (index(y / 90.0)?, index(x / 90.0)?);
         let (theta_r, dphi) = map.direction(row, column)?;
         let value = values(map, quantity)[row * SIZE + column];
         let at = tr!("θr = {}°, Δφ = {}°", format!("{theta_r:.2}"), format!("{dphi:.2}"));
@@ -99,7 +99,7 @@ impl HemisphereView {
     /// Whether the next frame changes the texture.
     #[cfg(test)]
     pub fn is_fresh(&self) -> bool {
-        self.fresh.is_some()
+        self.plot.is_fresh()
     }
 
     /// The inputs of the newest map.
@@ -108,37 +108,45 @@ impl HemisphereView {
         self.job.key()
     }
 
-    /// The disc with its colours, and what lies on it.
-    fn disc_ui(&mut self, theta_i: f64, quantity: HemisphereQuantity, room: Vec2, ui: &mut Ui) -> Option<String> {
-        let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
-        let radius = 0.5 * (room.x - 2.0 * MARGIN.x - BAR_ROOM).min(room.y - 2.0 * MARGIN.y).max(20.0);
-        let disc = Disc { center: rect.center() - vec2(0.5 * BAR_ROOM, 0.0), radius };
-        let painter = ui.painter_at(rect);
-        let (ink, dark) = (ui.visuals().text_color(), ui.visuals().dark_mode);
-        let is_there = matches!(self.job.get(), Some(Some(_)));
-        if let (Some(texture), true) = (&self.texture, is_there) {
-            let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-            painter.image(texture.id(), disc.square(), whole, Color32::WHITE);
+    /// The map with what lies on it, over degrees of θr from the middle outwards, so that axes can tell them.
+    fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), title: String) -> Figure {
+        let theta_i = made.theta_i;
+        let mut series = vec![Series::heat_map(made.heat_map(quantity, range, quantity.axis()))];
+        let ring = |theta_r: f64| (0..=120).map(|i| place(theta_r, 3.0 * f64::from(i))).collect();
+        series.extend([30.0, 60.0].map(|theta_r| Series::stroke("", ring(theta_r), 0.5, Dash::Solid).colored(WHITE)));
+        let across = |dphi: f64| vec![place(90.0, dphi), place(90.0, dphi + 180.0)];
+        series.extend([0.0, 90.0].map(|dphi| Series::stroke("", across(dphi), 0.4, Dash::Solid).colored(WHITE)));
+        series.push(Series::dashed("", ring(90.0), Dash::Solid).colored(FOREGROUND));
+        series.push(Series::labels([30.0, 60.0].map(|theta_r| (place(theta_r, 90.0), format!("θr = {theta_r}°"))).to_vec()));
+        let mark = |name: String, places: Vec<[f64; 2]>, symbol| {
+            let points = places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect();
+            Series::measured(name, points, symbol).colored(MARK)
+        };
+        if let Some(measured) = self.measured.get().filter(|measured| !measured.is_empty()) {
+            series.push(mark(tr!("measured"), measured.clone(), Symbol::Circle));
         }
-        disc.draw_directions(&painter, ink);
-        for at in self.measured.get().into_iter().flatten() {
-            measured_mark(&painter, disc.at(*at));
-        }
-        incident_mark(&painter, disc.at(place(theta_i, 0.0)));
-        mirror_mark(&painter, disc.at(place(theta_i, 180.0)));
-        if let Some(range) = self.ranges[quantity as usize].get() {
-            let at = Pos2::new(disc.center.x + radius + MARGIN.x + 6.0, disc.center.y - radius);
-            color_bar(ui, at, 2.0 * radius, ColorScale { map: quantity.colors(), range }, &labels(quantity), ink, dark);
-        }
-        let name = quantity.texts()[0].clone();
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, tr!("Map of all directions of view: {}", name)));
-        let at = (response.hover_pos()? - disc.center) / radius;
-        self.reading(f64::from(at.x), f64::from(-at.y), quantity)
+        series.push(mark(tr!("incident ray"), vec![place(theta_i, 0.0)], Symbol::Disc));
+        series.push(mark(tr!("mirror direction"), vec![place(theta_i, 180.0)], Symbol::Cross));
+        let axis = |label| Axis { ticks: Some(ticks(&[-90, -60, -30, 0, 30, 60, 90])), ..Axis::linear(label, "°").between(-90.0, 90.0) };
+        let panel = Panel {
+            title: tr!("θi = {}°; radius θr, Δφ = 180° to the right, 270° upwards", theta_i),
+            x: axis("−θr cos Δφ"),
+            y: axis("−θr sin Δφ"),
+            series,
+            equal_aspect: true,
+            ..Panel::default()
+        };
+        Figure { title, panels: vec![panel], width_mm: 130.0, height_mm: 125.0, ..Figure::default() }
     }
 }
 
+/// Marks of an axis at these values.
+fn ticks(values: &[i8]) -> Vec<(f64, String)> {
+    values.iter().map(|value| (f64::from(*value), value.to_string().replace('-', "−"))).collect()
+}
+
 /// Directions measured at that θi.
-fn measured(document: &OpenMeasurement, theta_i: f64) -> Vec<Vec2> {
+fn measured(document: &OpenMeasurement, theta_i: f64) -> Vec<[f64; 2]> {
     let geometries = document.measurement.rows.iter().map(|row| row.geometry);
     let at = geometries.filter(|geometry| geometry.theta_i() == Degrees(theta_i));
     at.map(|geometry: Geometry| place(geometry.theta_r().0, geometry.dphi().0)).take(MOST_POINTS).collect()
@@ -161,9 +169,12 @@ impl View for HemisphereView {
         let quantity = settings.shown.hemisphere;
         let range = &mut self.ranges[quantity as usize];
         range.follow(wanted(quantity, made.extremes[quantity as usize]), cx.interacting);
-        let Some(scale) = range.get().map(|range| ColorScale { map: quantity.colors(), range }) else { return };
-        let fresh = &mut self.fresh;
-        self.colored.refresh((*key, quantity, scale), |_| *fresh = Some(made.image(quantity, scale)));
+        let range = range.get();
+        let mut plot = std::mem::take(&mut self.plot);
+        plot.refresh((*key, quantity, range, self.measured.stamp(), i18n::current()), |_| {
+            Some(self.describe(made, (quantity, range?), cx.work.active().title()))
+        });
+        self.plot = plot;
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -175,52 +186,29 @@ impl View for HemisphereView {
                 }
             });
         });
-        let (quantity, theta_i) = (cx.work.settings().shown.hemisphere, cx.work.settings().theta_i);
-        if let Some(image) = self.fresh.take() {
-            match &mut self.texture {
-                Some(texture) => texture.set(image, TextureOptions::LINEAR),
-                None => self.texture = Some(ui.ctx().load_texture("hemisphere", image, TextureOptions::LINEAR)),
-            }
+        let quantity = cx.work.settings().shown.hemisphere;
+        if let Some(panel) = self.plot.panel(0) {
+            panel.key_line_ui(ui);
         }
-        // So high whatever the lines say: the map does not jump.
-        let lines = if ui.available_width() < 430.0 { 4.0 } else { 2.0 };
-        let below = lines * (ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y);
-        let room = vec2(ui.available_width(), (ui.available_height() - below).max(60.0));
-        let reading = self.disc_ui(theta_i, quantity, room, ui);
-        ui.label(reading.unwrap_or_else(|| tr!("The pointer over the map reads a value.")));
-        legend_ui(theta_i, self.measured.get().map_or(0, Vec::len), ui);
+        // One line whatever it says: the map does not jump.
+        let below = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+        let height = (ui.available_height() - below).max(60.0);
+        let style = PanelStyle { left: 60.0, ..PanelStyle::new("hemisphere", height, &|name, _, _| name.to_owned()) };
+        let style = style.named(tr!("Map of all directions of view: {}", quantity.texts()[0]));
+        let response = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui));
+        let at = response.and_then(|response| Some(response.transform.value_from_position(response.response.hover_pos()?)));
+        let reading = at.and_then(|at| self.reading([at.x, at.y], quantity));
+        let count = self.measured.get().map_or(0, Vec::len);
+        let measured = if count == 0 { tr!("not measured at this θi") } else { tr!("measured: {}", count) };
+        ui.horizontal(|ui| {
+            ui.label(measured);
+            ui.separator();
+            ui.add(egui::Label::new(reading.unwrap_or_else(|| tr!("The pointer over the map reads a value."))).truncate());
+        });
     }
 
-    /// θr from the middle outwards in degrees, so that axes can tell it.
-    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
-        let (theta_i, made) = (self.job.key()?.2, self.job.get()?.as_ref()?);
-        let quantity = cx.work.settings().shown.hemisphere;
-        let range = self.ranges[quantity as usize].get()?;
-        let mut series = vec![Series::heat_map(made.heat_map(quantity, range, quantity.axis()))];
-        let ring = |theta_r: f64| (0..=120).map(|i| in_degrees(place(theta_r, 3.0 * f64::from(i)))).collect();
-        series.extend([30.0, 60.0].map(|theta_r| Series::dashed("", ring(theta_r), Dash::Solid).colored(WHITE)));
-        series.push(Series::dashed("", ring(90.0), Dash::Solid).colored(FOREGROUND));
-        series.push(Series::labels([30.0, 60.0].map(|theta_r| (in_degrees(place(theta_r, 90.0)), format!("θr = {theta_r}°"))).to_vec()));
-        let mark = |name: String, places: Vec<Vec2>, symbol| {
-            let points = places.into_iter().map(in_degrees).map(|[x, y]| Point { x, y, bar: None }).collect();
-            Series::measured(name, points, symbol).colored(MARK)
-        };
-        if let Some(measured) = self.measured.get().filter(|measured| !measured.is_empty()) {
-            series.push(mark(tr!("measured"), measured.clone(), Symbol::Circle));
-        }
-        series.push(mark(tr!("incident ray"), vec![place(theta_i, 0.0)], Symbol::Disc));
-        series.push(mark(tr!("mirror direction"), vec![place(theta_i, 180.0)], Symbol::Cross));
-        let axis = |label| Axis::linear(label, "°").between(-90.0, 90.0);
-        let panel = Panel {
-            title: tr!("θi = {}°; radius θr, Δφ = 180° to the right, 270° upwards", theta_i),
-            x: axis("−θr cos Δφ"),
-            y: axis("−θr sin Δφ"),
-            series,
-            equal_aspect: true,
-            ..Panel::default()
-        };
-        let title = cx.work.active().title();
-        Some(Figure { title, panels: vec![panel], width_mm: 130.0, height_mm: 125.0, ..Figure::default() })
+    fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        self.plot.figure().cloned()
     }
 
     fn suspend(&mut self) {
@@ -229,20 +217,5 @@ impl View for HemisphereView {
 
     fn lag(&self) -> u64 {
         self.job.frames_behind()
-    }
-}
-
-/// A place on the disc of radius 1, in degrees of θr from the middle.
-fn in_degrees(place: Vec2) -> [f64; 2] {
-    [90.0 * f64::from(place.x), 90.0 * f64::from(place.y)]
-}
-
-/// What stands at the colour bar.
-fn labels(quantity: HemisphereQuantity) -> BarLabels<'static> {
-    match quantity {
-        HemisphereQuantity::Dolp => BarLabels { title: "DoLP", marks: BarMarks::Linear },
-        HemisphereQuantity::Angle => BarLabels { title: "°", marks: BarMarks::At(&[-90.0, -45.0, 0.0, 45.0, 90.0]) },
-        HemisphereQuantity::Brdf => BarLabels { title: "1/sr", marks: BarMarks::Log },
-        HemisphereQuantity::SpecularShare => BarLabels { title: "", marks: BarMarks::Linear },
     }
 }

@@ -1,9 +1,6 @@
 //! The axes of the landscape: where values lie on them, what of them is seen first, and their marks.
 
 use crate::app::plots::Range;
-use crate::app::plots::axis;
-use crate::app::plots::axis::power_of_ten;
-use egui_plot::{GridInput, GridMark};
 use pbrdf::fit::LandscapeAxis;
 use pbrdf::model::Parameter;
 
@@ -48,38 +45,6 @@ fn whole_low(parameter: Parameter) -> f64 {
 /// Four digits: what a click can mean.
 pub fn tidy(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-/// Marks of an axis, so many smallest spacings apart; of logarithms at 1, 2 and 5 times powers of ten where there is room.
-pub fn grid(parameter: Parameter, input: &GridInput, spread: f64) -> Vec<GridMark> {
-    let (low, high) = input.bounds;
-    if !parameter.is_logarithmic() {
-        return axis::marks(input, spread, 0.0);
-    }
-    if high - low < 1.0 {
-        // At round values, nowhere closer than at the upper end.
-        let (first, last) = (libm::exp10(low), libm::exp10(high));
-        let base_step_size = std::f64::consts::LN_10 * last * input.base_step_size;
-        let marks = axis::marks(&GridInput { bounds: (first, last), base_step_size }, spread, 0.0);
-        return marks.into_iter().map(|mark| GridMark { value: libm::log10(mark.value), ..mark }).collect();
-    }
-    // From 1 to 2 is 0.3 of a decade.
-    if 0.3 < 0.7 * spread * input.base_step_size {
-        return axis::marks(input, spread, 1.0);
-    }
-    let mut marks = Vec::new();
-    let mut decade = low.floor();
-    while decade <= high {
-        marks.extend([1.0, 2.0, 5.0].map(|factor| GridMark { value: decade + libm::log10(factor), step_size: 1.0 }));
-        decade += 1.0;
-    }
-    marks.retain(|mark| mark.value >= low && mark.value <= high);
-    marks
-}
-
-/// A mark of an axis of logarithms: the value itself.
-pub fn logarithmic(exponent: f64, step_size: f64) -> String {
-    if (-4.0..=4.0).contains(&exponent) { tidy(libm::exp10(exponent)).to_string() } else { power_of_ten(exponent, step_size) }
 }
 
 #[cfg(test)]

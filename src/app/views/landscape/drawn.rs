@@ -2,36 +2,39 @@
 
 use crate::app::jobs::async_memo::Stopped;
 use crate::app::plots::contours::Heights;
-use crate::app::plots::{ColorScale, Range, ink_on};
+use crate::app::plots::{Polyline, Range};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::views::landscape::key::LandscapeKey;
 use crate::app::work::fit_setup::problem;
 use crate::app::work::surface::Surface;
-use crate::figure::ColorMap;
-use egui::{Color32, ColorImage};
-use egui_plot::PlotPoint;
+use crate::figure::{ColorMap, Rgb};
 use pbrdf::fit::{Landscape, LandscapeAxis, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::ParameterSet;
-use std::sync::Arc;
 
 /// A landscape as it is drawn.
 pub struct LandscapeImage {
     pub landscape: Landscape,
-    pub image: Arc<ColorImage>,
-    pub scale: ColorScale,
-    /// Pieces of each line, in the coordinates of the plot.
-    pub contours: Vec<(Color32, Vec<Vec<PlotPoint>>)>,
+    /// Of the colours, in decimal logarithms.
+    pub range: Range,
+    /// Ink and pieces of each line, in the coordinates of the plot.
+    pub contours: Vec<Contour>,
     pub title: &'static str,
 }
 
+/// A line of equal height: its ink and its pieces.
+type Contour = (Rgb, Vec<Polyline>);
+
+/// The colours of heights.
+pub const COLORS: ColorMap = ColorMap::Sequential;
 /// Decades that colours tell apart, from the lowest node upwards.
 const DECADES: f64 = 6.0;
 /// Lines of equal height at most; from 5 to 1 there are so many more.
 const LINES: usize = 12;
 
 impl LandscapeImage {
-    /// Of the measurement with the model and the choices of the key, in the bounds of the surface; none where there is no problem or no node has a value.
+    /// Of the measurement with the model and the choices of the key, in the bounds of the surface; none where there is no problem or no
+    /// node has a value.
     pub fn new(mut surface: Surface, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
         // Where its own two sliders stand is no matter, not even if that is nowhere.
@@ -51,17 +54,12 @@ impl LandscapeImage {
         // By quarters of a decade, so that colours do not flicker while a slider moves.
         let high = 0.25 * (4.0 * highest).ceil();
         let low = (0.25 * (4.0 * lowest).floor()).clamp(high - DECADES, high - 0.25);
-        let scale = ColorScale { map: ColorMap::Sequential, range: Range { low, high } };
-        let table = scale.table();
-        // The first row of an image is the uppermost.
-        let rows = heights.chunks(key.across.count).rev().flatten();
-        let image = ColorImage::new([key.across.count, key.up.count], rows.map(|height| table.color(*height)).collect());
-        let contours = contours(&heights, key, scale);
-        Some(Self { landscape, image: Arc::new(image), scale, contours, title: title(&problem) })
+        let range = Range { low, high };
+        Some(Self { landscape, range, contours: contours(&heights, key, range), title: title(&problem) })
     }
 
     /// The number at the node nearest to a point of the plot.
-    pub fn at(&self, point: PlotPoint) -> Option<f64> {
+    pub fn at(&self, [x, y]: [f64; 2]) -> Option<f64> {
         let index = |axis: LandscapeAxis, place: f64| {
             let [low, high] = [axis.low, axis.high].map(|value| coordinate(axis.parameter, value));
             #[expect(clippy::cast_precision_loss, reason = "a number of nodes")]
@@ -69,7 +67,7 @@ impl LandscapeImage {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be 0 or more")]
             (place >= 0.0).then_some(place as usize).filter(|index| *index < axis.count)
         };
-        let (column, row) = (index(self.landscape.across, point.x)?, index(self.landscape.up, point.y)?);
+        let (column, row) = (index(self.landscape.across, x)?, index(self.landscape.up, y)?);
         self.landscape.objective.get(row * self.landscape.across.count + column).copied().filter(|objective| objective.is_finite())
     }
 }
@@ -84,8 +82,7 @@ fn title(problem: &Problem) -> &'static str {
 }
 
 /// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
-fn contours(heights: &[f64], key: &LandscapeKey, scale: ColorScale) -> Vec<(Color32, Vec<Vec<PlotPoint>>)> {
-    let Range { low, high } = scale.range;
+fn contours(heights: &[f64], key: &LandscapeKey, Range { low, high }: Range) -> Vec<Contour> {
     let levels = |factors: &[f64]| -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, reason = "a few decades")]
         let decades = low.floor() as i32..=high.ceil() as i32;
@@ -99,12 +96,11 @@ fn contours(heights: &[f64], key: &LandscapeKey, scale: ColorScale) -> Vec<(Colo
         low + (high - low) * index / f64_of(axis.count - 1)
     };
     let grid = Heights { values: heights, columns: key.across.count };
-    let pieces = |level: f64| -> Vec<Vec<PlotPoint>> {
-        let points =
-            |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| PlotPoint::new(place(key.across, x), place(key.up, y))).collect();
+    let pieces = |level: f64| -> Vec<Polyline> {
+        let points = |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| [place(key.across, x), place(key.up, y)]).collect();
         grid.lines(level).into_iter().map(points).collect()
     };
-    levels.into_iter().map(|level| (ink_on(scale.color(level)).gamma_multiply(0.55), pieces(level))).collect()
+    levels.into_iter().map(|level| (COLORS.ink_on((level - low) / (high - low)), pieces(level))).collect()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a small number")]

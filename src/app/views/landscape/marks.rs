@@ -1,14 +1,11 @@
 //! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated metals, the sliders.
 
-use crate::app::plots::line;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::settings::LandscapeAxes;
 use crate::app::work::workspace::Workspace;
-use egui::{Align2, Color32, Rect, RichText};
-use egui_plot::{MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use pbrdf::model::{Parameter, Parameters};
 use pbrdf::optics;
 use tr::tr;
@@ -43,7 +40,7 @@ impl MarksKey {
 /// Marks with what a pointer reads at each.
 #[derive(Default)]
 pub struct Noted {
-    pub points: Vec<PlotPoint>,
+    pub points: Vec<[f64; 2]>,
     texts: Vec<String>,
 }
 
@@ -54,11 +51,11 @@ pub struct Marks {
     pub minima: Noted,
     pub metals: Noted,
     /// Where each metal is named.
-    pub names: Vec<(PlotPoint, &'static str)>,
+    pub names: Vec<([f64; 2], &'static str)>,
 }
 
 impl Noted {
-    fn push(&mut self, point: Option<PlotPoint>, text: impl FnOnce() -> String) {
+    fn push(&mut self, point: Option<[f64; 2]>, text: impl FnOnce() -> String) {
         if let Some(point) = point {
             self.points.push(point);
             self.texts.push(text());
@@ -76,8 +73,8 @@ impl Marks {
     pub fn new(key: &MarksKey, work: &Workspace) -> Self {
         let (across, up) = key.axes;
         let place = |parameters: &Parameters| {
-            let point = PlotPoint::new(coordinate(across, parameters[across]), coordinate(up, parameters[up]));
-            (point.x.is_finite() && point.y.is_finite()).then_some(point)
+            let point = [coordinate(across, parameters[across]), coordinate(up, parameters[up])];
+            point.iter().all(|at| at.is_finite()).then_some(point)
         };
         let way = |fit: &FitEntry| {
             let mut way = Noted::default();
@@ -103,17 +100,19 @@ impl Marks {
         Self { ways, minima, metals, names }
     }
 
-    /// What is known of a mark, by the name of its group and its number.
-    pub fn text(&self, group: &str, index: usize) -> Option<String> {
+    /// What is known of the mark of a group that lies nearest to a place.
+    pub fn text(&self, group: &str, [x, y]: [f64; 2]) -> Option<&str> {
         let groups = self.ways.iter().enumerate().map(|(i, way)| (way_name(i), way));
         let mut groups = groups.chain([(tr!("minima"), &self.minima), (tr!("metals"), &self.metals)]);
         let (_, noted) = groups.find(|(name, _)| name == group)?;
-        noted.texts.get(index).cloned()
+        let distance = |[a, b]: &[f64; 2]| libm::hypot(a - x, b - y);
+        let near = noted.points.iter().zip(&noted.texts).min_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
+        near.map(|(_, text)| text.as_str())
     }
 }
 
 /// All sources of all metals that have the wavelength, where the axes are n and k.
-fn metals(key: &MarksKey) -> (Noted, Vec<(PlotPoint, &'static str)>) {
+fn metals(key: &MarksKey) -> (Noted, Vec<([f64; 2], &'static str)>) {
     let (mut noted, mut names) = (Noted::default(), Vec::new());
     let is_map = matches!(key.axes, (Parameter::N, Parameter::K) | (Parameter::K, Parameter::N));
     for metal in optics::metals().into_iter().flatten().filter(|_| is_map) {
@@ -121,8 +120,8 @@ fn metals(key: &MarksKey) -> (Noted, Vec<(PlotPoint, &'static str)>) {
         for source in &metal.sources {
             let Ok(index) = source.index_at(key.wavelength_nm) else { continue };
             let of = |parameter| coordinate(parameter, if parameter == Parameter::N { index.n() } else { index.k_m() });
-            let point = PlotPoint::new(of(key.axes.0), of(key.axes.1));
-            if !(point.x.is_finite() && point.y.is_finite()) {
+            let point = [of(key.axes.0), of(key.axes.1)];
+            if !point.iter().all(|at| at.is_finite()) {
                 continue;
             }
             noted.push(Some(point), || {
@@ -142,91 +141,7 @@ pub fn way_name(age: usize) -> String {
     if age == 0 { tr!("way of the last fit") } else { tr!("way {} fits before", age) }
 }
 
-/// Colours that stand out from viridis.
-const WAY: Color32 = Color32::from_rgb(255, 96, 64);
-pub const MINIMA: Color32 = Color32::from_rgb(255, 214, 90);
-pub const METALS: Color32 = Color32::from_rgb(150, 220, 255);
-/// Of ways of earlier fits, as a share.
-const FADED: f32 = 0.55;
-const WHITE: Color32 = Color32::WHITE;
-const BLACK: Color32 = Color32::BLACK;
-
-/// Colour of the way of a fit.
-pub fn way_color(age: usize) -> Color32 {
-    if age == 0 { WAY } else { WAY.gamma_multiply(FADED) }
-}
-
-/// Marks with a dark rim, readable on every colour of the map.
-fn rimmed<'a>(plot: &mut PlotUi<'a>, points: &'a [PlotPoint], name: String, shape: MarkerShape, radius: f32, color: Color32) {
-    let of = |name: String| Points::new(name, PlotPoints::Borrowed(points)).shape(shape);
-    plot.points(of(String::new()).color(BLACK).radius(radius + 1.5).allow_hover(false));
-    plot.points(of(name).color(color).radius(radius));
-}
-
-pub fn marks_in<'a>(plot: &mut PlotUi<'a>, marks: &'a Marks, shown: LandscapeAxes) {
-    if shown.metals && !marks.metals.points.is_empty() {
-        rimmed(plot, &marks.metals.points, tr!("metals"), MarkerShape::Circle, 2.0, METALS);
-        names_in(plot, &marks.names);
-    }
-    if shown.paths {
-        for (age, way) in marks.ways.iter().enumerate().rev() {
-            way_in(plot, way, age);
-        }
-    }
-    if shown.minima && !marks.minima.points.is_empty() {
-        rimmed(plot, &marks.minima.points, tr!("minima"), MarkerShape::Diamond, 4.0, MINIMA);
-    }
-}
-
-/// Behind words on the map.
-pub const PLATE: Color32 = Color32::from_black_alpha(190);
-
-/// Letters of the names of metals, and the room of one.
-const LETTERS: f32 = 12.0;
-const LETTER: egui::Vec2 = egui::vec2(7.2, 16.0);
-
-/// Names beside their points, on a side where no other one stands; without room a name is left to the pointer.
-fn names_in(plot: &mut PlotUi<'_>, names: &[(PlotPoint, &'static str)]) {
-    let mut taken: Vec<Rect> = Vec::new();
-    for (point, name) in names {
-        let name = metal_name(name);
-        #[expect(clippy::cast_precision_loss, reason = "a few letters")]
-        let size = egui::vec2((name.len() + 2) as f32 * LETTER.x, LETTER.y);
-        let at = plot.screen_from_plot(*point);
-        let sides = [Align2::LEFT_BOTTOM, Align2::LEFT_TOP, Align2::RIGHT_BOTTOM, Align2::RIGHT_TOP];
-        let free = sides.into_iter().find(|side| taken.iter().all(|other| !other.intersects(side.anchor_size(at, size))));
-        if let Some(side) = free {
-            taken.push(side.anchor_size(at, size));
-            let text = RichText::new(format!(" {name} ")).size(LETTERS).color(WHITE).background_color(PLATE);
-            plot.text(Text::new("", *point, text).anchor(side).allow_hover(false));
-        }
-    }
-}
-
 /// The name of a metal on the map: chemical symbols are the same in all languages, names of alloys are not.
 pub fn metal_name(name: &str) -> String {
     if name.len() > 2 { translated(name) } else { name.to_owned() }
 }
-
-/// Edge by edge: the corners of one long line are drawn as filled wedges.
-fn way_in<'a>(plot: &mut PlotUi<'a>, way: &'a Noted, age: usize) {
-    let color = way_color(age);
-    for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, color)] {
-        for edge in way.points.windows(2) {
-            plot.line(line("", edge).color(color).width(width).allow_hover(false));
-        }
-    }
-    plot.points(Points::new(way_name(age), PlotPoints::Borrowed(&way.points)).color(color).radius(2.0));
-}
-
-/// Where the sliders stand: a cross in a ring, white on black.
-pub fn sliders_in(plot: &mut PlotUi<'_>, [x, y]: [f64; 2]) {
-    let at = |shape, radius| Points::new("", vec![[x, y]]).shape(shape).radius(radius).filled(false).allow_hover(false);
-    for (color, wider) in [(BLACK, 1.5), (WHITE, 0.0)] {
-        plot.points(at(MarkerShape::Circle, RING + wider).color(color));
-        plot.points(at(MarkerShape::Plus, RING + wider).color(color));
-    }
-}
-
-/// Radius of the ring around the sliders' place.
-pub const RING: f32 = 6.0;
