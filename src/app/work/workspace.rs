@@ -395,7 +395,7 @@ impl Workspace {
 
 #[cfg(test)]
 mod tests {
-    use super::Workspace;
+    use super::{Layout, MeasurementList, Settings, Workspace};
     use crate::app::work::edit::{Edit, Switch};
     use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
     use pbrdf::measurement::Measurement;
@@ -451,6 +451,20 @@ mod tests {
             work.apply(Edit::Redo);
         }
         assert_eq!(work.setup(), after);
+    }
+
+    #[test]
+    fn undo_takes_a_shared_parameter_back_on_every_surface() {
+        let open = ["a", "b"].map(|name| OpenMeasurement::new(name.to_owned(), Measurement::default())).to_vec();
+        let list = MeasurementList::several(open, 0, ParameterSet::EMPTY.with(Parameter::Sigma));
+        let mut work = Workspace::restored(Settings::default(), Layout::default(), list, Vec::new(), []);
+        let sigmas = |work: &Workspace| -> Vec<f64> { work.measurements().iter().map(|open| open.surface.parameters.sigma).collect() };
+        let before = sigmas(&work);
+        work.apply(Edit::SetParameters(Parameters { sigma: 0.125, ..Parameters::default() }));
+        work.record_step();
+        assert_eq!(sigmas(&work), [0.125, 0.125]);
+        work.apply(Edit::Undo);
+        assert_eq!(sigmas(&work), before);
     }
 
     #[test]
