@@ -1,7 +1,7 @@
 //! The arguments of the command line.
 
 use crate::cli::values;
-use crate::cli::values::{Assignment, Grid, Interval};
+use crate::cli::values::{Assignment, Grid, Interval, Priors};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
@@ -33,6 +33,8 @@ pub enum Commands {
     Simulate(SimulateArguments),
     /// Fit several models to one measurement.
     Compare(Box<CompareArguments>),
+    /// Draw from the posterior: all surfaces that a measurement allows.
+    Posterior(Box<PosteriorArguments>),
     /// Predict standard errors from a choice of angles.
     Plan(PlanArguments),
     /// Report on error against run time, on numerical stability, or on the cost of each term.
@@ -146,6 +148,35 @@ pub struct ProblemArguments {
     /// Which reading of Eq. (17) predicts DoLP; printed leaves k_s out of the numerator.
     #[arg(long, default_value = "consistent", value_parser = values::dolp_formula())]
     pub eq17: DolpFormula,
+}
+
+/// `posterior`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct PosteriorArguments {
+    /// Measurements, taken together: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
+    #[arg(required = true)]
+    pub inputs: Vec<PathBuf>,
+    /// Model: a preset such as cauchy, gauss, specular or fresnel.
+    #[arg(long, default_value = "cauchy", value_parser = values::preset)]
+    pub model: &'static Preset,
+    #[command(flatten)]
+    pub problem: ProblemArguments,
+    /// Draws of each chain, after the warm-up.
+    #[arg(long, default_value_t = 4000, value_parser = values::count)]
+    pub draws: usize,
+    /// Chains.
+    #[arg(long, default_value_t = 4, value_parser = values::chain_count)]
+    pub chains: usize,
+    /// Priors, such as n=normal(2.07,0.1),k=uniform(1,5),sigma=loguniform(0.01,1); the others are uniform within the bounds.
+    #[arg(long, value_parser = values::priors)]
+    pub prior: Option<Priors>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// File for the draws: a column for each free parameter, log_posterior and chain.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
 }
 
 /// `plan`.

@@ -15,6 +15,7 @@ mod metals;
 mod mitsuba;
 mod output;
 mod plan;
+mod posterior;
 mod problem;
 mod report;
 mod simulate;
@@ -44,6 +45,7 @@ pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
         Some(Commands::Fit(arguments)) => fit::run(&arguments),
         Some(Commands::Simulate(arguments)) => simulate::run(&arguments),
         Some(Commands::Compare(arguments)) => compare::run(&arguments),
+        Some(Commands::Posterior(arguments)) => posterior::run(&arguments),
         Some(Commands::Plan(arguments)) => plan::run(&arguments),
         Some(Commands::Report(arguments)) => report::run(&arguments),
         Some(Commands::Import(arguments)) => import::run(&arguments),

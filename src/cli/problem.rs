@@ -17,6 +17,14 @@ pub enum NoProblem {
 }
 
 impl NoProblem {
+    /// The row of the measurement that it is about, if it is about one.
+    pub fn row(&self) -> Option<usize> {
+        match self {
+            Self::Data(ProblemError::MissingSigma { row, .. }) => Some(*row),
+            _ => None,
+        }
+    }
+
     /// As the failure of a command on that file.
     pub fn about(self, path: &Path, measurement: &Measurement) -> Failure {
         match self {

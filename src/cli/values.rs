@@ -2,6 +2,7 @@
 
 use crate::files::export;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::{Columns, Mapping, TensorResolution};
 use pbrdf::model::{DolpFormula, PRESETS, Parameter, Preset, assignment_from_text};
@@ -11,6 +12,10 @@ use std::path::PathBuf;
 pub type Assignment = (Parameter, f64);
 /// `n=0.1..5`.
 pub type Interval = (Parameter, f64, f64);
+
+/// Priors of parameters.
+#[derive(Debug, Clone)]
+pub struct Priors(pub Vec<(Parameter, Prior)>);
 
 /// Angles in degrees, in their order.
 #[derive(Debug, Clone)]
@@ -117,6 +122,42 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
     assignment_from_text(text).map_err(|error| error.to_string())
 }
 
+/// A whole number from 1 to a hundred.
+pub fn chain_count(text: &str) -> Result<usize, String> {
+    count(text).ok().filter(|&chains| chains <= 100).ok_or_else(|| format!("{text:?} is no whole number from 1 to 100"))
+}
+
+/// `n=normal(2.07,0.1),k=uniform(1,5)`.
+pub fn priors(text: &str) -> Result<Priors, String> {
+    let mut rest = text.trim();
+    let mut priors = Vec::new();
+    while !rest.is_empty() {
+        let end = rest.find(')').map_or(rest.len(), |end| end + 1);
+        priors.push(prior(&rest[..end])?);
+        rest = rest[end..].trim_start();
+        rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
+    }
+    if let Some((parameter, _)) = priors.iter().enumerate().find_map(|(i, of)| priors[..i].iter().find(|other| other.0 == of.0)) {
+        return Err(format!("{} has two priors", parameter.key()));
+    }
+    Ok(Priors(priors))
+}
+
+fn prior(text: &str) -> Result<(Parameter, Prior), String> {
+    let expected = || format!("expected name=normal(mean,sd), name=uniform(low,high) or name=loguniform(low,high), found {text:?}");
+    let (name, prior) = text.split_once('=').ok_or_else(expected)?;
+    let (kind, numbers) = prior.split_once('(').ok_or_else(expected)?;
+    let (one, other) = numbers.strip_suffix(')').and_then(|numbers| numbers.split_once(',')).ok_or_else(expected)?;
+    let (one, other) = (number(one)?, number(other)?);
+    let prior = match kind.trim() {
+        "normal" => Prior::Normal { mean: one, sd: other },
+        "uniform" => Prior::Uniform { low: one, high: other },
+        "loguniform" => Prior::LogUniform { low: one, high: other },
+        _ => return Err(expected()),
+    };
+    Ok((parameter(name)?, prior))
+}
+
 /// `name` or `name=value`.
 pub fn parameter_or_assignment(text: &str) -> Result<(Parameter, Option<f64>), String> {
     if text.contains('=') {
@@ -197,7 +238,8 @@ pub fn picture_file(text: &str) -> Result<PathBuf, String> {
 }
 #[cfg(test)]
 mod tests {
-    use super::{grid, interval};
+    use super::{grid, interval, priors};
+    use pbrdf::fit::posterior::Prior;
     use pbrdf::model::Parameter;
 
     #[test]
@@ -208,6 +250,25 @@ mod tests {
         assert_eq!(grid("0:1:0.1").map(|grid| grid.0.len()), Ok(11));
         for wrong in ["", "a", "1:2", "1:2:0", "2:1:1", "1:2:-1", "0:1:1e-9", "inf", "1:2:3:4"] {
             assert!(grid(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn priors_are_separated_by_the_commas_outside_brackets() {
+        let read = priors("n=normal(2.07, 0.1), k=uniform(1,5)").map(|priors| priors.0);
+        let expected = vec![(Parameter::N, Prior::Normal { mean: 2.07, sd: 0.1 }), (Parameter::K, Prior::Uniform { low: 1.0, high: 5.0 })];
+        assert_eq!(read, Ok(expected));
+        for wrong in [
+            "n",
+            "n=normal",
+            "n=normal(1)",
+            "n=normal(1,2",
+            "n=cauchy(1,2)",
+            "m=normal(1,2)",
+            "n=normal(1,x)",
+            "n=normal(1,2),n=uniform(1,2)",
+        ] {
+            assert!(priors(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -47,6 +47,7 @@ mod objective;
 mod observations;
 mod observer;
 mod options;
+pub mod posterior;
 mod result;
 pub mod rounding;
 mod solve;

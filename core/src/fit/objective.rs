@@ -136,6 +136,12 @@ impl Problem {
         Self { start, ..self.clone() }.prepared()
     }
 
+    /// The same problem in another box, which its start must lie in.
+    #[must_use]
+    pub(crate) fn with_bounds(&self, bounds: Bounds) -> Self {
+        Self { bounds, ..self.clone() }
+    }
+
     /// The same problem with other parameters free.
     #[must_use]
     pub fn with_free(&self, free: ParameterSet) -> Self {

@@ -40,6 +40,7 @@ pub use progress::{Progress, unwatched};
 pub use row::{Quantity, Row};
 pub use rusinkiewicz::rusinkiewicz;
 pub use series::{DataPoint, IncidenceSeries};
+pub(crate) use simulation::Deviates;
 pub use simulation::{Columns, Simulation, grid_geometries};
 pub use table::{Record, Table};
 pub use tensor::{Tensor, TensorSlice};

@@ -114,6 +114,7 @@ fn positive(sigma: f64) -> Option<f64> {
 }
 
 /// Pairs of independent standard normal deviates (Box and Muller, Ann. Math. Stat. 29, 610 (1958)).
+#[derive(Debug, Clone)]
 pub(crate) struct Deviates(Pcg64);
 
 impl Deviates {

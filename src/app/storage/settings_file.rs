@@ -50,11 +50,12 @@ struct SettingsContents {
 }
 
 impl SettingsFile {
-    /// Checks that every value means something; the error is the key of one that does not, and why.
-    fn validate(&self) -> Result<(), String> {
+    /// The key of a value that means nothing, and why.
+    fn fault(&self) -> Option<String> {
         let SavedSettings { settings, surface } = &self.settings;
-        surface.validate().and_then(|()| settings.validate()).map_err(|error| format!("settings.{}", error.localized()))?;
-        if self.window.is_sound() { Ok(()) } else { Err(SettingsError::OutOfRange("window.size").localized()) }
+        let size = || (!self.window.is_sound()).then(|| SettingsError::OutOfRange("window.size").localized());
+        let fault = surface.fault().or_else(|| settings.fault());
+        fault.map(|fault| format!("settings.{}", fault.localized())).or_else(size)
     }
 }
 
@@ -86,9 +87,9 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
             );
         }
         Ok(bytes) => match read(&bytes) {
-            Ok(settings) => match settings.validate() {
-                Ok(()) => return (settings, None),
-                Err(reason) => reason,
+            Ok(settings) => match settings.fault() {
+                None => return (settings, None),
+                Some(fault) => fault,
             },
             Err(error) => error.localized(),
         },

@@ -1,0 +1,255 @@
+//! Several chains of the no-U-turn sampler, which share what they learn of the density during the warm-up.
+//!
+//! Warm-up in windows of growing length: within each a chain adapts its step size, after each all chains take the covariance of all their
+//! draws of the window for their metric. Chains run in parallel where there are threads, each with its own random numbers, and meet
+//! after each block of draws: no draw depends on the number of threads.
+
+use crate::fit::posterior::log_density::LogDensity;
+use crate::fit::posterior::metric::{Metric, Whitened};
+use crate::fit::posterior::nuts::Nuts;
+use crate::fit::posterior::step_size::DualAveraging;
+use crate::measurement::Deviates;
+
+/// Draws of the windows of a warm-up. The first forgets the starts, the last settles the step size.
+const WINDOWS: [usize; 6] = [100, 100, 150, 250, 400, 150];
+/// The first window whose draws are made in straightened coordinates.
+const STRAIGHT: usize = 3;
+/// Acceptance rate that step sizes are adapted to, and that after a window with more than a few divergences.
+const ACCEPTANCE: f64 = 0.85;
+const CAREFUL_ACCEPTANCE: f64 = 0.9;
+/// Divergences in a window are few where there are fewer than one in so many draws.
+const FEW_DIVERGENCES: usize = 500;
+/// After divergences this share of the transitions goes by a part of the step size, so that no chain is stuck in a narrow place.
+const SHORT_SHARE: f64 = 0.2;
+const SHORT_STEP: f64 = 0.125;
+/// Draws of each chain between two meetings after the warm-up.
+const BLOCK: usize = 250;
+
+/// Draws of one chain after the warm-up, in ℝᵈ.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct ChainDraws {
+    pub points: Vec<Vec<f64>>,
+    /// Logarithm of the density at each, in ℝᵈ.
+    pub log_density: Vec<f64>,
+    pub divergences: usize,
+    /// Trajectories that were cut at their greatest length.
+    pub cut: usize,
+    /// Sum of the mean acceptance probabilities of the transitions.
+    pub acceptance: f64,
+    /// Evaluations of value and gradient, those of the warm-up among them.
+    pub evaluations: usize,
+}
+
+/// Draws of all chains, and the coordinates that they were made in.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sampled {
+    pub chains: Vec<ChainDraws>,
+    pub metric: Metric,
+}
+
+/// A chain under way.
+struct Chain<D> {
+    density: D,
+    position: Vec<f64>,
+    deviates: Deviates,
+    step_size: f64,
+    evaluations: usize,
+    /// Draws of the present window.
+    window: ChainDraws,
+}
+
+/// How the chains step.
+#[derive(Debug, Clone, Copy)]
+struct Pace {
+    /// Whether the step size is adapted.
+    adapts: bool,
+    /// Acceptance rate that it is adapted to.
+    acceptance: f64,
+    /// Whether some transitions go by shorter steps.
+    mixes: bool,
+}
+
+/// How far the chains are, 0 to 1, the warm-up being a part of it.
+pub(crate) type ReportProgress<'a> = &'a mut dyn FnMut(f64, &[ChainDraws]);
+
+impl<D: LogDensity> Chain<D> {
+    /// Draws with that metric; adapts the step size if asked to. Ends early where cancelled.
+    fn run(&mut self, metric: &Metric, count: usize, pace: Pace, cancelled: &(dyn Fn() -> bool + Sync)) {
+        let Self { density, position, deviates, step_size, evaluations, window } = self;
+        let mut whitened = Whitened::new(density, metric);
+        let Some(here) = metric.to_whitened(position) else { return };
+        let mut nuts = Nuts::new(&mut whitened, &here);
+        let mut adapted = None;
+        if pace.adapts {
+            adapted = Some(DualAveraging::new(nuts.reasonable_step_size(&mut whitened, deviates), pace.acceptance));
+        }
+        *window = ChainDraws::default();
+        for _ in 0..count {
+            if cancelled() {
+                break;
+            }
+            let shorter = if pace.mixes && deviates.uniform() < SHORT_SHARE { SHORT_STEP } else { 1.0 };
+            let whole = adapted.map_or(*step_size, |adapted| adapted.step_size());
+            let transition = nuts.advance(&mut whitened, shorter * whole, deviates);
+            if shorter == 1.0
+                && let Some(adapted) = &mut adapted
+            {
+                adapted.update(transition.acceptance);
+            }
+            metric.to_density(nuts.position(), position);
+            window.points.push(position.clone());
+            window.log_density.push(nuts.log_density());
+            window.divergences += usize::from(transition.diverged);
+            window.cut += usize::from(transition.cut);
+            window.acceptance += transition.acceptance;
+        }
+        if let Some(adapted) = adapted {
+            *step_size = adapted.average();
+        }
+        *evaluations += whitened.evaluations;
+    }
+}
+
+/// Draws so many after the warm-up from each start; none where the density is not finite around the first start.
+///
+/// Cancelled, it returns the draws so far.
+pub(crate) fn sample<D: LogDensity + Clone + Send>(
+    density: &D,
+    starts: &[Vec<f64>],
+    draws: usize,
+    seed: u64,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: ReportProgress<'_>,
+) -> Option<Sampled> {
+    let mut metric = Metric::of_curvature(&mut density.clone(), starts.first()?)?;
+    let mut chains: Vec<Chain<D>> = starts.iter().enumerate().map(|(i, start)| Chain::new(density, start, seed, i)).collect();
+    let mut drawn = vec![ChainDraws::default(); chains.len()];
+    #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
+    let share = |done: usize| done as f64 / (WINDOWS.iter().sum::<usize>() + draws) as f64;
+    let mut done = 0;
+    let mut pace = Pace { adapts: true, acceptance: ACCEPTANCE, mixes: false };
+    for (i, &window) in WINDOWS.iter().enumerate() {
+        run_all(&mut chains, |chain| chain.run(&metric, window, pace, cancelled));
+        done += window;
+        progress(share(done), &drawn);
+        let points: Vec<Vec<f64>> = chains.iter().flat_map(|chain| chain.window.points.iter().cloned()).collect();
+        let divergences: usize = chains.iter().map(|chain| chain.window.divergences).sum();
+        // Before the coordinates are straight, divergences tell nothing.
+        if i >= STRAIGHT && divergences * FEW_DIVERGENCES > points.len() {
+            (pace.acceptance, pace.mixes) = (CAREFUL_ACCEPTANCE, true);
+        }
+        if i + 1 < WINDOWS.len() {
+            metric = metric.of_draws(&points).unwrap_or(metric);
+        }
+    }
+    pace.adapts = false;
+    let mut left = draws;
+    while left > 0 && !cancelled() {
+        let block = left.min(BLOCK);
+        run_all(&mut chains, |chain| chain.run(&metric, block, pace, cancelled));
+        for (all, chain) in drawn.iter_mut().zip(&mut chains) {
+            all.append(std::mem::take(&mut chain.window));
+            all.evaluations = chain.evaluations;
+        }
+        left -= block;
+        done += block;
+        progress(share(done), &drawn);
+    }
+    Some(Sampled { chains: drawn, metric })
+}
+
+impl<D: LogDensity + Clone> Chain<D> {
+    fn new(density: &D, start: &[f64], seed: u64, number: usize) -> Self {
+        // The seeds of the chains of one run, and those of neighbouring runs, share nothing after this multiplication (Knuth).
+        let own = (seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(number as u64).wrapping_mul(0xd134_2543_de82_ef95);
+        Self {
+            density: density.clone(),
+            position: start.to_vec(),
+            deviates: Deviates::new(own),
+            step_size: 1.0,
+            evaluations: 0,
+            window: ChainDraws::default(),
+        }
+    }
+}
+
+impl ChainDraws {
+    fn append(&mut self, mut other: Self) {
+        self.points.append(&mut other.points);
+        self.log_density.append(&mut other.log_density);
+        self.divergences += other.divergences;
+        self.cut += other.cut;
+        self.acceptance += other.acceptance;
+    }
+}
+
+fn run_all<D: Send>(chains: &mut [Chain<D>], run: impl Fn(&mut Chain<D>) + Send + Sync) {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        chains.par_iter_mut().for_each(run);
+    }
+    #[cfg(not(feature = "threads"))]
+    chains.iter_mut().for_each(run);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sample;
+    use crate::fit::posterior::log_density::LogDensity;
+    use nalgebra::{DMatrix, DVector};
+
+    /// A Gaussian with that precision matrix.
+    #[derive(Clone)]
+    struct Gaussian {
+        mean: DVector<f64>,
+        precision: DMatrix<f64>,
+    }
+
+    impl LogDensity for Gaussian {
+        fn dimension(&self) -> usize {
+            self.mean.len()
+        }
+
+        fn value_and_gradient(&mut self, at: &[f64], gradient: &mut [f64]) -> f64 {
+            let off = DVector::from_column_slice(at) - &self.mean;
+            let force = &self.precision * &off;
+            gradient.iter_mut().zip(force.iter()).for_each(|(slot, force)| *slot = -force);
+            -0.5 * off.dot(&force)
+        }
+    }
+
+    #[test]
+    fn a_correlated_gaussian_has_its_moments() {
+        let deviation = [1e-2, 1.0, 30.0];
+        let correlation = DMatrix::from_row_slice(3, 3, &[1.0, 0.95, -0.3, 0.95, 1.0, -0.2, -0.3, -0.2, 1.0]);
+        let covariance = DMatrix::from_fn(3, 3, |i, j| correlation[(i, j)] * deviation[i] * deviation[j]);
+        let mean = DVector::from_vec(vec![5.0, -1.0, 100.0]);
+        let density = Gaussian { mean: mean.clone(), precision: covariance.clone().try_inverse().unwrap() };
+        let starts = vec![vec![5.0, -1.0, 100.0], vec![5.1, 1.0, 50.0], vec![4.9, -3.0, 150.0], vec![5.0, 0.0, 90.0]];
+        let chains = sample(&density, &starts, 5000, 7, &|| false, &mut |_, _| {}).unwrap().chains;
+        let points: Vec<DVector<f64>> =
+            chains.iter().flat_map(|chain| &chain.points).map(|point| DVector::from_column_slice(point)).collect();
+        let count = points.len() as f64;
+        let average = points.iter().sum::<DVector<f64>>() / count;
+        for i in 0..3 {
+            // Nearly independent: 20,000 draws have a mean within five standard errors of 1/√10,000, variances within √2 of that.
+            assert!((average[i] - mean[i]).abs() < 0.05 * deviation[i], "mean {i}: {}", average[i]);
+            for j in 0..3 {
+                let sum: f64 = points.iter().map(|point| (point[i] - mean[i]) * (point[j] - mean[j])).sum();
+                let scale = deviation[i] * deviation[j];
+                assert!((sum / count - covariance[(i, j)]).abs() < 0.07 * scale, "{i} {j}: {}", sum / count / scale);
+            }
+        }
+        assert_eq!(chains.iter().map(|chain| chain.divergences).sum::<usize>(), 0);
+    }
+
+    #[test]
+    fn the_seed_alone_decides() {
+        let density = Gaussian { mean: DVector::zeros(2), precision: DMatrix::identity(2, 2) };
+        let run = |seed| sample(&density, &vec![vec![0.0; 2]; 2], 50, seed, &|| false, &mut |_, _| {}).unwrap().chains;
+        assert_eq!(run(3), run(3));
+        assert_ne!(run(3)[0].points, run(4)[0].points);
+        assert_ne!(run(3)[0].points, run(3)[1].points);
+    }
+}

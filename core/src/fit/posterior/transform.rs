@@ -1,0 +1,316 @@
+//! From the box of the free parameters to all of ℝᵈ, in coordinates in which the valleys of the objective are straight.
+//!
+//! A parameter p in a … b has the coordinate `ln(p − a) − ln(1 − (p − a)/(b − a))`: its logarithm, with soft walls. Two pairs enter by
+//! combinations ([`crate::fit::posterior::valley`]). DoLP knows k_d and k_v relative to the peak of the specular lobe alone:
+//! `ln(σ²/(h k_s))` is added to their coordinates (h = 1 for Gauss, q − 1 for Cauchy). A measured BRDF determines that peak: `ln(h/σ²)`
+//! is added to the coordinate of k_s. Depolarised light lowers DoLP as a larger D = n + k²/n does: to the coordinate of D,
+//! `ln(1 + Σ a eᵘ)` is added, where u are the coordinates of k_d and k_v, and a eᵘ is the mean ratio of their light to the specular one.
+
+use crate::fit::objective::Problem;
+use crate::fit::posterior::valley::Valley;
+use crate::fit::posterior::walls::{Walled, Walls};
+use crate::model::{Model, Parameter, Parameters, Pbrdf};
+use crate::optics::SlopeDistribution;
+
+/// Share of a range that a start keeps away from either wall.
+const START_MARGIN: f64 = 1e-3;
+
+/// The transform of a box.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Transform {
+    model: Model,
+    free: Vec<Parameter>,
+    held: Parameters,
+    low: Parameters,
+    high: Parameters,
+    /// Pairs, and the places of both parameters among the free ones.
+    valleys: Vec<(Valley, [usize; 2])>,
+    /// Places of the other free ones, those before whose parameters the coordinates of others depend on.
+    single: Vec<usize>,
+    /// Where weights of depolarised light are among the free ones, and their light over the specular one per eᵘ.
+    depolarised: Vec<(usize, f64)>,
+    knows_only_ratios: bool,
+}
+
+/// The parameters at a point of ℝᵈ.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Transformed {
+    pub parameters: Parameters,
+    /// ln of the volume that a unit volume of ℝᵈ has in the box.
+    pub log_jacobian: f64,
+    walled: Vec<Walled>,
+    /// Light of each depolarising weight over the specular one, and one over their sum with 1.
+    ratios: Vec<f64>,
+    specular_share: f64,
+}
+
+impl Transform {
+    /// For the box of a problem; the ratios of depolarised to specular light are those at a reference, such as a fit.
+    pub(crate) fn new(problem: &Problem, reference: &Parameters) -> Self {
+        let free = problem.free().to_vec();
+        let (mut low, mut high) = (*problem.start(), *problem.start());
+        for &parameter in &free {
+            (low[parameter], high[parameter]) = problem.bounds().of(parameter);
+        }
+        let place = |parameter: Parameter| free.iter().position(|&other| other == parameter);
+        let is_cauchy = problem.model().distribution == SlopeDistribution::Cauchy;
+        let valleys: Vec<(Valley, [usize; 2])> = [Valley::Index, Valley::Slope]
+            .into_iter()
+            .filter(|&valley| valley == Valley::Index || is_cauchy)
+            .filter_map(|valley| {
+                let [first, second] = valley.parameters().map(place);
+                Some((valley, [first?, second?]))
+            })
+            .collect();
+        let mut single: Vec<usize> = (0..free.len()).filter(|place| !valleys.iter().any(|(_, pair)| pair.contains(place))).collect();
+        single.sort_by_key(|&place| match free[place] {
+            Parameter::Kd | Parameter::Kv => 2,
+            Parameter::Ks => 1,
+            _ => 0,
+        });
+        let (model, knows_only_ratios) = (problem.model(), problem.knows_only_ratios());
+        let (depolarised, held) = (Vec::new(), *problem.start());
+        let mut transform = Self { model, free, held, low, high, valleys, single, depolarised, knows_only_ratios };
+        if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) && knows_only_ratios {
+            transform.depolarised = transform.depolarised_ratios(problem, reference);
+        }
+        transform
+    }
+
+    /// Light of each free weight over the specular one, per eᵘ of its coordinate: mean over the geometries, weighted by DoLP².
+    fn depolarised_ratios(&self, problem: &Problem, reference: &Parameters) -> Vec<(usize, f64)> {
+        let bare = Parameters { kd: 0.0, kv: 0.0, ..*reference };
+        let facets = problem.geometries().facets();
+        let mean = |place: usize| {
+            let mut with = bare;
+            with[self.free[place]] = 1.0;
+            let (bare, with) = (Pbrdf::new(self.model, bare).ok()?, Pbrdf::new(self.model, with).ok()?);
+            let (mut sum, mut whole) = (0.0, 0.0);
+            for facet in facets {
+                let (limit, dolp) = (bare.dolp(facet), with.dolp(facet));
+                if limit > 0.0 && dolp > 0.0 {
+                    sum += limit * limit * (limit / dolp - 1.0);
+                    whole += limit * limit;
+                }
+            }
+            let (shear, _) = self.shear(self.free[place], reference)?;
+            Some(sum / whole / libm::exp(shear)).filter(|ratio| ratio.is_finite())
+        };
+        let weights = self.single.iter().copied().filter(|&place| matches!(self.free[place], Parameter::Kd | Parameter::Kv));
+        weights.filter_map(|place| mean(place).map(|ratio| (place, ratio))).collect()
+    }
+
+    pub(crate) fn dimension(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Lower end of a parameter's range, and its walls counted from there.
+    fn walls(&self, parameter: Parameter) -> (f64, Walls) {
+        let low = self.low[parameter];
+        (low, Walls::between(0.0, self.high[parameter] - low))
+    }
+
+    /// What is added to the coordinate of a weight, and the derivatives of that by other parameters.
+    fn shear(&self, parameter: Parameter, p: &Parameters) -> Option<(f64, [(Parameter, f64); 3])> {
+        let sign = match parameter {
+            _ if !self.model.specular => return None,
+            Parameter::Kd | Parameter::Kv if self.knows_only_ratios => 1.0,
+            Parameter::Ks if !self.knows_only_ratios => -1.0,
+            _ => return None,
+        };
+        let by_ks = self.knows_only_ratios && self.free.contains(&Parameter::Ks);
+        let (ks_log, ks_slope) = if by_ks { (libm::log(p.ks), 1.0 / p.ks) } else { (0.0, 0.0) };
+        let height = self.model.distribution.height(p.q);
+        let q_slope = if self.model.distribution == SlopeDistribution::Cauchy { 1.0 / height } else { 0.0 };
+        let log = libm::log(p.sigma * p.sigma / height) - ks_log;
+        let slopes = [(Parameter::Sigma, 2.0 / p.sigma), (Parameter::Q, -q_slope), (Parameter::Ks, -ks_slope)];
+        Some((sign * log, slopes.map(|(by, slope)| (by, sign * slope))))
+    }
+
+    /// The parameters at a point of ℝᵈ; reuses the memory of another.
+    pub(crate) fn transform(&self, u: &[f64], to: &mut Transformed) {
+        to.ratios.clear();
+        to.ratios.extend(self.depolarised.iter().map(|&(place, ratio)| ratio * libm::exp(u[place])));
+        let depolarised: f64 = to.ratios.iter().sum();
+        to.specular_share = 1.0 / (1.0 + depolarised);
+        to.walled.resize(u.len(), Walled::default());
+        to.parameters = self.held;
+        // A product of slopes: each lies well within f64 wherever a chain may go, but not all together.
+        to.log_jacobian = 0.0;
+        for &(valley, [first, second]) in &self.valleys {
+            let shear = if valley == Valley::Index { libm::log1p(depolarised) } else { 0.0 };
+            let one = valley.first_walls(&self.low, &self.high).value(u[first] - shear);
+            let moving = valley.second_walls(one.value, &self.low, &self.high);
+            let other = moving.walls.value(u[second]);
+            let (values, log_volume) = valley.values([one.value, moving.with_gap(other.value)[0]]);
+            for (parameter, value) in valley.parameters().into_iter().zip(values) {
+                // Rounding may pass an end by an ulp.
+                to.parameters[parameter] = value.max(self.low[parameter]).min(self.high[parameter]);
+            }
+            to.log_jacobian += log_volume + libm::log(one.slope * other.slope);
+            (to.walled[first], to.walled[second]) = (one, other);
+        }
+        for &place in &self.single {
+            let parameter = self.free[place];
+            let (low, walls) = self.walls(parameter);
+            let shear = self.shear(parameter, &to.parameters).map_or(0.0, |(shear, _)| shear);
+            let walled = walls.value(u[place] - shear);
+            to.parameters[parameter] = (low + walled.value).min(self.high[parameter]);
+            to.log_jacobian += libm::log(walled.slope);
+            to.walled[place] = walled;
+        }
+    }
+
+    /// Adds the derivatives of ln|∂p/∂u| to those of a function by the parameters, in place, and turns all into derivatives by u.
+    pub(crate) fn pull_back(&self, at: &Transformed, gradient: &mut [f64]) {
+        for &place in self.single.iter().rev() {
+            let walled = at.walled[place];
+            let slope = gradient[place] * walled.slope + walled.log_slope_change();
+            gradient[place] = slope;
+            for (parameter, shear_slope) in self.shear(self.free[place], &at.parameters).into_iter().flat_map(|(_, by)| by) {
+                if let Some(other) = self.free.iter().position(|&free| free == parameter) {
+                    gradient[other] -= slope * shear_slope;
+                }
+            }
+        }
+        for &(valley, [first, second]) in &self.valleys {
+            let (one, other) = (at.walled[first], at.walled[second]);
+            let moving = valley.second_walls(one.value, &self.low, &self.high);
+            let [combination, jumped] = moving.with_gap(other.value);
+            let [by_first, by_second] = valley.pull_back([one.value, combination], [gradient[first], gradient[second]]);
+            let [moved, log_slope_moved] = other.moved(moving.walls, moving.slopes);
+            gradient[second] = by_second * other.slope + other.log_slope_change();
+            gradient[first] = (by_first + by_second * (moved + jumped) + log_slope_moved) * one.slope + one.log_slope_change();
+            if valley == Valley::Index {
+                for (&(place, _), ratio) in self.depolarised.iter().zip(&at.ratios) {
+                    gradient[place] -= gradient[first] * ratio * at.specular_share;
+                }
+            }
+        }
+    }
+
+    /// The point of ℝᵈ of parameters in the box; those on its edge are moved a little inside.
+    pub(crate) fn coordinates(&self, parameters: &Parameters) -> Vec<f64> {
+        let mut p = *parameters;
+        for &parameter in &self.free {
+            let margin = START_MARGIN * (self.high[parameter] - self.low[parameter]);
+            // Small values near a lower bound of 0 are no edge.
+            let above = (self.low[parameter] + margin).min(self.low[parameter] + 0.5 * parameter.default_value().abs() * START_MARGIN);
+            p[parameter] = p[parameter].clamp(above, self.high[parameter] - margin);
+        }
+        self.coordinates_inside(&p)
+    }
+
+    /// The point of ℝᵈ of parameters inside the box.
+    fn coordinates_inside(&self, p: &Parameters) -> Vec<f64> {
+        let mut u = vec![0.0; self.free.len()];
+        for &place in &self.single {
+            let parameter = self.free[place];
+            let (low, walls) = self.walls(parameter);
+            let shear = self.shear(parameter, p).map_or(0.0, |(shear, _)| shear);
+            u[place] = walls.coordinate(p[parameter] - low) + shear;
+        }
+        for &(valley, [first, second]) in &self.valleys {
+            let [one, other] = valley.combinations(p);
+            u[first] = valley.first_walls(&self.low, &self.high).coordinate(one);
+            let moving = valley.second_walls(one, &self.low, &self.high);
+            u[second] = moving.walls.coordinate(moving.without_gap(other));
+            if valley == Valley::Index {
+                u[first] += libm::log1p(self.depolarised.iter().map(|&(place, ratio)| ratio * libm::exp(u[place])).sum());
+            }
+        }
+        u
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Transform, Transformed};
+    use crate::fit::{Bounds, FitOptions, Problem};
+    use crate::measurement::{Columns, Simulation};
+    use crate::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+    use nalgebra::DMatrix;
+
+    fn transform(columns: Columns, free: ParameterSet, bounds: &Bounds) -> Transform {
+        let model = Model::CAUCHY;
+        let surface = Pbrdf::new(model, Parameters::default()).unwrap();
+        let (theta_i, theta_r) = (vec![30.0, 60.0], vec![0.0, 20.0, 40.0, 60.0, 70.0]);
+        let simulation =
+            Simulation { model_name: String::new(), surface, theta_i, theta_r, dphi: 180.0, columns, noise: 0.0, brdf_noise: 0.0, seed: 1 };
+        let start = Parameters { n: 1.5, k: 2.5, ..Parameters::default() };
+        let problem = Problem::new(&simulation.run().unwrap(), model, start, free, *bounds, FitOptions::default()).unwrap();
+        Transform::new(&problem, &start)
+    }
+
+    fn at(transform: &Transform, u: &[f64]) -> Transformed {
+        let mut at = Transformed::default();
+        transform.transform(u, &mut at);
+        at
+    }
+
+    fn cases() -> Vec<Transform> {
+        let mut narrow = Bounds::default();
+        narrow.set(Parameter::N, 1.0, 3.0).unwrap();
+        narrow.set(Parameter::K, 2.0, 4.0).unwrap();
+        narrow.set(Parameter::C, -0.7, -0.2).unwrap();
+        // Circles of constant D leave this box at the top.
+        let mut flat = Bounds::default();
+        flat.set(Parameter::K, 1.0, 3.0).unwrap();
+        let without_ks = ParameterSet::ALL.without(Parameter::Ks);
+        let without_n = without_ks.without(Parameter::N);
+        [(Columns::Dolp, ParameterSet::ALL), (Columns::Dolp, without_ks), (Columns::Both, ParameterSet::ALL), (Columns::Dolp, without_n)]
+            .into_iter()
+            .flat_map(|(columns, free)| [Bounds::default(), narrow, flat].map(|bounds| transform(columns, free, &bounds)))
+            .collect()
+    }
+
+    /// Points of ℝᵈ near and far from the middle of the box, on both sides of the corners of n and k.
+    fn points(dimension: usize) -> impl Iterator<Item = Vec<f64>> {
+        (0..40).map(move |i| (0..dimension).map(|j| 2.5 * libm::sin(1.0 + 7.3 * i as f64 + 3.1 * j as f64)).collect())
+    }
+
+    #[test]
+    fn the_transform_inverts_and_its_jacobian_is_the_volume() {
+        for transform in cases() {
+            for u in points(transform.dimension()) {
+                let at = self::at(&transform, &u);
+                let back = transform.coordinates_inside(&at.parameters);
+                assert!(u.iter().zip(&back).all(|(a, b)| (a - b).abs() < 1e-7), "{u:?} {back:?}");
+                // Central differences of 1e-5 leave 1e-10 of a third derivative and rounding.
+                let column = |j: usize, h: f64| {
+                    let mut there = u.clone();
+                    there[j] += h;
+                    self::at(&transform, &there).parameters
+                };
+                let matrix = DMatrix::from_fn(u.len(), u.len(), |i, j| {
+                    (column(j, 1e-5)[transform.free[i]] - column(j, -1e-5)[transform.free[i]]) / 2e-5
+                });
+                let expected = matrix.determinant().abs().ln();
+                assert!((at.log_jacobian - expected).abs() < 1e-5, "{u:?}: {} instead of {expected}", at.log_jacobian);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_pulled_back_with_those_of_the_volume() {
+        for transform in cases() {
+            let function = |p: &Parameters| transform.free.iter().enumerate().map(|(i, &q)| (i as f64 + 1.0) * p[q] * p[q]).sum::<f64>();
+            for u in points(transform.dimension()) {
+                let at = self::at(&transform, &u);
+                let mut gradient: Vec<f64> =
+                    transform.free.iter().enumerate().map(|(i, &q)| 2.0 * (i as f64 + 1.0) * at.parameters[q]).collect();
+                transform.pull_back(&at, &mut gradient);
+                for j in 0..u.len() {
+                    let value = |h: f64| {
+                        let mut there = u.clone();
+                        there[j] += h;
+                        let at = self::at(&transform, &there);
+                        function(&at.parameters) + at.log_jacobian
+                    };
+                    let expected = (value(1e-5) - value(-1e-5)) / 2e-5;
+                    assert!((gradient[j] - expected).abs() < 1e-5 * (1.0 + expected.abs()), "{j} {u:?}: {} {expected}", gradient[j]);
+                }
+            }
+        }
+    }
+}

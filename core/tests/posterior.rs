@@ -1,0 +1,118 @@
+//! Draws from the posterior: diagnostics against ArviZ, and that the draws are what the seed says.
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+
+use pbrdf::fit::posterior::{Posterior, PosteriorSample, PosteriorSettings, Prior, convergence};
+use pbrdf::fit::{FitOptions, Observer, Starts, Weights, fit};
+use pbrdf::measurement::{Columns, Simulation};
+use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
+use pbrdf::{Fit, Measurement};
+use std::collections::HashMap;
+use std::path::Path;
+
+const TRUTH: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.2, q: 2.2, c: -0.4, sigma_v: 0.6 };
+
+fn records(name: &str) -> Vec<HashMap<String, String>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/posterior").join(name);
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).expect("a table of the repository");
+    reader.deserialize().map(|record| record.expect("a whole row")).collect()
+}
+
+#[test]
+fn diagnostics_are_those_of_arviz() {
+    // Quantiles of ArviZ fall between draws by another rule, and normal scores by another rational: both far below this.
+    const NEAR: f64 = 1e-3;
+    let draws = records("diagnostics_draws.csv");
+    for expected in records("diagnostics.csv") {
+        let name = &expected["name"];
+        let mut chains = vec![Vec::new(); 4];
+        for row in &draws {
+            chains[row["chain"].parse::<usize>().expect("a chain")].push(row[name].parse::<f64>().expect("a number"));
+        }
+        let found = convergence(&chains).expect("draws enough");
+        for (key, value) in [("rhat", found.rhat), ("ess_bulk", found.ess_bulk), ("ess_tail", found.ess_tail)] {
+            let reference: f64 = expected[key].parse().expect("a number");
+            assert!((value / reference - 1.0).abs() < NEAR, "{name} {key}: {value} instead of {reference}");
+        }
+    }
+}
+
+fn measurement(columns: Columns) -> Measurement {
+    let simulation = Simulation {
+        model_name: "test".to_owned(),
+        surface: Pbrdf::new(Model::GAUSS, TRUTH).expect("a surface"),
+        theta_i: vec![20.0, 40.0, 60.0, 75.0],
+        theta_r: (0..8).map(|i| f64::from(10 * i)).collect(),
+        dphi: 180.0,
+        columns,
+        noise: 0.003,
+        brdf_noise: 0.03,
+        seed: 5,
+    };
+    simulation.run().expect("valid angles")
+}
+
+fn drawn(columns: Columns, weights: Weights, priors: &[(Parameter, Prior)], settings: PosteriorSettings) -> PosteriorSample {
+    let data = measurement(columns);
+    let problem =
+        Fit::new(&data, Model::GAUSS).options(FitOptions { weights, ..FitOptions::default() }).problem().expect("a valid problem");
+    let posterior = Posterior::new(&problem, priors, settings).expect("a posterior");
+    let start = fit(posterior.problem(), Starts::One, 1, Observer::NONE).parameters;
+    posterior.run(&[start], Observer::NONE, &mut |_, _| {}).expect("draws")
+}
+
+#[test]
+fn draws_hold_the_truth_and_the_noise() {
+    for (columns, weights) in [(Columns::Dolp, Weights::Sigma), (Columns::Dolp, Weights::None), (Columns::Both, Weights::None)] {
+        let settings = PosteriorSettings { draws: 400, ..PosteriorSettings::default() };
+        let sample = drawn(columns, weights, &[], settings);
+        for &parameter in &sample.parameters {
+            let summary = sample.summary(parameter);
+            // Of some twenty intervals, one beyond four standard deviations is one in a thousand.
+            assert!((summary.mean - TRUTH[parameter]).abs() < 4.0 * summary.sd, "{columns:?} {weights:?} {parameter:?}: {summary:?}");
+            let convergence = summary.convergence.expect("draws enough");
+            assert!(convergence.rhat < 1.05, "{columns:?} {weights:?} {parameter:?}: {convergence:?}");
+        }
+        let noise = sample.noise;
+        assert_eq!(noise[0].is_some(), weights == Weights::None);
+        // 32 values tell a standard deviation within 13 %: four of those.
+        for (noise, truth) in noise.iter().zip([0.003, 0.03]) {
+            assert!(noise.is_none_or(|noise| (noise.q50 / truth - 1.0).abs() < 0.5), "{noise:?} instead of {truth}");
+        }
+        assert!(sample.log_evidence.expect("an evidence").std_error < 0.2, "{:?}", sample.log_evidence);
+    }
+}
+
+#[test]
+fn a_narrow_prior_holds_its_parameter() {
+    let settings = PosteriorSettings { draws: 300, ..PosteriorSettings::default() };
+    let prior = Prior::Normal { mean: 2.2, sd: 0.001 };
+    let uniform = Prior::Uniform { low: 2.0, high: 4.0 };
+    let sample = drawn(Columns::Dolp, Weights::Sigma, &[(Parameter::N, prior), (Parameter::K, uniform)], settings);
+    let (n, k) = (sample.summary(Parameter::N), sample.summary(Parameter::K));
+    assert!((n.mean - 2.2).abs() < 0.001 && n.sd < 0.0015, "{n:?}");
+    assert!(sample.draws().all(|draw| (2.0..=4.0).contains(&draw.parameters.k)), "{k:?}");
+}
+
+#[test]
+fn the_seed_decides_and_a_cancelled_run_keeps_what_there_is() {
+    let settings = PosteriorSettings { draws: 100, chains: 2, seed: 9 };
+    let run = |seed| drawn(Columns::Dolp, Weights::None, &[], PosteriorSettings { seed, ..settings }).chains;
+    assert_eq!(run(9), run(9));
+    assert_ne!(run(9), run(10));
+
+    let data = measurement(Columns::Dolp);
+    let problem = Fit::new(&data, Model::GAUSS).problem().expect("a valid problem");
+    let posterior = Posterior::new(&problem, &[], PosteriorSettings { draws: 2000, ..settings }).expect("a posterior");
+    let done = std::sync::atomic::AtomicBool::new(false);
+    let cancelled = || done.load(std::sync::atomic::Ordering::Relaxed);
+    let observer = Observer { cancelled: &cancelled, ..Observer::NONE };
+    let mut stop = |_: f64, sample: &dyn Fn() -> PosteriorSample| {
+        if sample().len() >= 500 {
+            done.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    };
+    let start = fit(posterior.problem(), Starts::One, 1, Observer::NONE).parameters;
+    let sample = posterior.run(&[start], observer, &mut stop).expect("draws");
+    assert!((500..4000).contains(&sample.len()), "{}", sample.len());
+    assert!(sample.chains[0].len() == sample.chains[1].len());
+}
