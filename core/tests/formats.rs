@@ -46,7 +46,7 @@ fn a_file_asks_its_questions_and_the_offered_answers_import_it() {
     assert!(matches!(&file.questions()[..], [Question::Wavelength { available_nm }] if available_nm == &[600.0, 640.0]));
     let options = ImportOptions::offered(&file.questions());
     assert_eq!(options.wavelength_nm, Some(640.0));
-    assert_eq!(file.import(&options, &mut unwatched).expect("a wavelength of the file").measurement.rows.len(), 2);
+    assert_eq!(file.import(&options, &mut unwatched).expect("a wavelength of the file").rows(), 2);
     let ignored = ImportNote::IgnoredRows { name: "uR".to_owned(), count: 1 };
     assert_eq!(file.notes(), [ignored, ImportNote::DepolarisationNotApplied { count: 1 }]);
     let other = ImportOptions { wavelength_nm: Some(605.0), ..options };
@@ -59,7 +59,7 @@ fn a_file_asks_its_questions_and_the_offered_answers_import_it() {
     let file = opened(&tensor());
     assert!(matches!(&file.questions()[..], [Question::Wavelength { .. }, Question::Directions]));
     let options = ImportOptions { theta_i: vec![30.0], theta_r: vec![-20.0, 20.0], ..ImportOptions::offered(&file.questions()) };
-    assert_eq!(file.import(&options, &mut unwatched).expect("angles in range").measurement.rows.len(), 2);
+    assert_eq!(file.import(&options, &mut unwatched).expect("angles in range").rows(), 2);
     let outside = ImportOptions { theta_i: vec![90.0], ..options };
     assert!(matches!(file.import(&outside, &mut unwatched), Err(ImportError::Geometry(_))));
 
@@ -68,13 +68,13 @@ fn a_file_asks_its_questions_and_the_offered_answers_import_it() {
     assert_eq!(options.columns.to_string(), "theta_i=1,theta_r=2:radians,dolp=3:percent");
     let imported = file.import(&options, &mut unwatched).expect("the guess fits");
     assert_eq!(imported, file.preview(&options).expect("the guess fits"));
-    assert_eq!((imported.measurement.rows.len(), file.preview_is_whole()), (2, true));
+    assert_eq!((imported.rows(), file.preview_is_whole()), (2, true));
 }
 
 #[test]
 fn a_scan_of_a_gonio_photometer_becomes_brdf_on_both_sides() {
     let Opened::Foreign(file) = open(PGII.to_vec(), &mut unwatched).expect("a good file") else { panic!("a foreign file") };
-    let measurement = file.import(&ImportOptions::default(), &mut unwatched).expect("it asks nothing").measurement;
+    let measurement = file.import(&ImportOptions::default(), &mut unwatched).expect("it asks nothing").measurements.swap_remove(0);
     assert_eq!((measurement.rows.len(), measurement.incidence_angles()), (42, vec![40.0]));
     assert_eq!((measurement.metadata("wavelength_nm"), measurement.has_dolp()), (Some("650"), false));
     let brdf = |theta_r: f64| {
@@ -88,7 +88,7 @@ fn a_scan_of_a_gonio_photometer_becomes_brdf_on_both_sides() {
 fn files_of_one_wavelength_and_this_projects_own_ask_nothing() {
     let one = open(b"nm\taoi\tPsi\tDelta\n650\t65\t42\t140\n".to_vec(), &mut unwatched).expect("a good file");
     assert!(matches!(one, Opened::Foreign(file) if file.questions().is_empty()
-        && file.import(&ImportOptions::default(), &mut unwatched).is_ok_and(|imported| imported.measurement.rows.len() == 1)));
+        && file.import(&ImportOptions::default(), &mut unwatched).is_ok_and(|imported| imported.rows() == 1)));
     let own = open(b"theta_i,theta_r,dolp\n30,20,0.1\n".to_vec(), &mut unwatched).expect("a good file");
     assert!(matches!(own, Opened::Measurement(measurement) if measurement.rows.len() == 1));
 }

@@ -1,6 +1,7 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
+use pbrdf::measurement::formats::ImportError;
 use pbrdf::measurement::{ImportNote, LineList, Mapping, Measurement, ReadError, append_columns, shortest, unwatched, write_measurements};
 use std::ops::ControlFlow;
 
@@ -275,8 +276,9 @@ fn a_mapped_table_is_the_same_measurement() {
     let expected = accepted("theta_i,theta_r,dolp,dolp_sigma,brdf\n30,-20,0.125,0.01,2\n40,25,0.25,0.02,\n");
     let foreign = "AOI;View;note;DoLP %;err;f\n30;-0,3490658503988659;x;12,5;1;2\n40;0,4363323129985824;y;25;2;\n";
     let mapping = Mapping::from_text("theta_i=AOI,theta_r=2:radians,dolp=DoLP %:percent,dolp_sigma=err:percent,brdf=6").expect("a mapping");
-    let read = mapping.read_table(foreign.as_bytes(), &mut unwatched).expect("a good table");
-    assert_eq!(read.ignored_columns, ["note"]);
+    let imported = mapping.read_table(foreign.as_bytes(), &mut unwatched).expect("a good table");
+    assert_eq!(imported.notes, [ImportNote::IgnoredColumns { names: vec!["note".to_owned()] }]);
+    let read = &imported.measurements[0];
     for (row, expected) in read.rows.iter().zip(&expected.rows) {
         // An ulp of the conversion from radians and percent.
         assert!((row.geometry.theta_r().0 - expected.geometry.theta_r().0).abs() < 1e-13);
@@ -286,8 +288,8 @@ fn a_mapped_table_is_the_same_measurement() {
     assert_eq!(read.rows.len(), expected.rows.len());
 }
 
-fn mapped(table: &str, mapping: &Mapping) -> Result<Measurement, ReadError> {
-    mapping.read_table(table.as_bytes(), &mut unwatched)
+fn mapped(table: &str, mapping: &Mapping) -> Result<Measurement, ImportError> {
+    mapping.read_table(table.as_bytes(), &mut unwatched).map(|mut imported| imported.measurements.swap_remove(0))
 }
 
 #[test]

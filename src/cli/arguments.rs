@@ -5,7 +5,7 @@ use crate::cli::values::{Assignment, Grid, Interval, Priors};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
-use pbrdf::measurement::{Columns, Mapping, TensorResolution};
+use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
 use pbrdf::model::{DolpFormula, Parameter, Preset};
 use std::path::PathBuf;
 
@@ -236,14 +236,35 @@ pub struct AngleArguments {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, after_help = import_help())]
 pub struct ImportArguments {
-    /// Woollam ellipsometry text, a tensor of Mueller matrices (.pbsdf), or with --columns any table.
+    /// A table of any laboratory, as text or workbook, or a file of an instrument.
     pub input: PathBuf,
-    /// Vacuum wavelength in nm; the nearest one of the file is taken, with a notice.
+    /// Take the guess of a table without asking, and print it.
+    #[arg(long)]
+    pub auto: bool,
+    /// Vacuum wavelength in nm; of several the nearest one is taken, with a notice.
     #[arg(long, value_name = "NM", value_parser = values::positive)]
     pub wavelength: Option<f64>,
     /// Which columns of a table are what, such as theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent.
     #[arg(long, value_name = "FIELD=COLUMN[:UNIT],...", value_parser = values::mapping)]
     pub columns: Option<Mapping>,
+    /// The sheet of a workbook; the first without.
+    #[arg(long, value_name = "NAME")]
+    pub sheet: Option<String>,
+    /// What separates thousands in the numbers of a table, such as ','.
+    #[arg(long, value_name = "C", value_parser = values::thousands)]
+    pub thousands: Option<char>,
+    /// A negative angle of view is the forward side.
+    #[arg(long)]
+    pub flip: bool,
+    /// What the columns of a wide table hold that nothing names: dolp or brdf.
+    #[arg(long, value_name = "QUANTITY", value_parser = values::wide)]
+    pub wide: Option<Field>,
+    /// Stokes parameters or Mueller elements are divided by the first one.
+    #[arg(long)]
+    pub normalised: bool,
+    /// What a column of BRDF or reflectance holds: brdf, brdf-cos (times cos theta_r) or factor (reflectance factor, pi times it).
+    #[arg(long, value_name = "MEANING", value_parser = values::brdf_meaning)]
+    pub brdf_is: Option<BrdfMeaning>,
     /// Angles of incidence of the slices through a tensor, in degrees (15:75:15 without); or the one of a table without such a column.
     #[arg(long, value_parser = values::grid)]
     pub theta_i: Option<Grid>,
@@ -254,7 +275,7 @@ pub struct ImportArguments {
     /// plane of incidence, others are out of plane.
     #[arg(long, allow_hyphen_values = true, value_parser = values::number)]
     pub dphi: Option<f64>,
-    /// File to write; standard output without.
+    /// File to write, or with / at its end a folder for one file a measurement; standard output without.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
 }
@@ -266,9 +287,11 @@ fn import_help() -> String {
 }
 
 const TABLE_HELP: &str = "\
-Table with --columns: fields theta_i, theta_r, dphi (degrees, or :radians), dolp, dolp_sigma (fraction, or :percent), brdf, brdf_sigma,
-masked; a column by its name in the header or its number from 1. A table without a column for theta_i takes it from --theta-i, one
-without dphi from --dphi. Without --columns a guess is offered, not applied.";
+Any other table: its guess is printed, and taken with --auto. With --columns the columns are named: theta_i, theta_r, dphi (degrees, or
+:radians), dolp, dolp_sigma (fraction, or :percent), brdf, brdf_sigma, masked, set, wavelength_nm, and what DoLP is computed from: s0, s1,
+s2; i0, i45, i90, i135; rs, rp; psi; m00, m10, m20, each with its _sigma; a column by its name in the header or its number from 1. A table
+without a column for theta_i takes it from --theta-i, one without dphi from --dphi. Several wavelengths or samples become several
+measurements, told apart by a column set.";
 
 /// `export`.
 #[derive(Debug, Subcommand)]

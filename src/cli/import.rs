@@ -3,68 +3,104 @@
 use crate::cli::arguments::ImportArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::formats::{FORMATS, Format, ImportError, ImportNote, ImportOptions, Imported, recognise};
-use pbrdf::measurement::{Field, Mapping, Measurement, Table};
+use pbrdf::measurement::foreign::{LabTable, OtherFormat, TableOptions, is_workbook};
+use pbrdf::measurement::formats::{Format, ImportError, ImportNote, ImportOptions, Imported, recognise};
+use pbrdf::measurement::{Measurement, ReadErrorKind, write_measurements};
+use std::path::Path;
 use std::process::ExitCode;
 
 pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
     let bytes = input::bytes(&task.input)?;
-    let mut measurement = if let Some(mapping) = &task.columns {
-        mapped(task, &bytes, mapping)?
-    } else if let Some(format) = recognise(&bytes) {
-        recognised(task, format, bytes)?
-    } else {
-        return Err(Failure::input(&task.input, unknown(&bytes)));
+    let mut imported = match recognise(&bytes).filter(|_| task.columns.is_none()) {
+        Some(format) => recognised(task, format, bytes)?,
+        None => table(task, bytes)?,
     };
     let name = task.input.file_name().map(|name| name.to_string_lossy().replace(char::is_control, " "));
-    measurement.metadata.push(("imported_from".to_owned(), name.unwrap_or_default()));
-    output::write(task.output.as_deref(), |out| measurement.write(out))?;
+    let source = ("imported_from".to_owned(), name.unwrap_or_default());
+    imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
+    notice_all(task, &imported.notes);
+    write(task, &imported.measurements)?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// The answer to a file whose content does not tell its form.
-fn unknown(bytes: &[u8]) -> String {
-    let names: Vec<&str> = FORMATS.iter().map(|format| format.name()).collect();
-    let unknown = format!("this is neither {}; name the columns of a table with --columns", names.join(" nor "));
-    let guess = Table::foreign(bytes).ok().map(|table| (Mapping::guess(table.header(), table.metadata()), table.titles()));
-    match guess {
-        Some((guess, names)) if !guess.columns.is_empty() => {
-            if guess.has_quantity() {
-                format!("{unknown}; its header suggests {}", input::columns_options(&guess))
-            } else {
-                format!("{unknown}; no column for DoLP or BRDF was found, the columns are {}", names.join(", "))
-            }
+/// Writes one table, or where the output is a folder one file for each measurement.
+fn write(task: &ImportArguments, measurements: &[Measurement]) -> Result<(), Failure> {
+    let folder = task.output.as_deref().filter(|path| path.is_dir() || path.to_string_lossy().ends_with(['/', '\\']));
+    let Some(folder) = folder else {
+        return output::write(task.output.as_deref(), |out| write_measurements(measurements, out));
+    };
+    std::fs::create_dir_all(folder).map_err(|error| Failure::output(folder.display(), &error))?;
+    let stem = task.input.file_stem().map_or_else(|| "measurement".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let mut taken: Vec<String> = Vec::new();
+    for (index, measurement) in measurements.iter().enumerate() {
+        let plain: String =
+            measurement.name.chars().map(|letter| if letter.is_alphanumeric() || "-_. ".contains(letter) { letter } else { '_' }).collect();
+        let mut name = if plain.trim().is_empty() { stem.clone() } else { format!("{stem} {}", plain.trim()) };
+        if taken.contains(&name) {
+            name = format!("{name} {}", index + 1);
         }
-        _ => format!("{unknown} theta_i=1,theta_r=2,dolp=3"),
+        output::write(Some(&folder.join(format!("{name}.csv"))), |out| measurement.write(out))?;
+        taken.push(name);
     }
+    Ok(())
 }
 
-/// The columns that were named, and the angles that were given for want of a column.
-fn with_constants(task: &ImportArguments, columns: &Mapping) -> Result<Mapping, Failure> {
+/// What the options say about a table.
+fn table_options(task: &ImportArguments) -> Result<TableOptions, Failure> {
     let theta_i = match task.theta_i.as_ref().map(|grid| grid.0.as_slice()) {
         None => None,
         Some(&[only]) => Some(only),
-        Some(_) if columns.find(Field::ThetaI).is_some() => None,
         Some(_) => return Err(Failure::usage("--theta-i has to be one angle where a table has no column for it.")),
     };
-    for (name, field, is_given) in [("theta-i", Field::ThetaI, task.theta_i.is_some()), ("dphi", Field::Dphi, task.dphi.is_some())] {
-        if is_given && columns.find(field).is_some() {
+    Ok(TableOptions {
+        columns: task.columns.clone(),
+        sheet: task.sheet.clone(),
+        thousands: task.thousands,
+        flip: task.flip,
+        wide: task.wide,
+        normalised: task.normalised,
+        brdf_is: task.brdf_is,
+        theta_i,
+        dphi: task.dphi,
+        wavelength_nm: task.wavelength,
+    })
+}
+
+/// The measurements of a table: one of this project's own as it is, another by its guess or by
+/// `--columns`.
+fn table(task: &ImportArguments, bytes: Vec<u8>) -> Result<Imported, Failure> {
+    let options = table_options(task)?;
+    if options == TableOptions::default()
+        && !is_workbook(&bytes)
+        && let Ok(measurements) = Measurement::read_sets(&bytes[..], &mut input::while_reading())
+    {
+        let mut notes: Vec<ImportNote> = measurements.iter().flat_map(|measurement| measurement.notes.clone()).collect();
+        let ignored = measurements[0].ignored_columns.clone();
+        notes.extend((!ignored.is_empty()).then_some(ImportNote::IgnoredColumns { names: ignored }));
+        return Ok(Imported { measurements, notes });
+    }
+    let table = LabTable::open(bytes, &options, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
+    let guess = table.guess(&options).map_err(|error| input::read_failure(&task.input, &error))?;
+    if task.columns.is_none() {
+        output::notice(format_args!("{}: {guess}", task.input.display()));
+        if !task.auto && guess.doubts.is_empty() {
+            return Err(Failure::input(&task.input, "take this guess with --auto, or name the columns with --columns"));
+        }
+    }
+    for (name, is_given, field) in [
+        ("theta-i", task.theta_i.is_some(), pbrdf::measurement::Field::ThetaI),
+        ("dphi", task.dphi.is_some(), pbrdf::measurement::Field::Dphi),
+    ] {
+        if is_given && guess.columns.iter().flatten().any(|column| column.field == Some(field)) {
             output::notice(format_args!("{}: --{name} is not used; there is a column for it.", task.input.display()));
         }
     }
-    Ok(Mapping { theta_i, dphi: task.dphi, ..columns.clone() })
-}
-
-fn mapped(task: &ImportArguments, bytes: &[u8], mapping: &Mapping) -> Result<Measurement, Failure> {
-    let mapping = with_constants(task, mapping)?;
-    let measurement = mapping.read_table(bytes, &mut input::while_reading()).map_err(|error| input::read_failure(&task.input, &error))?;
-    input::notice_of_reading(&task.input, &measurement);
-    Ok(measurement)
+    table.read(&options, &mut input::while_reading()).map_err(|error| failure(task, &error))
 }
 
 /// The measurement of a file whose content tells its form.
-fn recognised(task: &ImportArguments, format: &dyn Format, bytes: Vec<u8>) -> Result<Measurement, Failure> {
+fn recognised(task: &ImportArguments, format: &dyn Format, bytes: Vec<u8>) -> Result<Imported, Failure> {
     let file = format.open(bytes, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
     notice_all(task, &file.notes());
     let options = ImportOptions {
@@ -74,14 +110,12 @@ fn recognised(task: &ImportArguments, format: &dyn Format, bytes: Vec<u8>) -> Re
         dphi: task.dphi,
         ..ImportOptions::default()
     };
-    let Imported { measurement, notes } = file.import(&options, &mut input::while_reading()).map_err(|error| {
+    file.import(&options, &mut input::while_reading()).map_err(|error| {
         if let ImportError::NoValue { notes } = &error {
             notice_all(task, notes);
         }
         failure(task, &error)
-    })?;
-    notice_all(task, &notes);
-    Ok(measurement)
+    })
 }
 
 fn notice_all(task: &ImportArguments, notes: &[ImportNote]) {
@@ -92,6 +126,10 @@ fn notice_all(task: &ImportArguments, notes: &[ImportNote]) {
 
 fn failure(task: &ImportArguments, error: &ImportError) -> Failure {
     match error {
+        ImportError::Read(error) if matches!(error.kind, ReadErrorKind::NoNumbers) => Failure::input(
+            &task.input,
+            format_args!("{error}; if it is a table, name its columns as in --columns theta_i=1,theta_r=2,dolp=3"),
+        ),
         ImportError::Read(error) => input::read_failure(&task.input, error),
         ImportError::Geometry(error) => Failure::usage(format!("{error}.")),
         ImportError::Wavelength(error) if task.wavelength.is_none() => {
@@ -99,4 +137,28 @@ fn failure(task: &ImportArguments, error: &ImportError) -> Failure {
         }
         _ => Failure::input(&task.input, error),
     }
+}
+
+/// How to import a file that is no measurement of this project's own: the options after its name.
+/// None where it is no table of numbers either.
+pub fn options_for(bytes: &[u8]) -> Option<String> {
+    if recognise(bytes).is_some() {
+        return Some(String::new());
+    }
+    if OtherFormat::of(bytes).is_some() {
+        return None;
+    }
+    let table = LabTable::open(bytes.to_vec(), &TableOptions::default(), &mut pbrdf::measurement::unwatched).ok()?;
+    let guess = table.guess(&TableOptions::default()).ok()?;
+    let answers: Vec<&str> = guess.doubts.iter().map(pbrdf::measurement::foreign::Doubt::answer).collect();
+    let names_columns = answers.iter().find(|answer| answer.starts_with("--columns"));
+    Some(names_columns.map_or_else(|| [&["--auto"], &answers[..]].concat().join(" "), |answer| (*answer).to_owned()))
+}
+
+/// The command that imports a file with those options.
+pub fn command(path: &Path, options: &str) -> String {
+    let output = path.with_extension("imported.csv");
+    let word = |path: &Path| input::quoted(&path.display().to_string());
+    let space = if options.is_empty() { "" } else { " " };
+    format!("pbrdf-explorer import {}{space}{options} -o {}", word(path), word(&output))
 }

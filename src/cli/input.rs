@@ -1,11 +1,12 @@
 //! Files from the command line.
 
 use crate::cli::failure::Failure;
-use crate::cli::interrupt;
 use crate::cli::output::{Progress, notice};
+use crate::cli::{import, interrupt};
 use crate::files::open_file::open_file;
+use pbrdf::measurement::foreign::{OtherFormat, is_workbook};
 use pbrdf::measurement::formats::{ImportNote, recognise};
-use pbrdf::measurement::{Field, Hint, Mapping, Measurement, ReadError, ReadErrorKind, Table};
+use pbrdf::measurement::{Hint, Measurement, ReadError, ReadErrorKind};
 use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -58,42 +59,18 @@ pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
 /// The failure of a command whose input is no measurement; for a foreign file with the command that
 /// imports it.
 fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
-    let is_cancelled = matches!(error.kind, ReadErrorKind::Cancelled);
-    if !is_cancelled && recognise(bytes).is_some() {
-        Failure::input(path, format_args!("{error}; to import it, use {}", import_command(path, "")))
-    } else if error.hint() == Some(Hint::Import) {
-        let hint = table_import(path, bytes).map(|command| format!("; {command}"));
-        Failure::input(path, format_args!("{error}{}", hint.unwrap_or_default()))
-    } else {
-        read_failure(path, error)
+    if error.may_be_foreign() || recognise(bytes).is_some() || is_workbook(bytes) {
+        if let Some(other) = OtherFormat::of(bytes) {
+            let command =
+                other.options.map_or_else(String::new, |options| format!("; to import it, use {}", import::command(path, options)));
+            return Failure::input(path, format_args!("{other}{command}"));
+        }
+        if let Some(options) = import::options_for(bytes) {
+            let command = import::command(path, &options);
+            return Failure::input(path, format_args!("{error}; to import it, use {command}"));
+        }
     }
-}
-
-/// How to import a foreign table: by a guess that lacks nothing, else by an example. None where the
-/// table has too few columns for two angles and a quantity.
-fn table_import(path: &Path, bytes: &[u8]) -> Option<String> {
-    let table = Table::foreign(bytes).ok()?;
-    let guess = Mapping::guess(table.header(), table.metadata());
-    let is_known = |angle: Field| guess.find(angle).is_some() || guess.constant(angle).is_some();
-    if guess.has_quantity() && is_known(Field::ThetaI) && is_known(Field::ThetaR) {
-        Some(format!("to import it, use {}", import_command(path, &format!(" {}", columns_options(&guess)))))
-    } else {
-        let example = || format!("to import it, name its columns as in {}", import_command(path, " --columns theta_i=1,theta_r=2,dolp=3"));
-        (table.header().len() >= 3).then(example)
-    }
-}
-
-/// The command that imports a file with those options.
-fn import_command(path: &Path, options: &str) -> String {
-    let output = path.with_extension("imported.csv");
-    let word = |path: &Path| quoted(&path.display().to_string());
-    format!("pbrdf-explorer import {}{options} -o {}", word(path), word(&output))
-}
-
-/// The options of `import` for that mapping.
-pub fn columns_options(mapping: &Mapping) -> String {
-    let option = |name: &str, angle: Option<f64>| angle.map_or_else(String::new, |angle| format!(" --{name} {angle}"));
-    format!("--columns {mapping}{}{}", option("theta-i", mapping.theta_i), option("dphi", mapping.dphi))
+    read_failure(path, error)
 }
 
 /// A word as a shell takes it, on one line.

@@ -4,7 +4,7 @@ use crate::files::export;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
-use pbrdf::measurement::{Columns, Mapping, TensorResolution};
+use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
 use pbrdf::model::{DolpFormula, PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
 
@@ -178,6 +178,30 @@ pub fn interval(text: &str) -> Result<Interval, String> {
 /// `theta_i=AOI,dolp=3:percent`.
 pub fn mapping(text: &str) -> Result<Mapping, String> {
     Mapping::from_text(text).map_err(|error| error.to_string())
+}
+
+/// One character that separates thousands.
+pub fn thousands(text: &str) -> Result<char, String> {
+    let mut letters = text.chars();
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) if !letter.is_alphanumeric() && !"+-".contains(letter) => Ok(letter),
+        _ => Err(format!("{text:?} is no thousands separator; expected one character, such as ','")),
+    }
+}
+
+/// `dolp` or `brdf`.
+pub fn wide(text: &str) -> Result<Field, String> {
+    match text {
+        "dolp" => Ok(Field::Dolp),
+        "brdf" => Ok(Field::Brdf),
+        _ => Err(format!("{text:?} is neither dolp nor brdf")),
+    }
+}
+
+/// `brdf`, `brdf-cos` or `factor`.
+pub fn brdf_meaning(text: &str) -> Result<BrdfMeaning, String> {
+    let found = BrdfMeaning::ALL.iter().find(|(name, _)| *name == text);
+    found.map(|(_, meaning)| *meaning).ok_or_else(|| format!("{text:?} is none of brdf, brdf-cos, factor"))
 }
 
 /// `73,61,64`: three numbers of nodes.

@@ -151,6 +151,21 @@ pub enum ReadErrorKind {
     /// Ellipsometry without a row of ψ and Δ.
     #[error("there is no row of psi and delta")]
     NoPsi,
+    /// No row looks like data.
+    #[error("no row of numbers was found; expected at least two columns of numbers")]
+    NoNumbers,
+    /// A cell that is too long for any measurement.
+    #[error("the cell has {bytes} bytes; no cell of a measurement is so long")]
+    LongCell {
+        /// Its length.
+        bytes: usize,
+    },
+    /// A number with the exponent of Fortran.
+    #[error("found {found:?}, a number with the exponent of Fortran's double precision; write it with e in place of D")]
+    FortranExponent {
+        /// The cell.
+        found: String,
+    },
     /// A column that a mapping names and the table lacks.
     #[error("there is no column {found} for {field}; the columns are {names}", names = .names.join(", "))]
     UnknownColumn {
@@ -161,15 +176,6 @@ pub enum ReadErrorKind {
         /// The names in the header.
         names: Vec<String>,
     },
-    /// A field that a mapping has to name and does not.
-    #[error("no column is named for {field}")]
-    NotMapped {
-        /// What is missing.
-        field: Field,
-    },
-    /// A mapping that names neither quantity.
-    #[error("no column is named for dolp or brdf")]
-    NoQuantityMapped,
     /// A NUL byte.
     #[error("found a NUL byte; expected plain text (UTF-8)")]
     Nul,
@@ -227,16 +233,35 @@ pub fn is_not_measured(cell: &str) -> bool {
     cell.len() <= 8 && NOT_MEASURED.contains(&cell.trim().to_lowercase().as_str())
 }
 
+/// Characters of a cell that a message quotes.
+const QUOTED: usize = 80;
+
+/// The beginning of a cell, for a message.
+#[must_use]
+pub fn quote(cell: &str) -> String {
+    match cell.char_indices().nth(QUOTED) {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_owned(),
+    }
+}
+
 /// How a number with one decimal mark or thousands separator reads as either.
 pub(crate) fn readings(number: &str) -> (String, String) {
     (number.replace(',', "."), number.replace([',', '.'], ""))
 }
 
 impl ReadError {
-    /// Whether a table fails for the names of its columns alone, so that it may be a foreign one.
+    /// Whether a table fails as a table of another laboratory would.
     #[must_use]
-    pub fn is_about_names(&self) -> bool {
-        matches!(self.kind, ReadErrorKind::MissingColumn { .. } | ReadErrorKind::NoQuantity { .. } | ReadErrorKind::NoHeader { .. })
+    pub fn may_be_foreign(&self) -> bool {
+        matches!(
+            self.kind,
+            ReadErrorKind::MissingColumn { .. }
+                | ReadErrorKind::NoQuantity { .. }
+                | ReadErrorKind::NoHeader { .. }
+                | ReadErrorKind::Utf16
+                | ReadErrorKind::UnclosedQuote
+        )
     }
 
     /// What helps, where something does.

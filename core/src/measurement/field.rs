@@ -1,4 +1,35 @@
-//! What a column of a table can hold, in which units, and what laboratories call it.
+//! What a column of a table can hold, and in which units.
+
+/// A quantity of a polarimeter, an ellipsometer or a Mueller matrix that DoLP is computed from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Channel {
+    /// Stokes S0.
+    S0,
+    /// Stokes S1.
+    S1,
+    /// Stokes S2.
+    S2,
+    /// Intensity behind a polariser at 0°.
+    I0,
+    /// Intensity behind a polariser at 45°.
+    I45,
+    /// Intensity behind a polariser at 90°.
+    I90,
+    /// Intensity behind a polariser at 135°.
+    I135,
+    /// Reflectance or intensity of s-polarised light.
+    Rs,
+    /// Reflectance or intensity of p-polarised light.
+    Rp,
+    /// Ellipsometric angle ψ.
+    Psi,
+    /// Mueller element of row 0, column 0.
+    M00,
+    /// Mueller element of row 1, column 0.
+    M10,
+    /// Mueller element of row 2, column 0.
+    M20,
+}
 
 /// What a column can hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -9,6 +40,10 @@ pub enum Field {
     ThetaR,
     /// Relative azimuth.
     Dphi,
+    /// Azimuth of incidence; Δφ is the azimuth of view less it.
+    PhiI,
+    /// Azimuth of view.
+    PhiR,
     /// Degree of linear polarisation.
     Dolp,
     /// Standard deviation of the DoLP.
@@ -19,6 +54,14 @@ pub enum Field {
     BrdfSigma,
     /// 0 or 1.
     Masked,
+    /// Name of the measurement that the row belongs to.
+    Set,
+    /// Vacuum wavelength.
+    Wavelength,
+    /// What DoLP is computed from.
+    Channel(Channel),
+    /// Its standard deviation.
+    ChannelSigma(Channel),
 }
 
 /// The name of the column in this project's own files.
@@ -31,16 +74,20 @@ impl std::fmt::Display for Field {
 /// The unit of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Unit {
-    /// The unit that the field has in this project's own files: degrees, a fraction, sr⁻¹.
+    /// The unit that the field has in this project's own files: degrees, a fraction, sr⁻¹, nm.
     Native,
     /// Radians, of an angle.
     Radians,
-    /// Percent, of a DoLP or its standard deviation.
+    /// Percent, of a DoLP, a reflectance or their standard deviation.
     Percent,
+    /// Micrometres, of a wavelength.
+    Micrometers,
+    /// Ångströms, of a wavelength.
+    Angstroms,
 }
 
-/// Names of the fields.
-const KEYS: [(&str, Field); 8] = [
+/// Names of the fields, in the order of files.
+const KEYS: [(&str, Field); 38] = [
     ("theta_i", Field::ThetaI),
     ("theta_r", Field::ThetaR),
     ("dphi", Field::Dphi),
@@ -49,12 +96,43 @@ const KEYS: [(&str, Field); 8] = [
     ("brdf", Field::Brdf),
     ("brdf_sigma", Field::BrdfSigma),
     ("masked", Field::Masked),
+    ("set", Field::Set),
+    ("wavelength_nm", Field::Wavelength),
+    ("phi_i", Field::PhiI),
+    ("phi_r", Field::PhiR),
+    ("s0", Field::Channel(Channel::S0)),
+    ("s1", Field::Channel(Channel::S1)),
+    ("s2", Field::Channel(Channel::S2)),
+    ("i0", Field::Channel(Channel::I0)),
+    ("i45", Field::Channel(Channel::I45)),
+    ("i90", Field::Channel(Channel::I90)),
+    ("i135", Field::Channel(Channel::I135)),
+    ("rs", Field::Channel(Channel::Rs)),
+    ("rp", Field::Channel(Channel::Rp)),
+    ("psi", Field::Channel(Channel::Psi)),
+    ("m00", Field::Channel(Channel::M00)),
+    ("m10", Field::Channel(Channel::M10)),
+    ("m20", Field::Channel(Channel::M20)),
+    ("s0_sigma", Field::ChannelSigma(Channel::S0)),
+    ("s1_sigma", Field::ChannelSigma(Channel::S1)),
+    ("s2_sigma", Field::ChannelSigma(Channel::S2)),
+    ("i0_sigma", Field::ChannelSigma(Channel::I0)),
+    ("i45_sigma", Field::ChannelSigma(Channel::I45)),
+    ("i90_sigma", Field::ChannelSigma(Channel::I90)),
+    ("i135_sigma", Field::ChannelSigma(Channel::I135)),
+    ("rs_sigma", Field::ChannelSigma(Channel::Rs)),
+    ("rp_sigma", Field::ChannelSigma(Channel::Rp)),
+    ("psi_sigma", Field::ChannelSigma(Channel::Psi)),
+    ("m00_sigma", Field::ChannelSigma(Channel::M00)),
+    ("m10_sigma", Field::ChannelSigma(Channel::M10)),
+    ("m20_sigma", Field::ChannelSigma(Channel::M20)),
 ];
 
 impl Field {
     /// All, in the order of files.
-    pub const ALL: [Self; 8] =
-        [Self::ThetaI, Self::ThetaR, Self::Dphi, Self::Dolp, Self::DolpSigma, Self::Brdf, Self::BrdfSigma, Self::Masked];
+    pub fn all() -> impl Iterator<Item = Self> {
+        KEYS.iter().map(|(_, field)| *field)
+    }
 
     /// Name of the column in this project's own files.
     #[must_use]
@@ -73,9 +151,12 @@ impl Field {
     #[must_use]
     pub fn unit_names(self) -> &'static [(&'static str, Unit)] {
         match self {
-            Self::ThetaI | Self::ThetaR | Self::Dphi => &[("degrees", Unit::Native), ("radians", Unit::Radians)],
+            Self::ThetaI | Self::ThetaR | Self::Dphi | Self::PhiI | Self::PhiR => &[("degrees", Unit::Native), ("radians", Unit::Radians)],
+            Self::Channel(Channel::Psi) | Self::ChannelSigma(Channel::Psi) => &[("degrees", Unit::Native), ("radians", Unit::Radians)],
             Self::Dolp | Self::DolpSigma => &[("fraction", Unit::Native), ("percent", Unit::Percent)],
-            Self::Brdf | Self::BrdfSigma | Self::Masked => &[],
+            Self::Brdf | Self::BrdfSigma => &[("1/sr", Unit::Native), ("percent", Unit::Percent)],
+            Self::Wavelength => &[("nm", Unit::Native), ("um", Unit::Micrometers), ("angstroms", Unit::Angstroms)],
+            Self::Masked | Self::Set | Self::Channel(_) | Self::ChannelSigma(_) => &[],
         }
     }
 
@@ -85,149 +166,20 @@ impl Field {
         self.unit_names().iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
     }
 
-    /// The unit that the name of a column states.
-    pub(crate) fn unit_in(self, column: &str) -> Unit {
-        let column = column.to_lowercase();
-        let marks = [("rad", Unit::Radians), ("%", Unit::Percent), ("percent", Unit::Percent)];
-        let stated = marks.iter().find(|(mark, unit)| column.contains(mark) && self.unit_names().iter().any(|(_, known)| known == unit));
-        stated.map_or(Unit::Native, |(_, unit)| *unit)
-    }
-
-    /// Names of the field elsewhere, as [`stem`] leaves them, the most specific first.
-    fn aliases(self) -> &'static [&'static str] {
+    /// The standard deviation of a quantity.
+    pub(crate) fn sigma(self) -> Option<Self> {
         match self {
-            Self::ThetaI => THETA_I,
-            Self::ThetaR => THETA_R,
-            Self::Dphi => DPHI,
-            Self::Dolp | Self::DolpSigma => DOLP,
-            Self::Brdf | Self::BrdfSigma => BRDF,
-            Self::Masked => &["masked", "mask", "excluded"],
+            Self::Dolp => Some(Self::DolpSigma),
+            Self::Brdf => Some(Self::BrdfSigma),
+            Self::Channel(channel) => Some(Self::ChannelSigma(channel)),
+            _ => None,
         }
     }
 
-    /// The rank of a name among the names of the field, 0 for the most specific; `None` for other
-    /// names.
-    pub(crate) fn rank(self, name: &str) -> Option<usize> {
-        let name = stem(name);
-        let place = |name: &str| self.aliases().iter().position(|alias| *alias == name);
-        match self {
-            Self::DolpSigma | Self::BrdfSigma => {
-                let of = SIGMA.iter().filter_map(|mark| name.strip_suffix(mark).or_else(|| name.strip_prefix(mark)));
-                of.filter_map(place).min()
-            }
-            _ => place(&name),
-        }
+    /// Whether a column of it holds something measured: a quantity, or a standard deviation.
+    pub(crate) fn is_measured(self) -> bool {
+        matches!(self, Self::Dolp | Self::DolpSigma | Self::Brdf | Self::BrdfSigma | Self::Channel(_) | Self::ChannelSigma(_))
     }
-}
-
-/// The rank of a name among those of a standard deviation of no particular quantity.
-pub(crate) fn sigma_rank(name: &str) -> Option<usize> {
-    SIGMA.iter().position(|mark| *mark == stem(name))
-}
-
-const THETA_I: &[&str] = &[
-    "thetai",
-    "thetain",
-    "thetainc",
-    "thetaincident",
-    "aoi",
-    "angleofincidence",
-    "incidenceangle",
-    "incidentangle",
-    "incidence",
-    "incident",
-    "inc",
-    "incangle",
-    "incidencezenith",
-    "incidentzenith",
-    "incidencezenithangle",
-    "incidentzenithangle",
-    "illuminationangle",
-    "illumination",
-    "sourceangle",
-    "sza",
-    "solarzenith",
-    "solarzenithangle",
-    "sunzenith",
-    "sunzenithangle",
-    "ti",
-];
-const THETA_R: &[&str] = &[
-    "thetar",
-    "thetav",
-    "thetas",
-    "thetaout",
-    "thetarefl",
-    "thetaview",
-    "viewangle",
-    "viewingangle",
-    "view",
-    "viewing",
-    "vza",
-    "viewzenith",
-    "viewingzenith",
-    "viewzenithangle",
-    "viewingzenithangle",
-    "angleofview",
-    "angleofreflection",
-    "reflectionangle",
-    "observationangle",
-    "observation",
-    "detectorangle",
-    "detector",
-    "emissionangle",
-    "emergenceangle",
-    "exitangle",
-    "tr",
-];
-const DPHI: &[&str] = &[
-    "dphi",
-    "deltaphi",
-    "relativeazimuth",
-    "relativeazimuthangle",
-    "relazimuth",
-    "relaz",
-    "raa",
-    // In metadata, these may be the azimuth of the sample.
-    "azimuth",
-    "azimuthangle",
-    "azim",
-    "az",
-    "phi",
-];
-const DOLP: &[&str] = &[
-    "dolp",
-    "dlp",
-    "degreeoflinearpolarization",
-    "degreeoflinearpolarisation",
-    "linearpolarization",
-    "linearpolarisation",
-    "dop",
-    "degreeofpolarization",
-    "degreeofpolarisation",
-    "polarization",
-    "polarisation",
-    "pol",
-];
-const BRDF: &[&str] = &["brdf", "brdf1", "brdf1sr", "brdfsr1", "fr", "reflectance"];
-/// The number of names of Δφ, from the first, that say that the azimuth is relative.
-pub(crate) const RELATIVE_NAMES: usize = 7;
-/// Marks of the standard deviation of a quantity, before or behind its name.
-const SIGMA: &[&str] = &["sigma", "err", "error", "std", "stddev", "sd", "unc", "uncertainty"];
-
-/// A name in small letters and digits, without brackets and what they hold, and without its unit.
-fn stem(name: &str) -> String {
-    let name = name.split(['(', '[', '/']).next().unwrap_or(name).to_lowercase();
-    let letters: String = name
-        .replace(['θ', 'ϑ'], "theta")
-        .replace(['φ', 'ϕ'], "phi")
-        .replace('δ', "delta")
-        .replace('σ', "sigma")
-        .chars()
-        .filter(char::is_ascii_alphanumeric)
-        .collect();
-    let without = ["degrees", "deg", "radians", "rad", "percent"].iter().find_map(|unit| letters.strip_suffix(unit));
-    without.unwrap_or(&letters).to_owned()
 }
 
 #[cfg(test)]
@@ -235,12 +187,10 @@ mod tests {
     use super::Field;
 
     #[test]
-    fn no_name_stands_for_two_fields() {
-        for field in Field::ALL {
-            for name in field.aliases() {
-                let fields = Field::ALL.iter().filter(|other| other.rank(name).is_some()).count();
-                assert_eq!(fields, 1, "{name}");
-            }
+    fn every_field_has_a_key_of_its_own() {
+        for field in Field::all() {
+            assert_eq!(Field::from_key(field.key()), Some(field));
+            assert!(field.sigma().is_none_or(|sigma| sigma.key() == format!("{}_sigma", field.key())));
         }
     }
 }

@@ -3,7 +3,6 @@
 //! As text, `theta_i=AOI,theta_r=3:radians,dolp=DoLP:percent`: a [`Field`], the name of the column
 //! in the header or its number from 1, and the unit where it is not the native one.
 
-use crate::measurement::field::{RELATIVE_NAMES, sigma_rank};
 use crate::measurement::{Field, Unit};
 
 /// Which column.
@@ -54,7 +53,7 @@ pub enum MappingError {
     #[error("found {0:?}, expected field=column, such as theta_i=AOI or dolp=3:percent")]
     Form(String),
     /// A field that there is not.
-    #[error("{0:?} is no field; expected one of {names}", names = Field::ALL.map(Field::key).join(", "))]
+    #[error("{0:?} is no field; expected one of {names}", names = FieldNames)]
     Field(String),
     /// A unit that the field does not have.
     #[error("{unit:?} is no unit of {field}; expected {expected}", expected = UnitNames(*.field))]
@@ -67,6 +66,15 @@ pub enum MappingError {
     /// A field twice.
     #[error("{0} is given twice")]
     Repeated(Field),
+}
+
+/// The names of all fields.
+struct FieldNames;
+
+impl std::fmt::Display for FieldNames {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&Field::all().map(Field::key).collect::<Vec<_>>().join(", "))
+    }
 }
 
 /// The units of a field, in words.
@@ -111,47 +119,6 @@ impl Mapping {
         Ok(mapping)
     }
 
-    /// What the names of a header suggest, by number of the column, and what metadata state where
-    /// there is no column. A guess: to be offered, not applied unasked.
-    #[must_use]
-    pub fn guess(header: &[String], metadata: &[(String, String)]) -> Self {
-        let mut mapping = Self::default();
-        for field in Field::ALL {
-            let ranked = header.iter().enumerate().filter_map(|(index, name)| Some((field.rank(name)?, index)));
-            if let Some((_, index)) = ranked.min() {
-                let unit = field.unit_in(&header[index]);
-                mapping.columns.push(MappedColumn { field, column: ColumnChoice::Number(index + 1), unit });
-            }
-        }
-        mapping.guess_sigma(header);
-        let stated = |field: Field, names: usize| {
-            let is_it = |key: &str| field.rank(key).is_some_and(|rank| rank < names);
-            metadata.iter().filter(|(key, _)| is_it(key)).find_map(|(key, value)| degrees_in(key, value))
-        };
-        if mapping.find(Field::ThetaI).is_none() {
-            mapping.theta_i = stated(Field::ThetaI, usize::MAX).filter(|angle| (0.0..90.0).contains(angle));
-        }
-        if mapping.find(Field::Dphi).is_none() {
-            mapping.dphi = stated(Field::Dphi, RELATIVE_NAMES);
-        }
-        mapping
-    }
-
-    /// Gives a standard deviation of no particular quantity to the only quantity, in the same unit.
-    fn guess_sigma(&mut self, header: &[String]) {
-        let (value, sigma) = match (self.find(Field::Dolp), self.find(Field::Brdf)) {
-            (Some(dolp), None) => (dolp, Field::DolpSigma),
-            (None, Some(brdf)) => (brdf, Field::BrdfSigma),
-            _ => return,
-        };
-        let ranked = header.iter().enumerate().filter_map(|(index, name)| Some((sigma_rank(name)?, index)));
-        if let (None, Some((_, index))) = (self.find(sigma), ranked.min()) {
-            let unit = value.unit;
-            self.columns.push(MappedColumn { field: sigma, column: ColumnChoice::Number(index + 1), unit });
-            self.columns.sort_by_key(|column| Field::ALL.iter().position(|field| *field == column.field));
-        }
-    }
-
     /// Whether a quantity is named.
     #[must_use]
     pub fn has_quantity(&self) -> bool {
@@ -188,21 +155,11 @@ impl std::fmt::Display for Mapping {
                 Unit::Native => {}
                 Unit::Radians => write!(f, ":radians")?,
                 Unit::Percent => write!(f, ":percent")?,
+                Unit::Micrometers => write!(f, ":um")?,
+                Unit::Angstroms => write!(f, ":angstroms")?,
             }
         }
         Ok(())
-    }
-}
-
-/// The angle in degrees that a line of metadata states: one number, with or without a unit.
-fn degrees_in(key: &str, value: &str) -> Option<f64> {
-    let end = value.find(|next: char| !next.is_ascii_digit() && !['.', '-', '+'].contains(&next)).unwrap_or(value.len());
-    let number: f64 = value[..end].parse().ok()?;
-    match value[end..].trim().to_lowercase().as_str() {
-        "" if key.to_lowercase().contains("rad") => Some(number.to_degrees()),
-        "" | "°" | "deg" | "degree" | "degrees" => Some(number),
-        "rad" | "radian" | "radians" => Some(number.to_degrees()),
-        _ => None,
     }
 }
 
@@ -222,66 +179,14 @@ mod tests {
             ("", "expected field=column"),
             ("theta_i", "expected field=column"),
             ("theta_i=", "expected field=column"),
-            ("psi=1", "\"psi\" is no field"),
+            ("chi=1", "\"chi\" is no field"),
             ("theta_i=1:percent", "expected degrees or radians"),
-            ("brdf=1:percent", "expected none"),
+            ("masked=1:percent", "expected none"),
             ("dolp=1,dolp=2", "dolp is given twice"),
         ] {
             let error = Mapping::from_text(wrong).expect_err(wrong);
             assert!(error.to_string().contains(part), "{wrong}: {error}");
         }
         assert_eq!(Mapping::from_text("dolp=1,dolp=2"), Err(MappingError::Repeated(Field::Dolp)));
-    }
-
-    #[test]
-    fn a_guess_knows_usual_names_and_units() {
-        let header = ["Sample", "AOI [deg]", "View (rad)", "DoLP %", "BRDF [1/sr]"].map(str::to_owned);
-        assert_eq!(Mapping::guess(&header, &[]).to_string(), "theta_i=2,theta_r=3:radians,dolp=4:percent,brdf=5");
-        let own = ["theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"].map(str::to_owned);
-        assert_eq!(Mapping::guess(&own, &[]).columns.len(), 8);
-        assert!(Mapping::guess(&["a".to_owned(), "b".to_owned()], &[]).columns.is_empty());
-    }
-
-    #[test]
-    fn a_guess_knows_what_other_laboratories_write() {
-        for (header, guess) in [
-            ("inc,view,azimuth,pol", "theta_i=1,theta_r=2,dphi=3,dolp=4"),
-            ("Incidence (deg),View zenith,RAA,Reflectance,Reflectance error", "theta_i=1,theta_r=2,dphi=3,brdf=4,brdf_sigma=5"),
-            ("SZA,VZA,phi,DOP [%],DOP err [%]", "theta_i=1,theta_r=2,dphi=3,dolp=4:percent,dolp_sigma=5:percent"),
-            ("inc_rad,viewing_angle_rad,pol_percent", "theta_i=1:radians,theta_r=2:radians,dolp=3:percent"),
-            ("inc,view,pol [%],sd", "theta_i=1,theta_r=2,dolp=3:percent,dolp_sigma=4:percent"),
-            ("inc,view,std,BRDF", "theta_i=1,theta_r=2,brdf=4,brdf_sigma=3"),
-            ("inc,view,σ,DoLP", "theta_i=1,theta_r=2,dolp=4,dolp_sigma=3"),
-            ("inc,view,DoLP,unc,dolp_err", "theta_i=1,theta_r=2,dolp=3,dolp_sigma=5"),
-            ("ϑ_i/°,ϑ_r/°,Δϕ/°,DoLP,σ,BRDF 1/sr", "theta_i=1,theta_r=2,dphi=3,dolp=4,brdf=6"),
-            // The surer name wins, wherever it stands.
-            ("phi,relative azimuth,incident,AOI,pol,DoLP,std_dolp", "theta_i=4,dphi=2,dolp=6,dolp_sigma=7"),
-        ] {
-            let header: Vec<String> = header.split(',').map(str::to_owned).collect();
-            assert_eq!(Mapping::guess(&header, &[]).to_string(), guess, "{header:?}");
-        }
-    }
-
-    #[test]
-    fn a_guess_takes_a_constant_angle_from_metadata_where_there_is_no_column() {
-        let header = ["view", "dolp"].map(str::to_owned);
-        for (key, value, theta_i, dphi) in [
-            ("theta_i", "45", Some(45.0), None),
-            ("angle of incidence", "45.5 deg", Some(45.5), None),
-            ("AOI (rad)", "0", Some(0.0), None),
-            ("incidence", "30°", Some(30.0), None),
-            ("relative azimuth", "90 degrees", None, Some(90.0)),
-            // Not one angle, no angle of incidence, or perhaps the sample's.
-            ("theta_i", "30, 40", None, None),
-            ("theta_i", "30:60:10", None, None),
-            ("theta_i", "95", None, None),
-            ("azimuth", "90", None, None),
-            ("material", "45", None, None),
-        ] {
-            let guess = Mapping::guess(&header, &[(key.to_owned(), value.to_owned())]);
-            assert_eq!((guess.theta_i, guess.dphi), (theta_i, dphi), "{key}: {value}");
-        }
-        let header = ["inc", "view", "dolp"].map(str::to_owned);
-        assert_eq!(Mapping::guess(&header, &[("theta_i".to_owned(), "45".to_owned())]).theta_i, None);
     }
 }

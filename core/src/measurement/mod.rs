@@ -4,16 +4,19 @@
 //! opening files, and naming them in messages, is left to the caller. A foreign file becomes a
 //! measurement by its form in [`formats`].
 
+mod brdf_meaning;
 mod ellipsometry;
 mod error;
 mod expected;
 mod field;
+pub mod foreign;
 pub mod formats;
 mod hint;
 mod mapping;
 #[expect(clippy::module_inception, reason = "each type stands in a file of its name, the type of the floor too")]
 mod measurement;
 mod note;
+mod polarimeter;
 mod progress;
 mod row;
 mod rows;
@@ -24,10 +27,11 @@ mod table;
 mod tensor;
 mod wavelength;
 
+pub use brdf_meaning::BrdfMeaning;
 pub use ellipsometry::{Depolarisation, Ellipsometry, PsiDelta, SpecularDolp};
-pub use error::{ColumnPlace, ReadError, ReadErrorKind, is_not_measured};
+pub use error::{ColumnPlace, ReadError, ReadErrorKind, is_not_measured, quote};
 pub use expected::Expected;
-pub use field::{Field, Unit};
+pub use field::{Channel, Field, Unit};
 pub use formats::{
     TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, append_columns,
     is_tensor, is_woollam, shortest, write_measurements, write_tensor,
@@ -36,6 +40,7 @@ pub use hint::Hint;
 pub use mapping::{ColumnChoice, MappedColumn, Mapping, MappingError};
 pub use measurement::{BeyondHorizon, Measurement};
 pub use note::{ImportNote, LineList};
+pub use polarimeter::Polarimeter;
 pub use progress::{Progress, unwatched};
 pub use row::{Quantity, Row};
 pub use rusinkiewicz::rusinkiewicz;

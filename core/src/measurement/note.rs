@@ -52,6 +52,27 @@ pub enum ImportNote {
     BeyondHorizon(LineList),
     /// Rows in which every cell is empty.
     BlankRows(LineList),
+    /// Lines that are neither header nor data, such as means.
+    SkippedLines(LineList),
+    /// Standard deviations of 0, which are none.
+    ZeroSigma(LineList),
+    /// DoLP of the size of its error, from a polarimeter.
+    BiasedDolp(LineList),
+    /// DoLP without a unit, above 1.
+    TakenAsPercent {
+        /// The column.
+        name: String,
+    },
+    /// Mueller elements that exceed the first one, and so are divided by it.
+    NormalisedElements,
+    /// Angles of view from 180° to 360°.
+    WrappedAngles,
+    /// θi is negative throughout.
+    NegativeIncidence,
+    /// θr is negative throughout.
+    AllBackscatter,
+    /// Merged cells of a spreadsheet.
+    FilledDown,
     /// Rows of a quantity that the measurement does not use.
     IgnoredRows {
         /// The quantity.
@@ -108,7 +129,12 @@ impl ImportNote {
     #[must_use]
     pub fn lines(&self) -> Option<&LineList> {
         match self {
-            Self::NotMeasured(lines) | Self::BeyondHorizon(lines) | Self::BlankRows(lines) => Some(lines),
+            Self::NotMeasured(lines)
+            | Self::BeyondHorizon(lines)
+            | Self::BlankRows(lines)
+            | Self::SkippedLines(lines)
+            | Self::ZeroSigma(lines)
+            | Self::BiasedDolp(lines) => Some(lines),
             _ => None,
         }
     }
@@ -134,6 +160,26 @@ impl std::fmt::Display for ImportNote {
             }
             Self::BeyondHorizon(lines) => write!(f, "{lines} at |θr| ≥ 90°; they are kept as masked"),
             Self::BlankRows(lines) => write!(f, "{lines} without any cell filled; they are skipped"),
+            Self::SkippedLines(lines) => {
+                let noun = if lines.count == 1 { "line that is" } else { "lines that are" };
+                write!(f, "skipped {} {noun} neither header nor data: {}", lines.count, lines.numbers())
+            }
+            Self::ZeroSigma(lines) => write!(f, "{lines} with a standard deviation of 0, which is taken as not stated"),
+            Self::BiasedDolp(lines) => {
+                write!(f, "{lines} where the DoLP is of the size of its error: there noise makes it too large; nothing is subtracted")
+            }
+            Self::TakenAsPercent { name } => {
+                write!(f, "the values of {name} are above 1 and have no unit; they are taken as percent")
+            }
+            Self::NormalisedElements => f.write_str("Mueller elements exceed the first one; they are taken as divided by it"),
+            Self::WrappedAngles => f.write_str("angles of view above 180° are taken as 360° less"),
+            Self::NegativeIncidence => {
+                f.write_str("θi is negative throughout; it is taken without its sign, and a positive θr as the forward side")
+            }
+            Self::AllBackscatter => {
+                f.write_str("all θr are negative, which is the backscatter side; if it is the forward side, use --flip")
+            }
+            Self::FilledDown => f.write_str("empty cells of the first columns are filled with the value above"),
             Self::IgnoredRows { name, count } => write!(f, "ignored {count} rows of {name}"),
             Self::DepolarisationNotApplied { count } => {
                 write!(f, "{count} rows of depolarisation (dpolE) are named in the metadata, not applied to DoLP")

@@ -1,18 +1,18 @@
 //! Turns the records of a table into rows of a measurement.
 
+use crate::measurement::foreign::field_of;
 use crate::measurement::note::{ImportNote, LineList};
 use crate::measurement::{
-    BeyondHorizon, ColumnChoice, Expected, Field, MappedColumn, Mapping, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Record,
-    Row, Table, Unit,
+    BeyondHorizon, Expected, Field, Measurement, Progress, Quantity, ReadError, ReadErrorKind, Record, Row, Table, Unit,
 };
 use crate::optics::Geometry;
 use std::collections::HashMap;
 
 /// Which column holds what.
 pub(crate) struct RowReader {
-    theta_i: AngleSource,
-    theta_r: AngleSource,
-    dphi: Option<AngleSource>,
+    theta_i: usize,
+    theta_r: usize,
+    dphi: Option<usize>,
     dolp: Option<QuantitySource>,
     brdf: Option<QuantitySource>,
     masked: Option<usize>,
@@ -33,17 +33,6 @@ struct RawRow {
     lacks_value: bool,
 }
 
-/// Where an angle stands, and in which unit.
-#[derive(Clone, Copy)]
-enum AngleSource {
-    Column {
-        column: usize,
-        unit: Unit,
-    },
-    /// The same angle in every row, in degrees.
-    Constant(f64),
-}
-
 /// Where a quantity and its standard deviation stand, and which values are allowed there.
 struct QuantitySource {
     value: usize,
@@ -59,9 +48,9 @@ struct QuantitySource {
 impl RowReader {
     /// The reader of this project's own columns.
     pub(crate) fn native(table: &Table) -> Result<Self, ReadError> {
-        let no_quantity = || table.header_error(ReadErrorKind::NoQuantity { names: table.titles() });
-        let guess = Mapping::guess(table.header(), &[]);
-        if guess.find(Field::ThetaR).is_some() && !guess.has_quantity() {
+        let no_quantity = || table.header_error(ReadErrorKind::NoQuantity { names: table.header().to_vec() });
+        let fields: Vec<Field> = table.header().iter().filter_map(|name| field_of(name)).collect();
+        if fields.contains(&Field::ThetaR) && !fields.iter().any(|field| field.is_measured()) {
             // Whatever the names of the angles, the quantity is what the table lacks.
             return Err(no_quantity());
         }
@@ -78,45 +67,15 @@ impl RowReader {
         if dolp.is_none() && brdf.is_none() {
             return Err(no_quantity());
         }
-        let degrees = |column| AngleSource::Column { column, unit: Unit::Native };
-        let (theta_i, theta_r) = (degrees(theta_i), degrees(theta_r));
         Ok(Self {
             theta_i,
             theta_r,
-            dphi: table.find("dphi")?.map(degrees),
+            dphi: table.find("dphi")?,
             dolp,
             brdf,
             masked: table.find("masked")?,
             set: table.find("set")?,
             wavelength_nm: table.find("wavelength_nm")?,
-        })
-    }
-
-    /// The reader of the columns that a mapping names.
-    pub(crate) fn mapped(table: &Table, mapping: &Mapping) -> Result<Self, ReadError> {
-        let angle = |field| -> Result<Option<AngleSource>, ReadError> {
-            let column = place(mapping, field, table)?.map(|(column, unit)| AngleSource::Column { column, unit });
-            Ok(column.or(mapping.constant(field).map(AngleSource::Constant)))
-        };
-        let require = |field: Field| angle(field)?.ok_or_else(|| table.header_error(ReadErrorKind::NotMapped { field }));
-        let source = |field, sigma_field| -> Result<Option<QuantitySource>, ReadError> {
-            let (value, sigma) = (place(mapping, field, table)?, place(mapping, sigma_field, table)?);
-            Ok(value.map(|value| QuantitySource::new(field, value, sigma)))
-        };
-        let (dolp, brdf) = (source(Field::Dolp, Field::DolpSigma)?, source(Field::Brdf, Field::BrdfSigma)?);
-        if dolp.is_none() && brdf.is_none() {
-            return Err(table.header_error(ReadErrorKind::NoQuantityMapped));
-        }
-        let masked = place(mapping, Field::Masked, table)?.map(|(column, _)| column);
-        Ok(Self {
-            theta_i: require(Field::ThetaI)?,
-            theta_r: require(Field::ThetaR)?,
-            dphi: angle(Field::Dphi)?,
-            dolp,
-            brdf,
-            masked,
-            set: None,
-            wavelength_nm: None,
         })
     }
 
@@ -209,17 +168,18 @@ impl RowReader {
 
     /// θi, signed θr and Δφ in degrees, with |θr| from 90° on in a masked row.
     fn angles(&self, record: &Record<'_>, masked: bool) -> Result<(f64, f64, f64), ReadError> {
-        let theta_i = self.theta_i.degrees(record, Expected::ThetaI)?;
+        let theta_i = record.number(self.theta_i, Expected::ThetaI)?;
         if !(0.0..90.0).contains(&theta_i) {
-            return Err(self.theta_i.out_of_range(record, Expected::ThetaI));
+            return Err(record.out_of_range(self.theta_i, Expected::ThetaI));
         }
-        let theta_r = self.theta_r.degrees(record, Expected::ThetaR)?;
+        let theta_r = record.number(self.theta_r, Expected::ThetaR)?;
         if theta_r.abs() >= 90.0 && !masked {
-            return Err(self.theta_r.out_of_range(record, Expected::ThetaR));
+            return Err(record.out_of_range(self.theta_r, Expected::ThetaR));
         }
-        let dphi = self.dphi.map_or(Ok(180.0), |angle| angle.degrees(record, Expected::Dphi))?;
+        let dphi = self.dphi.map_or(Ok(180.0), |column| record.number(column, Expected::Dphi))?;
         if theta_r < 0.0 && dphi != 180.0 {
-            return Err(self.theta_r.error(record, |found| ReadErrorKind::NegativeThetaR { found, dphi }));
+            let found = record.text(self.theta_r);
+            return Err(record.error(self.theta_r, ReadErrorKind::NegativeThetaR { found, dphi }));
         }
         Ok((theta_i, theta_r, dphi))
     }
@@ -237,29 +197,6 @@ impl RawRow {
             // The angles were checked when they were read: θr alone is beyond.
             Err(_) => measurement.beyond_horizon.push(BeyondHorizon { theta_i, theta_r, dphi, dolp, brdf }),
         }
-    }
-}
-
-impl AngleSource {
-    fn degrees(self, record: &Record<'_>, expected: Expected) -> Result<f64, ReadError> {
-        let degrees = match self {
-            Self::Column { column, unit: Unit::Radians } => record.number(column, expected)?.to_degrees(),
-            Self::Column { column, .. } => record.number(column, expected)?,
-            Self::Constant(degrees) => degrees,
-        };
-        if degrees.is_finite() { Ok(degrees) } else { Err(self.out_of_range(record, expected)) }
-    }
-
-    /// An error at the cell of the angle; a constant has no place in the file.
-    fn error(self, record: &Record<'_>, kind: impl FnOnce(String) -> ReadErrorKind) -> ReadError {
-        match self {
-            Self::Column { column, .. } => record.error(column, kind(record.text(column))),
-            Self::Constant(degrees) => kind(degrees.to_string()).anywhere(),
-        }
-    }
-
-    fn out_of_range(self, record: &Record<'_>, expected: Expected) -> ReadError {
-        self.error(record, |found| ReadErrorKind::OutOfRange { found, expected })
     }
 }
 
@@ -294,15 +231,4 @@ impl QuantitySource {
         let sigma = sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0);
         Ok(Some(Quantity { value: value / self.per_unit, sigma }))
     }
-}
-
-/// Index and unit of the column of a field in a table.
-pub(crate) fn place(mapping: &Mapping, field: Field, table: &Table) -> Result<Option<(usize, Unit)>, ReadError> {
-    let Some(MappedColumn { column, unit, .. }) = mapping.find(field) else { return Ok(None) };
-    let index = match column {
-        ColumnChoice::Name(name) => table.find(name)?,
-        ColumnChoice::Number(number) => number.checked_sub(1).filter(|&index| index < table.header().len()),
-    };
-    let unknown = || table.header_error(ReadErrorKind::UnknownColumn { field, found: column.clone(), names: table.titles() });
-    Ok(Some((index.ok_or_else(unknown)?, *unit)))
 }

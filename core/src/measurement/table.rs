@@ -5,7 +5,7 @@
 //! mark, CRLF, and any encoding inside comments are accepted. A quoted cell ends on its own line.
 
 use crate::measurement::note::LineList;
-use crate::measurement::{ColumnPlace, Expected, Progress, ReadError, ReadErrorKind, is_not_measured};
+use crate::measurement::{ColumnPlace, Expected, Progress, ReadError, ReadErrorKind, is_not_measured, quote};
 use std::cell::RefCell;
 use std::io::Read;
 
@@ -15,8 +15,6 @@ pub struct Table {
     delimiter: u8,
     header: Vec<String>,
     header_line: u64,
-    has_header: bool,
-    is_foreign: bool,
     metadata: Vec<(String, String)>,
     /// The first cell of each column with a decimal point or comma, where both may be decimal marks.
     decimal_marks: RefCell<Vec<Option<(u64, String)>>>,
@@ -41,19 +39,10 @@ impl Table {
     /// # Errors
     /// The source fails, is empty or no text, or has numbers in place of a header.
     pub fn new(source: impl Read) -> Result<Self, ReadError> {
-        Self::scanned(source, false)?.with_header()
+        Self::scanned(source)?.with_header()
     }
 
-    /// Reads a table of another laboratory: where the first row is mostly numbers, all rows are
-    /// data and no column has a name; comments are metadata under the key `comment`.
-    ///
-    /// # Errors
-    /// The source fails, is empty or no text.
-    pub fn foreign(source: impl Read) -> Result<Self, ReadError> {
-        Self::scanned(source, true)?.with_header()
-    }
-
-    fn scanned(mut source: impl Read, is_foreign: bool) -> Result<Self, ReadError> {
+    fn scanned(mut source: impl Read) -> Result<Self, ReadError> {
         let mut bytes = Vec::new();
         source.read_to_end(&mut bytes).map_err(|error| ReadErrorKind::Io(error).anywhere())?;
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
@@ -66,16 +55,8 @@ impl Table {
             // A lone carriage return ended the lines of old Macs.
             bytes.iter_mut().filter(|byte| **byte == b'\r').for_each(|byte| *byte = b'\n');
         }
-        let mut table = Self {
-            delimiter: b',',
-            header: Vec::new(),
-            header_line: 0,
-            has_header: true,
-            is_foreign,
-            metadata: Vec::new(),
-            decimal_marks: RefCell::default(),
-            bytes,
-        };
+        let mut table =
+            Self { delimiter: b',', header: Vec::new(), header_line: 0, metadata: Vec::new(), decimal_marks: RefCell::default(), bytes };
         table.scan()?;
         Ok(table)
     }
@@ -83,14 +64,14 @@ impl Table {
     /// Walks the lines once for metadata and the delimiter, and for faults that would mislead a CSV
     /// parser.
     fn scan(&mut self) -> Result<(), ReadError> {
-        let Self { bytes, delimiter, metadata, is_foreign, .. } = self;
+        let Self { bytes, delimiter, metadata, .. } = self;
         let mut header_seen = false;
         for (number, line) in (1..).zip(bytes.split_mut(|&byte| byte == b'\n')) {
             let indent = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
             let is_comment = line.get(indent) == Some(&b'#');
             if is_comment {
                 line[..indent].fill(b'#');
-                metadata.extend(if *is_foreign { remark_of(line) } else { metadata_of(line) });
+                metadata.extend(metadata_of(line));
             } else if indent == line.len() {
                 // White space alone is an empty line.
                 line.fill(b'\r');
@@ -133,31 +114,20 @@ impl Table {
         let header: Vec<String> = record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect();
         self.header_line = self.line_of(&record);
         let numbers = header.iter().filter(|cell| cell.replace(',', ".").parse::<f64>().is_ok()).count();
-        if self.is_foreign {
-            self.has_header = 2 * numbers <= header.len();
-        } else if 2 * numbers >= header.len() {
+        // The header of a spectral table may hold wavelengths behind its names.
+        let is_first = header.first().is_some_and(|cell| cell.replace(',', ".").parse::<f64>().is_ok());
+        if is_first && 2 * numbers >= header.len() {
             let found = header.into_iter().next().unwrap_or_default();
             return Err(ReadErrorKind::NoHeader { found }.at_line(self.header_line));
         }
-        self.header = if self.has_header { header } else { vec![String::new(); header.len()] };
+        self.header = header;
         Ok(self)
     }
 
-    /// Names of the columns; empty ones where the table has no header.
+    /// Names of the columns.
     #[must_use]
     pub fn header(&self) -> &[String] {
         &self.header
-    }
-
-    /// The name of a column in a message; its number where the table has no header.
-    pub(crate) fn title(&self, index: usize) -> String {
-        if self.has_header { self.header[index].clone() } else { (index + 1).to_string() }
-    }
-
-    /// The names of all columns in a message; their numbers where the table has no header.
-    #[must_use]
-    pub fn titles(&self) -> Vec<String> {
-        (0..self.header.len()).map(|index| self.title(index)).collect()
     }
 
     /// `# key: value` lines, in their order.
@@ -199,7 +169,7 @@ impl Table {
     }
 
     fn column(&self, index: usize) -> ColumnPlace {
-        ColumnPlace { number: index + 1, name: self.header[index].clone() }
+        ColumnPlace { number: index + 1, name: quote(&self.header[index]) }
     }
 
     /// Line of a record from 1. The position of the CSV reader is where it began to look: before
@@ -226,9 +196,7 @@ impl Table {
         let mut blank = LineList::default();
         let mut reader = self.csv_reader();
         let mut cells = csv::ByteRecord::new();
-        if self.has_header {
-            read_record(&mut reader, &mut cells)?;
-        }
+        read_record(&mut reader, &mut cells)?;
         let mut rows = 0_u64;
         while read_record(&mut reader, &mut cells)? {
             let line = self.line_of(&cells);
@@ -273,20 +241,6 @@ fn metadata_of(line: &[u8]) -> Option<(String, String)> {
     (!key.is_empty()).then(|| (key.to_owned(), value.trim().to_owned()))
 }
 
-/// Key and value of a comment line of another laboratory: a line without a key, or whose colon
-/// belongs to a time of day, is a `comment`.
-fn remark_of(line: &[u8]) -> Option<(String, String)> {
-    let text = String::from_utf8_lossy(line);
-    let text = text.trim_start_matches('#').trim();
-    let is_time = text.split_once(':').is_some_and(|(before, after)| {
-        before.contains(char::is_whitespace)
-            && before.ends_with(|last: char| last.is_ascii_digit())
-            && after.starts_with(|first: char| first.is_ascii_digit())
-    });
-    let comment = || text.contains(char::is_alphanumeric).then(|| ("comment".to_owned(), text.to_owned()));
-    if is_time { comment() } else { metadata_of(line).or_else(comment) }
-}
-
 impl Record<'_> {
     /// Line of the file, from 1.
     #[must_use]
@@ -327,7 +281,7 @@ impl Record<'_> {
     /// An error at a cell whose number is not allowed.
     #[must_use]
     pub fn out_of_range(&self, column: usize, expected: Expected) -> ReadError {
-        self.error(column, ReadErrorKind::OutOfRange { found: self.text(column), expected })
+        self.error(column, ReadErrorKind::OutOfRange { found: quote(&self.text(column)), expected })
     }
 
     /// A cell as a finite number.
@@ -341,7 +295,7 @@ impl Record<'_> {
         }
         self.check_decimal_mark(column)?;
         let number =
-            self.parse(cell).ok_or_else(|| self.error(column, ReadErrorKind::NotANumber { found: self.text(column), expected }))?;
+            self.parse(cell).ok_or_else(|| self.error(column, ReadErrorKind::NotANumber { found: quote(&self.text(column)), expected }))?;
         if number.is_finite() { Ok(number) } else { Err(self.out_of_range(column, expected)) }
     }
 
@@ -357,7 +311,7 @@ impl Record<'_> {
         match &marks[column] {
             None => marks[column] = Some((self.line, self.text(column))),
             Some((line, other)) if mark_in(other.as_bytes()) != Some(mark) => {
-                let kind = ReadErrorKind::TwoDecimalMarks { found: self.text(column), other: other.clone(), other_line: *line };
+                let kind = ReadErrorKind::TwoDecimalMarks { found: quote(&self.text(column)), other: quote(other), other_line: *line };
                 return Err(self.error(column, kind));
             }
             Some(_) => {}

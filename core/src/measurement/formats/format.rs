@@ -26,6 +26,19 @@ pub trait Format: Sync {
     fn open(&self, bytes: Vec<u8>, progress: Progress<'_>) -> Result<Box<dyn ForeignFile>, ImportError>;
 }
 
+impl Imported {
+    /// One measurement.
+    pub(crate) fn one(measurement: Measurement, notes: Vec<ImportNote>) -> Self {
+        Self { measurements: vec![measurement], notes }
+    }
+
+    /// Number of rows of all measurements.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.measurements.iter().map(|measurement| measurement.rows.len()).sum()
+    }
+}
+
 /// A foreign file in memory.
 pub trait ForeignFile: Send + Sync {
     /// What the import makes of the file, in one sentence; empty where the questions say it.
@@ -60,11 +73,11 @@ pub trait ForeignFile: Send + Sync {
     }
 }
 
-/// A measurement and the notices of its import.
+/// The measurements of a file and the notices of its import.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Imported {
-    /// The measurement.
-    pub measurement: Measurement,
+    /// The measurements, in the order of the file.
+    pub measurements: Vec<Measurement>,
     /// The notices.
     pub notes: Vec<ImportNote>,
 }

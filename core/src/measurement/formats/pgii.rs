@@ -204,7 +204,7 @@ impl ForeignFile for Scan {
         if self.measurement.rows.is_empty() {
             return Err(ImportError::NoValue { notes: Vec::new() });
         }
-        Ok(Imported { measurement: self.measurement.clone(), notes: Vec::new() })
+        Ok(Imported::one(self.measurement.clone(), Vec::new()))
     }
 }
 
@@ -224,7 +224,7 @@ mod tests {
 
     /// θi, θr, Δφ and BRDF of the rows.
     fn rows(text: &str) -> Vec<[f64; 4]> {
-        let rows = import(text).expect(text).measurement.rows;
+        let rows = import(text).expect(text).measurements.swap_remove(0).rows;
         let angles = |row: &crate::measurement::Row| (row.geometry.theta_i().0, row.geometry.theta_r().0, row.geometry.dphi().0);
         rows.iter().map(|row| (angles(row), row.brdf.expect("a BRDF").value)).map(|((i, r, dphi), brdf)| [i, r, dphi, brdf]).collect()
     }
@@ -234,7 +234,7 @@ mod tests {
         let head = "#sample \"plate C\"\n#wavelength 650 nm\n#incident_angle 40 180\n#intensity BRDF [1/sr], not multiplied by cos(theta)\n#theta phi value\n";
         let text = format!("{head}40.00\t0.00\t6.4e-01\n40.00\t180.00\t1.3e-01\n20 90 0.2\n");
         assert_eq!(rows(&text), [[40.0, 40.0, 180.0, 0.64], [40.0, 40.0, 0.0, 0.13], [40.0, 20.0, 270.0, 0.2]]);
-        let measurement = import(&text).expect("a good file").measurement;
+        let measurement = import(&text).expect("a good file").measurements.swap_remove(0);
         assert_eq!((measurement.metadata("sample"), measurement.metadata("wavelength_nm")), (Some("plate C"), Some("650")));
         assert_eq!(measurement.lines, [6, 7, 8]);
     }

@@ -1,6 +1,7 @@
 //! What a foreign file has to be told before it is a measurement, and the answers.
 
-use crate::measurement::{Mapping, ReadError};
+use crate::measurement::Mapping;
+use crate::measurement::foreign::{ShownRow, TableGuess, TableOptions};
 use std::sync::Arc;
 
 /// A question of a foreign file.
@@ -24,10 +25,12 @@ pub struct TableSample {
     pub header: Vec<String>,
     /// The first rows, cell by cell.
     pub rows: Vec<Vec<String>>,
-    /// What the names suggest.
+    /// The first rows of the file, with what each is.
+    pub shown: Vec<ShownRow>,
+    /// What the names suggest, of columns that hold one thing each.
     pub guess: Mapping,
-    /// Why the table is none of this project's own.
-    pub reason: ReadError,
+    /// What the whole table is taken for.
+    pub table: TableGuess,
 }
 
 /// The answers. What a file does not ask for is not used.
@@ -41,8 +44,10 @@ pub struct ImportOptions {
     pub theta_r: Vec<f64>,
     /// Relative azimuth in degrees; 180 without.
     pub dphi: Option<f64>,
-    /// The columns of a table.
+    /// The columns of a table; those of the guess are left to it.
     pub columns: Mapping,
+    /// What else a table is told.
+    pub table: TableOptions,
 }
 
 /// The wavelength in nm that is offered first: red, as of most lasers.

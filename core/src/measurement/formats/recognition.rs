@@ -6,13 +6,14 @@ use super::pbsdf::Pbsdf;
 use super::pgii::PabPgii;
 use super::table::ForeignTable;
 use super::woollam::Woollam;
-use crate::measurement::{Measurement, Progress};
+use crate::measurement::foreign::{OtherFormat, is_workbook};
+use crate::measurement::{Measurement, Progress, ReadError, ReadErrorKind};
 
 /// The forms that are recognised by content, in the order in which they are tried.
 pub static FORMATS: &[&dyn Format] = &[&Woollam, &Pbsdf, &PabPgii];
 
 /// Usual endings of the names of files of this project and of tables.
-const TABLE_EXTENSIONS: [&str; 3] = ["csv", "tsv", "txt"];
+const TABLE_EXTENSIONS: [&str; 6] = ["csv", "tsv", "txt", "xlsx", "xls", "ods"];
 
 /// The form of a file, where its content tells.
 #[must_use]
@@ -34,8 +35,8 @@ pub fn extensions() -> Vec<&'static str> {
 
 /// What a file holds.
 pub enum Opened {
-    /// A measurement in this project's own form.
-    Measurement(Measurement),
+    /// Measurements in this project's own form.
+    Measurements(Vec<Measurement>),
     /// A file that has questions, or none.
     Foreign(Box<dyn ForeignFile>),
 }
@@ -48,9 +49,19 @@ pub fn open(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Opened, ImportErro
     if let Some(format) = recognise(&bytes) {
         return format.open(bytes, progress).map(Opened::Foreign);
     }
-    match Measurement::read_with(&bytes[..], progress) {
-        Ok(measurement) => Ok(Opened::Measurement(measurement)),
-        Err(error) if error.is_about_names() => Ok(Opened::Foreign(Box::new(ForeignTable::new(bytes, error)?))),
-        Err(error) => Err(error.into()),
+    if is_workbook(&bytes) {
+        return Ok(Opened::Foreign(Box::new(ForeignTable::new(bytes, progress)?)));
+    }
+    match Measurement::read_sets(&bytes[..], progress) {
+        Ok(measurements) => Ok(Opened::Measurements(measurements)),
+        Err(error) if error.may_be_foreign() && OtherFormat::of(&bytes).is_none() => {
+            match ForeignTable::new(bytes, progress) {
+                Ok(table) => Ok(Opened::Foreign(Box::new(table))),
+                // No table at all: the reason is what the file lacks.
+                Err(ImportError::Read(ReadError { kind: ReadErrorKind::NoNumbers | ReadErrorKind::EmptyText, .. })) => Err(error.into()),
+                Err(foreign) => Err(foreign),
+            }
+        }
+        Err(error) => Err(OtherFormat::of(&bytes).map_or(error.into(), ImportError::OtherFormat)),
     }
 }

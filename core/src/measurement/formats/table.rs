@@ -1,53 +1,69 @@
-//! Tables of other laboratories, read by a mapping of their columns.
+//! Tables of other laboratories: by the guess of their columns, or by a mapping.
 
 use super::error::ImportError;
 use super::format::{ForeignFile, Imported};
 use super::question::{ImportOptions, Question, TableSample};
-use crate::measurement::rows::{RowReader, place};
-use crate::measurement::{Expected, Field, Mapping, Measurement, Progress, ReadError, ReadErrorKind, Table, unwatched};
-use std::io::Read;
+use crate::measurement::foreign::{LabTable, RowKind, TableGuess, TableOptions};
+use crate::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Progress, unwatched};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Rows of a sample.
 const SAMPLE_ROWS: usize = 5;
-/// Bytes of a table that a preview reads.
-const HEAD_BYTES: usize = 1 << 16;
+/// Rows of the file that a dialog shows.
+const SHOWN_ROWS: usize = 60;
+/// Rows of data that a preview reads.
+const PREVIEW_ROWS: usize = 200;
 
 /// A table whose columns have foreign names, or none.
 pub(crate) struct ForeignTable {
     bytes: Vec<u8>,
+    table: LabTable,
     sample: Arc<TableSample>,
 }
 
 impl ForeignTable {
-    /// A table that is none of this project's own for that reason.
+    /// A table of another laboratory.
     ///
     /// # Errors
-    /// The reason itself, where the table has no two columns of numbers, or has this project's own
-    /// names alone and no quantity among them; or the beginning cannot be read.
-    pub(crate) fn new(bytes: Vec<u8>, reason: ReadError) -> Result<Self, ReadError> {
-        let table = Table::foreign(head(&bytes))?;
-        let header = table.header().to_vec();
-        let (mut rows, mut is_numeric) = (Vec::new(), vec![false; header.len()]);
-        // The import itself reports the faults of rows.
-        let _ = table.for_each(&mut unwatched, |record| {
-            if rows.len() < SAMPLE_ROWS {
-                rows.push((0..header.len()).map(|column| record.text(column)).collect());
-                for (column, is_numeric) in is_numeric.iter_mut().enumerate() {
-                    *is_numeric |= record.number(column, Expected::FiniteNumber).is_ok();
-                }
-            }
-            Ok(())
-        });
-        let has_own_names = header.iter().all(|name| Field::from_key(name).is_some());
-        let lacks_quantity = has_own_names && matches!(reason.kind, ReadErrorKind::NoQuantity { .. });
-        let is_table = header.len() > 2 || is_numeric.iter().filter(|is_numeric| **is_numeric).count() >= 2;
-        if lacks_quantity || !is_table {
-            return Err(reason);
-        }
-        let guess = Mapping::guess(&header, table.metadata());
-        Ok(Self { sample: Arc::new(TableSample { header, rows, guess, reason }), bytes })
+    /// The file is no table with two columns of numbers, or `progress` stops the reading.
+    pub(crate) fn new(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Self, ImportError> {
+        let table = LabTable::open(bytes.clone(), &TableOptions::default(), progress)?;
+        let guess = table.guess(&TableOptions::default())?;
+        let header: Vec<String> = guess.columns[0].iter().map(|column| column.name.clone()).collect();
+        let shown = table.first_rows(SHOWN_ROWS);
+        let rows: Vec<Vec<String>> =
+            shown.iter().filter(|row| row.kind == RowKind::Data).take(SAMPLE_ROWS).map(|row| row.cells.clone()).collect();
+        let mapping = mapping_of(&guess);
+        let sample = TableSample { header, rows, shown, guess: mapping, table: guess };
+        Ok(Self { bytes, sample: Arc::new(sample), table })
     }
+
+    /// The table, read anew where another sheet or a thousands separator is asked for.
+    fn table(&self, options: &TableOptions, progress: Progress<'_>) -> Result<Cow<'_, LabTable>, ImportError> {
+        if options.sheet.is_none() && options.thousands.is_none() {
+            return Ok(Cow::Borrowed(&self.table));
+        }
+        LabTable::open(self.bytes.clone(), options, progress).map(Cow::Owned)
+    }
+
+    /// The options of the table: the columns of the guess are left to it.
+    fn options(&self, options: &ImportOptions) -> TableOptions {
+        let columns = Some(&options.columns).filter(|columns| **columns != self.sample.guess && !columns.columns.is_empty());
+        TableOptions { columns: columns.cloned(), theta_i: options.columns.theta_i, dphi: options.columns.dphi, ..options.table.clone() }
+    }
+}
+
+/// The columns of the first block that hold one thing each.
+fn mapping_of(guess: &TableGuess) -> Mapping {
+    let mut mapping = Mapping { theta_i: guess.theta_i, ..Mapping::default() };
+    for field in Field::all() {
+        let mut columns = guess.columns[0].iter().enumerate().filter(|(_, column)| column.field == Some(field));
+        if let (Some((index, column)), None) = (columns.next(), columns.next()) {
+            mapping.columns.push(MappedColumn { field, column: ColumnChoice::Number(index + 1), unit: column.unit });
+        }
+    }
+    mapping
 }
 
 impl ForeignFile for ForeignTable {
@@ -60,27 +76,18 @@ impl ForeignFile for ForeignTable {
     }
 
     fn import(&self, options: &ImportOptions, progress: Progress<'_>) -> Result<Imported, ImportError> {
-        let measurement = options.columns.read_table(&self.bytes[..], progress)?;
-        Ok(Imported { measurement, notes: Vec::new() })
+        let options = self.options(options);
+        self.table(&options, progress)?.read(&options, progress)
     }
 
     fn preview(&self, options: &ImportOptions) -> Result<Imported, ImportError> {
-        let measurement = options.columns.read_table(head(&self.bytes), &mut unwatched)?;
-        Ok(Imported { measurement, notes: Vec::new() })
+        let options = self.options(options);
+        self.table(&options, &mut unwatched)?.preview(&options, PREVIEW_ROWS)
     }
 
     fn preview_is_whole(&self) -> bool {
-        self.bytes.len() <= HEAD_BYTES
+        self.table.data_rows() <= PREVIEW_ROWS
     }
-}
-
-/// The first lines, whole ones.
-fn head(bytes: &[u8]) -> &[u8] {
-    if bytes.len() <= HEAD_BYTES {
-        return bytes;
-    }
-    let end = bytes[..HEAD_BYTES].iter().rposition(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(HEAD_BYTES);
-    &bytes[..end]
 }
 
 impl Mapping {
@@ -90,15 +97,8 @@ impl Mapping {
     /// # Errors
     /// The mapping does not fit the header; else the first fault of the file, or a stop by
     /// `progress`.
-    pub fn read_table(&self, source: impl Read, progress: Progress<'_>) -> Result<Measurement, ReadError> {
-        let table = Table::foreign(source)?;
-        let rows = RowReader::mapped(&table, self)?;
-        let mut used = Vec::new();
-        for field in Field::ALL {
-            used.extend(place(self, field, &table)?.map(|(index, _)| index));
-        }
-        let others = (0..table.header().len()).filter(|index| !used.contains(index));
-        let ignored_columns: Vec<String> = others.map(|index| table.title(index)).collect();
-        rows.read(&table, &ignored_columns, false, progress).map(|mut all| all.swap_remove(0))
+    pub fn read_table(&self, bytes: &[u8], progress: Progress<'_>) -> Result<Imported, ImportError> {
+        let options = TableOptions { columns: Some(self.clone()), ..TableOptions::default() };
+        LabTable::open(bytes.to_vec(), &options, progress)?.read(&options, progress)
     }
 }

@@ -236,6 +236,6 @@ impl ForeignFile for Ellipsometry {
         let SpecularDolp { measurement, wavelengths_nm, left_out } = self.specular_dolp(options.wavelength_nm)?;
         let nearest = ImportNote::nearest(options.wavelength_nm, &wavelengths_nm);
         let left_out = left_out.into_iter().map(|theta_i| ImportNote::NoWavelengthNear { theta_i });
-        Ok(Imported { measurement, notes: nearest.into_iter().chain(left_out).collect() })
+        Ok(Imported::one(measurement, nearest.into_iter().chain(left_out).collect()))
     }
 }

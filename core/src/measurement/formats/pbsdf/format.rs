@@ -58,6 +58,6 @@ impl ForeignFile for Tensor {
         if beyond_one > 0 {
             notes.push(ImportNote::DolpAboveOne { count: beyond_one });
         }
-        if measurement.rows.is_empty() { Err(ImportError::NoValue { notes }) } else { Ok(Imported { measurement, notes }) }
+        if measurement.rows.is_empty() { Err(ImportError::NoValue { notes }) } else { Ok(Imported::one(measurement, notes)) }
     }
 }

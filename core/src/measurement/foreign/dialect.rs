@@ -1,0 +1,174 @@
+//! How the cells of a text are separated and its numbers written, by scored alternatives.
+
+use super::grid::{Grid, split};
+use super::number::Cell;
+use crate::measurement::ReadError;
+
+/// What stands between the cells of a workbook: ASCII's unit separator.
+pub(crate) const UNIT_SEPARATOR: char = '\u{1f}';
+
+/// What separates cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Separator {
+    /// A character.
+    Character(char),
+    /// White space of that many characters or more, or a tab.
+    Blanks {
+        /// How many.
+        least: usize,
+    },
+}
+
+/// The decimal mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decimal {
+    /// 0.5
+    Point,
+    /// 0,5
+    Comma,
+}
+
+/// How cells are separated and numbers written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dialect {
+    /// What separates cells.
+    pub separator: Separator,
+    /// The decimal mark, one for the whole file.
+    pub decimal: Decimal,
+    /// What separates thousands, where the user says so.
+    pub thousands: Option<char>,
+}
+
+/// As the guess is told: `semicolons, decimal comma`.
+impl std::fmt::Display for Dialect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self.separator {
+            Separator::Character(';') => "semicolons",
+            Separator::Character('\t') => "tabs",
+            Separator::Character(',') => "commas",
+            Separator::Character('|') => "bars",
+            Separator::Character(_) => "cells of a workbook",
+            Separator::Blanks { least: 1 } => "blanks",
+            Separator::Blanks { .. } => "two blanks or more",
+        })?;
+        f.write_str(if self.decimal == Decimal::Comma { ", decimal comma" } else { ", decimal point" })
+    }
+}
+
+/// The separators that are tried; the first of equal ones wins.
+const SEPARATORS: [Separator; 6] = [
+    Separator::Character('\t'),
+    Separator::Character(';'),
+    Separator::Character(','),
+    Separator::Character('|'),
+    Separator::Blanks { least: 2 },
+    Separator::Blanks { least: 1 },
+];
+
+/// Lines that are looked at: so many from the beginning, and as many spread over the rest.
+const SAMPLE: usize = 400;
+
+/// The dialect in which most lines are rows of numbers of one length.
+pub(crate) fn guess(text: &str, thousands: Option<char>) -> Dialect {
+    if let Some(separator) = stated_separator(text) {
+        let decimals = [Decimal::Point, Decimal::Comma].map(|decimal| Dialect { separator, decimal, thousands });
+        return best(text, &decimals);
+    }
+    let mut all = Vec::new();
+    for separator in SEPARATORS {
+        // A comma can't be both.
+        let decimals: &[Decimal] =
+            if separator == Separator::Character(',') { &[Decimal::Point] } else { &[Decimal::Point, Decimal::Comma] };
+        all.extend(decimals.iter().map(|&decimal| Dialect { separator, decimal, thousands }));
+    }
+    best(text, &all)
+}
+
+/// The separator that a first line `sep=;` states.
+fn stated_separator(text: &str) -> Option<Separator> {
+    let mut letters = text.lines().next()?.trim_matches('"').strip_prefix("sep=")?.chars();
+    letters.next().map(Separator::Character)
+}
+
+fn best(text: &str, dialects: &[Dialect]) -> Dialect {
+    let lines = sample(text);
+    let mut best = (f64::NEG_INFINITY, dialects[0]);
+    for &dialect in dialects {
+        let score = score(&lines, dialect);
+        if score > best.0 {
+            best = (score, dialect);
+        }
+    }
+    best.1
+}
+
+/// The first lines, and lines spread over the rest.
+fn sample(text: &str) -> Vec<&str> {
+    let mut lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).take(SAMPLE).collect();
+    if lines.len() == SAMPLE {
+        let step = text.len() / SAMPLE;
+        for start in (1..SAMPLE).map(|part| part * step) {
+            let start = (start..text.len()).find(|&start| text.is_char_boundary(start)).unwrap_or(text.len());
+            lines.extend(text[start..].lines().nth(1).filter(|line| !line.trim().is_empty()));
+        }
+    }
+    lines
+}
+
+/// Numbers in rows of the most frequent length; a cell that is text in such a row counts against.
+fn score(lines: &[&str], dialect: Dialect) -> f64 {
+    let mut lengths: Vec<(usize, f64)> = Vec::new();
+    let mut cells = Vec::new();
+    for line in lines {
+        if line.len() > 1 << 16 {
+            continue;
+        }
+        cells.clear();
+        split(line, dialect.separator, &mut cells);
+        let numbers = cells.iter().filter(|cell| Cell::new(cell, dialect).is_number()).count();
+        let texts = cells.iter().filter(|cell| matches!(Cell::new(cell, dialect), Cell::Text(_))).count();
+        if numbers < 2 || texts > numbers {
+            continue;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "numbers of cells")]
+        let worth = numbers as f64 - 0.5 * texts as f64;
+        match lengths.iter_mut().find(|(length, _)| *length == cells.len()) {
+            Some((_, sum)) => *sum += worth,
+            None => lengths.push((cells.len(), worth)),
+        }
+    }
+    // Rows of other lengths count a little: blocks may have several.
+    let all: f64 = lengths.iter().map(|(_, worth)| worth).sum();
+    lengths.iter().map(|(_, worth)| *worth).fold(0.0, f64::max) + 0.1 * all
+}
+
+/// Splits a text into cells.
+///
+/// # Errors
+/// A cell is longer than any of a measurement.
+pub(crate) fn cells_of(text: String, thousands: Option<char>) -> Result<Grid, ReadError> {
+    let dialect = guess(&text, thousands);
+    Grid::new(text, dialect)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::guess;
+
+    #[test]
+    fn the_notation_with_most_numbers_wins() {
+        for (text, expected) in [
+            ("a;b;c\n30;20;0,0369\n30;25;0,0491\n", "semicolons, decimal comma"),
+            ("a,b,c\n30,20,0.0369\n30,25,0.0491\n", "commas, decimal point"),
+            ("a b c\n30 20 0,0369\n", "blanks, decimal comma"),
+            ("a\tb\n30\t0.5\n", "tabs, decimal point"),
+            ("view angle   DoLP x\n30.5   0.1\n", "two blanks or more, decimal point"),
+            ("sep=;\na;b\n1,5;2,5\n", "semicolons, decimal comma"),
+            ("| a | b |\n|---|---|\n| 1 | 2.5 |\n", "bars, decimal point"),
+            ("a,b,\"x; y\"\n30,20,\"p; q\"\n", "commas, decimal point"),
+            ("theta_i;theta_r;brdf\n30;20;87,3\n30;28;532,5\n30;30;1.234\n30;32;540,1\n", "semicolons, decimal comma"),
+        ] {
+            assert_eq!(guess(text, None).to_string(), expected, "{text}");
+        }
+    }
+}

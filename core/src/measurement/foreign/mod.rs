@@ -1,0 +1,40 @@
+//! Foreign tables, read in stages: bytes → text → cells → regions → columns → rows → measurements.
+//!
+//! Each stage is a value that keeps the places of its cells, so that every message has a line and a
+//! column. Alternatives are scored: a clear winner is taken, a tie is a [`Doubt`].
+
+mod assembly;
+mod dialect;
+mod doubt;
+mod encoding;
+mod grid;
+mod heading;
+mod layout;
+mod number;
+mod options;
+mod other_format;
+mod plan;
+mod row_reader;
+mod table;
+mod title;
+mod vocabulary;
+#[cfg(feature = "workbooks")]
+mod workbook;
+
+use super::Field;
+
+/// The field that the name of a column means, in any laboratory.
+pub(crate) fn field_of(name: &str) -> Option<Field> {
+    match heading::Heading::new(name).meaning {
+        heading::Meaning::Field(field) => Some(field),
+        _ => None,
+    }
+}
+
+pub use dialect::{Decimal, Dialect, Separator};
+pub use doubt::Doubt;
+pub use layout::RowKind;
+pub use options::TableOptions;
+pub use other_format::OtherFormat;
+pub use plan::PlannedColumn;
+pub use table::{LabTable, ShownRow, TableGuess, is_workbook};
