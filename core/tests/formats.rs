@@ -33,14 +33,14 @@ fn a_form_is_recognised_by_its_content_alone() {
         assert_eq!(recognise(&bytes).map(pbrdf::measurement::formats::Format::name), name);
         assert!(FORMATS.iter().filter(|format| format.sniff(&bytes)).count() <= 1);
     }
-    assert_eq!(extensions()[..5], ["csv", "tsv", "txt", "dat", "pbsdf"]);
+    assert_eq!(extensions()[..8], ["csv", "tsv", "txt", "xlsx", "xls", "ods", "dat", "pbsdf"]);
 }
 
 #[test]
 fn a_file_asks_its_questions_and_the_offered_answers_import_it() {
     let opened = |bytes: &[u8]| match open(bytes.to_vec(), &mut unwatched).expect("a good file") {
         Opened::Foreign(file) => file,
-        Opened::Measurement(_) => panic!("a foreign file"),
+        Opened::Measurements(_) => panic!("a foreign file"),
     };
     let file = opened(WOOLLAM.as_bytes());
     assert!(matches!(&file.questions()[..], [Question::Wavelength { available_nm }] if available_nm == &[600.0, 640.0]));
@@ -90,7 +90,7 @@ fn files_of_one_wavelength_and_this_projects_own_ask_nothing() {
     assert!(matches!(one, Opened::Foreign(file) if file.questions().is_empty()
         && file.import(&ImportOptions::default(), &mut unwatched).is_ok_and(|imported| imported.rows() == 1)));
     let own = open(b"theta_i,theta_r,dolp\n30,20,0.1\n".to_vec(), &mut unwatched).expect("a good file");
-    assert!(matches!(own, Opened::Measurement(measurement) if measurement.rows.len() == 1));
+    assert!(matches!(own, Opened::Measurements(all) if all.len() == 1 && all[0].rows.len() == 1));
 }
 
 #[test]

@@ -16,7 +16,7 @@ mod damage;
 use damage::{fuzz, texts};
 use pbrdf::measurement::formats::{ImportOptions, Opened, open};
 use pbrdf::measurement::{
-    Ellipsometry, Mapping, Measurement, Table, Tensor, TensorGrid, TensorResolution, grid_geometries, is_woollam, unwatched, write_tensor,
+    Ellipsometry, Mapping, Measurement, Tensor, TensorGrid, TensorResolution, grid_geometries, is_woollam, unwatched, write_tensor,
 };
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::{SlopeDistribution, metals, read_metals};

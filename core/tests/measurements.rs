@@ -1,7 +1,7 @@
 //! Reading and writing measurements: what is accepted is read right, what is refused says where and why.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::measurement::formats::ImportError;
+use pbrdf::measurement::formats::{ImportError, Imported};
 use pbrdf::measurement::{ImportNote, LineList, Mapping, Measurement, ReadError, append_columns, shortest, unwatched, write_measurements};
 use std::ops::ControlFlow;
 
@@ -301,9 +301,9 @@ fn an_angle_that_no_column_holds_is_a_constant() {
     let in_plane = at(Some(45.0), None).expect("a good table").rows;
     assert_eq!(in_plane[0].geometry.dphi().0, 180.0);
     for (theta_i, dphi, reason) in [
-        (None, None, "no column is named for theta_i"),
-        (Some(90.0), None, "found 90, expected"),
-        (Some(45.0), Some(f64::NAN), "found NaN"),
+        (None, None, "no angle of incidence was found"),
+        (Some(90.0), None, "theta_i = 90 is outside"),
+        (Some(45.0), Some(f64::NAN), "dphi = NaN"),
     ] {
         let error = at(theta_i, dphi).expect_err(reason).to_string();
         assert!(error.contains(reason), "{error}");
@@ -321,9 +321,12 @@ fn a_table_without_anything_measured_is_told_so_whatever_its_angles_are_called()
 #[test]
 fn a_mapped_table_may_be_without_a_header() {
     let mapping = Mapping::from_text("theta_i=2,theta_r=3,dolp=5").expect("a mapping");
-    let table = mapped("# steel\nsteel;30,5;20;7;0,1\nsteel;30,5;25;7;0,2\n", &mapping).expect("a good table");
+    let text = "# steel\nsteel;30,5;20;7;0,1\nsteel;30,5;25;7;0,2\n";
+    let Imported { measurements, notes } = mapping.read_table(text.as_bytes(), &mut unwatched).expect("a good table");
+    let table = &measurements[0];
     assert_eq!(table.rows, accepted("theta_i,theta_r,dolp\n30.5,20,0.1\n30.5,25,0.2\n").rows);
-    assert_eq!((table.lines, table.ignored_columns), (vec![2, 3], vec!["1".to_owned(), "4".to_owned()]));
+    let names = vec!["1".to_owned(), "4".to_owned()];
+    assert_eq!((table.lines.clone(), notes), (vec![2, 3], vec![ImportNote::IgnoredColumns { names }]));
     let error = mapped("30,20,0.1\n", &Mapping::from_text("theta_i=1,theta_r=2,dolp=4").expect("a mapping")).expect_err("no column 4");
     assert!(error.to_string().ends_with("no column number 4 for dolp; the columns are 1, 2, 3"), "{error}");
     // A number as a name leaves a header one.
@@ -335,7 +338,12 @@ fn a_mapped_table_may_be_without_a_header() {
 fn comments_of_a_mapped_table_are_kept_and_survive_writing() {
     let table = "# date 2024-05-01 12:30 operator JL, 633 nm HeNe\n# material: steel\n#\n# ----\nAOI,view,dolp\n30,20,0.1\n# lamp off\n";
     let measurement = mapped(table, &Mapping::from_text("theta_i=1,theta_r=2,dolp=3").expect("a mapping")).expect("a good table");
-    let expected = [("comment", "date 2024-05-01 12:30 operator JL, 633 nm HeNe"), ("material", "steel"), ("comment", "lamp off")];
+    let expected = [
+        ("comment", "date 2024-05-01 12:30 operator JL, 633 nm HeNe"),
+        ("material", "steel"),
+        ("comment", "lamp off"),
+        ("wavelength_nm", "633"),
+    ];
     assert_eq!(measurement.metadata, expected.map(|(key, value)| (key.to_owned(), value.to_owned())));
     let mut written = Vec::new();
     measurement.write(&mut written).expect("memory takes everything");
@@ -348,12 +356,13 @@ fn a_mapping_that_does_not_fit_its_table_is_refused_with_its_place() {
         ("theta_i=AOI,theta_r=2,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column \"AOI\" for theta_i; the columns are a, b, c"),
         ("theta_i=1,theta_r=0,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column number 0 for theta_r"),
         ("theta_i=1,theta_r=9,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column number 9 for theta_r"),
-        ("theta_i=1,dolp=3", "a,b,c\n1,2,0.3\n", "line 1", "no column is named for theta_r"),
-        ("theta_i=1,theta_r=2", "a,b,c\n1,2,0.3\n", "line 1", "no column is named for dolp or brdf"),
+        ("theta_i=1,dolp=3", "a,b,c\n1,2,0.3\n", "", "no angle of view was found"),
+        ("theta_i=1,theta_r=2", "a,b,c\n1,2,0.3\n", "", "no column for DoLP or BRDF was found"),
         ("theta_i=a,theta_r=2,dolp=3", "a,a,c\n1,2,0.3\n", "line 1, column 2 (a)", "only one is allowed"),
         ("theta_i=1,theta_r=2,dolp=3:percent", "a,b,c\n1,2,130\n", "line 2, column 3 (c)", "0 to 100 percent"),
         ("theta_i=1:radians,theta_r=2,dolp=3", "a,b,c\n1.6,2,0.3\n", "line 2, column 1 (a)", "found 1.6"),
         ("theta_i=1:radians,theta_r=2,dolp=3", "a,b,c\n1e308,2,0.3\n", "line 2, column 1 (a)", "found 1e308"),
+        ("theta_i=1,theta_r=2,dolp=3", "a,b,c\n1,2,3D-1\n", "line 2, column 3 (c)", "exponent of Fortran"),
     ] {
         let mapping = Mapping::from_text(mapping).expect("a mapping");
         let error = mapped(table, &mapping).expect_err(table).to_string();

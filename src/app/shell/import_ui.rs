@@ -148,6 +148,12 @@ fn field_text(field: Option<Field>) -> String {
         Some(Field::Brdf) => tr!("BRDF in 1/sr"),
         Some(Field::BrdfSigma) => tr!("standard deviation of BRDF"),
         Some(Field::Masked) => tr!("mask, 0 or 1"),
+        Some(Field::Set) => tr!("name of the measurement"),
+        Some(Field::Wavelength) => tr!("wavelength"),
+        Some(Field::PhiI) => tr!("φi, azimuth of incidence"),
+        Some(Field::PhiR) => tr!("φr, azimuth of view"),
+        Some(Field::Channel(channel)) => Field::Channel(channel).key().to_owned(),
+        Some(Field::ChannelSigma(channel)) => tr!("standard deviation of {}", Field::Channel(channel).key()),
     }
 }
 
@@ -155,7 +161,10 @@ fn unit_text(field: Field, unit: Unit) -> String {
     match (unit, field) {
         (Unit::Radians, _) => tr!("radians"),
         (Unit::Percent, _) => tr!("percent"),
-        (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi) => tr!("degrees"),
+        (Unit::Micrometers, _) => "µm".to_owned(),
+        (Unit::Angstroms, _) => "Å".to_owned(),
+        (Unit::Native, Field::Wavelength) => "nm".to_owned(),
+        (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi | Field::PhiI | Field::PhiR) => tr!("degrees"),
         (Unit::Native, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
         (Unit::Native, _) => String::new(),
     }
@@ -167,7 +176,7 @@ fn columns_ui(mapping: &mut Mapping, table: &TableSample, ui: &mut Ui) {
     let text = if angles && mapping.has_quantity() {
         tr!("The columns are taken as follows: change what is not so.")
     } else {
-        tr!("Which column is what? The header is not the program's own: {}.", table.reason.localized())
+        tr!("Which column is what? Not all that is needed was found in the header.")
     };
     // Both texts take the same height.
     let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body) + 4.0;
@@ -232,7 +241,7 @@ fn column_ui(mapping: &mut Mapping, table: &TableSample, index: usize, name: &st
     let before = place.map(|place| mapping.columns[place].field);
     let mut chosen = before;
     let combo = ComboBox::from_id_salt(("meaning", index)).width(190.0).height(320.0).selected_text(field_text(before)).show_ui(ui, |ui| {
-        for field in std::iter::once(None).chain(Field::ALL.map(Some)) {
+        for field in std::iter::once(None).chain(Field::all().map(Some)) {
             ui.selectable_value(&mut chosen, field, field_text(field));
         }
     });
@@ -273,14 +282,14 @@ fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
 }
 
 fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
-    let rows = &imported.measurement.rows;
-    ui.weak(if is_all { tr!("The first of {} rows as they will be:", rows.len()) } else { tr!("The first rows as they will be:") });
+    let rows = imported.measurements.iter().flat_map(|measurement| &measurement.rows);
+    ui.weak(if is_all { tr!("The first of {} rows as they will be:", imported.rows()) } else { tr!("The first rows as they will be:") });
     Grid::new("answer").num_columns(5).spacing([18.0, 2.0]).show(ui, |ui| {
         for heading in ["θi", "θr", "Δφ", "DoLP", "BRDF / (1/sr)"] {
             ui.strong(heading);
         }
         ui.end_row();
-        for row in rows.iter().take(SHOWN) {
+        for row in rows.take(SHOWN) {
             let geometry = row.geometry;
             for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
                 ui.monospace(format!("{}°", significant(angle)));

@@ -73,7 +73,7 @@ pub fn bytes_of(mut source: impl Read, length: Option<u64>, progress: Progress<'
 /// Reads the bytes of a file; a foreign file without questions is imported at once.
 pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Loaded, ImportError> {
     match formats::open(bytes, progress)? {
-        Opened::Measurement(measurement) => Ok(Loaded::Measurement(Box::new(Imported { measurement, notes: Vec::new() }))),
+        Opened::Measurements(measurements) => Ok(Loaded::Measurement(Box::new(Imported { measurements, notes: Vec::new() }))),
         Opened::Foreign(file) if file.questions().is_empty() => {
             file.import(&ImportOptions::default(), progress).map(|imported| Loaded::Measurement(Box::new(with_notes(&*file, imported))))
         }

@@ -23,6 +23,7 @@ use crate::files::open_file::{OpenError, open_file};
 use pbrdf::fit::{
     BoundsError, DesignError, DistributionComparison, ProblemError, StopReason, Undetermined, UndeterminedDirection, UndeterminedReason,
 };
+use pbrdf::measurement::foreign::{Doubt, OtherFormat};
 use pbrdf::measurement::formats::{
     ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape, TensorType,
 };
@@ -80,8 +81,9 @@ fn errors_of_tables_are_said_in_chinese() {
             E::NoPsi,
             E::UnknownColumn { field: Field::Dolp, found: ColumnChoice::Name("x".to_owned()), names: names() },
             E::UnknownColumn { field: Field::Dolp, found: ColumnChoice::Number(7), names: names() },
-            E::NotMapped { field: Field::ThetaI },
-            E::NoQuantityMapped,
+            E::NoNumbers,
+            E::LongCell { bytes: 70_000 },
+            E::FortranExponent { found: text() },
             E::Nul,
             E::Utf16,
             E::UnclosedQuote,
@@ -139,6 +141,15 @@ fn what_is_expected_and_what_helps_is_said_in_chinese() {
         ImportNote::NotMeasured(LineList { count: 7, first: vec![1, 2, 3, 4, 5] }),
         ImportNote::BeyondHorizon(LineList { count: 1, first: vec![1] }),
         ImportNote::BlankRows(LineList { count: 2, first: vec![1, 2] }),
+        ImportNote::SkippedLines(LineList { count: 1, first: vec![9] }),
+        ImportNote::ZeroSigma(LineList { count: 1, first: vec![9] }),
+        ImportNote::BiasedDolp(LineList { count: 1, first: vec![9] }),
+        ImportNote::TakenAsPercent { name: "P".to_owned() },
+        ImportNote::NormalisedElements,
+        ImportNote::WrappedAngles,
+        ImportNote::NegativeIncidence,
+        ImportNote::AllBackscatter,
+        ImportNote::FilledDown,
         ImportNote::IgnoredRows { name: "a".to_owned(), count: 2 },
         ImportNote::DepolarisationNotApplied { count: 2 },
         ImportNote::NearestWavelength { wanted_nm: 650.0, taken_nm: vec![649.5] },
@@ -180,7 +191,27 @@ fn errors_of_tensors_and_wavelengths_are_said_in_chinese() {
         let not_chosen = WavelengthError::NotChosen { count: available_nm.len(), available_nm: available_nm.clone() };
         assert_localized([not_chosen, WavelengthError::Outside { wanted_nm: 900.0, available_nm }]);
     }
-    assert_localized([ImportError::NoValue { notes: Vec::new() }]);
+    let names = || vec!["a".to_owned(), "b".to_owned()];
+    let columns = vec![(1, "a".to_owned()), (2, "b".to_owned())];
+    assert_localized([
+        ImportError::NoValue { notes: Vec::new() },
+        ImportError::OtherFormat(OtherFormat { name: "an XML document", advice: "save it", options: None }),
+        ImportError::Workbook { reason: "it is damaged".to_owned() },
+        ImportError::NoSheet { wanted: String::new(), names: names() },
+        ImportError::NoSheet { wanted: "c".to_owned(), names: names() },
+        ImportError::Undecided {
+            doubts: vec![
+                Doubt::NoHeader { columns: 3 },
+                Doubt::NoAngle { field: Field::ThetaI, names: names() },
+                Doubt::NoAngle { field: Field::ThetaR, names: names() },
+                Doubt::NoQuantity { names: names() },
+                Doubt::WideQuantity { names: names() },
+                Doubt::Several { field: Field::Dolp, columns },
+                Doubt::BrdfMeaning { name: "R".to_owned() },
+                Doubt::MuellerCount,
+            ],
+        },
+    ]);
 }
 
 #[test]

@@ -79,17 +79,20 @@ impl Heading {
             return corner;
         }
         let (rest, measure) = without_measure(&normalised(cell));
+        let mut heading = Self { measure, ..Self::NONE };
+        let with_digits = split_glued(words(&rest));
+        let says_brdf =
+            |words: &[String]| measure == Some(Measure::PerSteradian) || words.iter().any(|word| meanings(word).contains(&Word::Brdf));
+        if let Some((row, column, is_sigma)) = mueller(&with_digits) {
+            heading.is_brdf = says_brdf(&with_digits);
+            return Self { meaning: Meaning::Mueller { row, column, is_sigma }, score: 9, ..heading };
+        }
         let (rest, at_number) = without_number(&rest);
         let all = split_glued(words(&rest));
-        let mut heading = Self { measure, ..Self::NONE };
         if let Some((special, is_sigma, is_normalised)) = special(&rest, &all, at_number) {
             let field = if is_sigma { Field::ChannelSigma(special) } else { Field::Channel(special) };
             heading.is_brdf = measure == Some(Measure::PerSteradian) || all.iter().any(|word| meanings(word).contains(&Word::Brdf));
             return Self { meaning: Meaning::Field(field), score: 9, is_normalised, ..heading };
-        }
-        if let Some((row, column, is_sigma)) = mueller(&all) {
-            heading.is_brdf = measure == Some(Measure::PerSteradian) || all.iter().any(|word| meanings(word).contains(&Word::Brdf));
-            return Self { meaning: Meaning::Mueller { row, column, is_sigma }, score: 9, ..heading };
         }
         let (meaning, score, brdf_is) = meaning_of(&all);
         heading = Self { meaning, score, brdf_is, ..heading };

@@ -36,7 +36,8 @@ pub enum RowKind {
 pub(crate) struct Section {
     /// Names of the columns; empty without a header.
     pub(crate) header: Vec<String>,
-    pub(crate) header_row: Option<usize>,
+    /// Line of the header, from 1.
+    pub(crate) header_line: Option<u64>,
     /// Units of the columns; empty without such a row.
     pub(crate) units: Vec<String>,
     /// What its titles say, this section's or, where it has none, that of the one before.
@@ -141,7 +142,7 @@ impl Layout {
         if let Some((at, names)) = header {
             self.kinds[at] = RowKind::Header;
             section.header = names;
-            section.header_row = Some(at);
+            section.header_line = Some(grid.line(at));
             if let Some((at, units)) = units_of(grid, at + 1..gap.end, width) {
                 self.kinds[at] = RowKind::Units;
                 section.units = units;
@@ -168,7 +169,7 @@ impl Layout {
             Some(last) => {
                 if !has_header {
                     section.header.clone_from(&last.header);
-                    section.header_row = last.header_row;
+                    section.header_line = last.header_line;
                     section.units.clone_from(&last.units);
                 }
                 section.title.inherit(&last.title);

@@ -5,7 +5,7 @@ use super::heading::{Heading, Meaning};
 use super::layout::Section;
 use super::options::TableOptions;
 use super::vocabulary::{Measure, measure};
-use crate::measurement::{BrdfMeaning, Channel, ColumnChoice, Field, Polarimeter, ReadError, ReadErrorKind, Unit};
+use crate::measurement::{BrdfMeaning, Channel, ColumnChoice, ColumnPlace, Field, Polarimeter, ReadError, ReadErrorKind, Unit};
 
 /// A column with what it is taken for.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,6 +131,14 @@ impl<'a> Planner<'a> {
         self.columns.iter_mut().for_each(|column| column.field = None);
         for mapped in &mapping.columns {
             let by_name = |name: &str| self.columns.iter().position(|column| column.name == name);
+            if let ColumnChoice::Name(name) = &mapped.column {
+                let same: Vec<usize> = (0..self.columns.len()).filter(|&index| self.columns[index].name == *name).collect();
+                if same.len() > 1 {
+                    let place = ColumnPlace { number: same[1] + 1, name: name.clone() };
+                    let kind = ReadErrorKind::RepeatedColumn { first: same[0] + 1 };
+                    return Err(ReadError { line: section.header_line, column: Some(place), kind });
+                }
+            }
             let index = match &mapped.column {
                 ColumnChoice::Name(name) => by_name(name),
                 // A title may be a number.
@@ -140,7 +148,7 @@ impl<'a> Planner<'a> {
             };
             let unknown = || {
                 let kind = ReadErrorKind::UnknownColumn { field: mapped.field, found: mapped.column.clone(), names: self.names() };
-                ReadError { line: section.header_row.map(|row| row as u64 + 1), column: None, kind }
+                ReadError { line: section.header_line, column: None, kind }
             };
             let index = index.ok_or_else(unknown)?;
             let column = &mut self.columns[index];

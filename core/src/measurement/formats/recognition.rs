@@ -7,7 +7,7 @@ use super::pgii::PabPgii;
 use super::table::ForeignTable;
 use super::woollam::Woollam;
 use crate::measurement::foreign::{OtherFormat, is_workbook};
-use crate::measurement::{Measurement, Progress, ReadError, ReadErrorKind};
+use crate::measurement::{Field, Measurement, Progress, ReadError, ReadErrorKind};
 
 /// The forms that are recognised by content, in the order in which they are tried.
 pub static FORMATS: &[&dyn Format] = &[&Woollam, &Pbsdf, &PabPgii];
@@ -54,6 +54,10 @@ pub fn open(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Opened, ImportErro
     }
     match Measurement::read_sets(&bytes[..], progress) {
         Ok(measurements) => Ok(Opened::Measurements(measurements)),
+        // The program's own names, and nothing measured among them: no other table either.
+        Err(error) if matches!(&error.kind, ReadErrorKind::NoQuantity { names } if names.iter().all(|name| Field::from_key(name).is_some())) => {
+            Err(error.into())
+        }
         Err(error) if error.may_be_foreign() && OtherFormat::of(&bytes).is_none() => {
             match ForeignTable::new(bytes, progress) {
                 Ok(table) => Ok(Opened::Foreign(Box::new(table))),

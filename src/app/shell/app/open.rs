@@ -86,7 +86,8 @@ pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
     match (result, app.dialogs.import.take()) {
         (Ok(mut imported), Some(import)) => {
             let name = import.origin.name.replace(char::is_control, " ");
-            imported.measurement.metadata.push(("imported_from".to_owned(), name));
+            let source = ("imported_from".to_owned(), name);
+            imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
             loaded(app, import.origin, imported);
         }
         (Err(error), Some(import)) => app.dialogs.import = Some(ImportDialog { error: Some(error), ..import }),
@@ -112,6 +113,8 @@ fn loaded(app: &mut App, origin: Origin, imported: Imported) {
     if !about.is_empty() {
         app.toasts.error(format!("{name}: {about}"));
     }
-    open(app, OpenMeasurement::new(name, imported.measurement).of_file(sha256));
+    if let Some(measurement) = imported.measurements.into_iter().next() {
+        open(app, OpenMeasurement::new(name, measurement).of_file(sha256));
+    }
     app.work.apply(Edit::SetSessionFile(None));
 }

@@ -2,8 +2,9 @@
 
 use crate::app::text::localized::Localized;
 use crate::app::text::messages::model::quoted;
+use pbrdf::measurement::foreign::Doubt;
 use pbrdf::measurement::formats::{ImportError, ImportNote, TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorShape};
-use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Hint, LineList, ReadError, ReadErrorKind, WavelengthError};
+use pbrdf::measurement::{ColumnChoice, ColumnPlace, Expected, Field, Hint, LineList, ReadError, ReadErrorKind, WavelengthError};
 use tr::tr;
 
 impl Localized for Expected {
@@ -106,8 +107,11 @@ impl Localized for ReadErrorKind {
             Self::UnknownColumn { field, found, names } => {
                 tr!("there is no column {0} for {1}; the columns are {2}", found.localized(), field, names.join(", "))
             }
-            Self::NotMapped { field } => tr!("no column is named for {}", field),
-            Self::NoQuantityMapped => tr!("no column is named for dolp or brdf"),
+            Self::NoNumbers => tr!("no row of numbers was found; expected at least two columns of numbers"),
+            Self::LongCell { bytes } => tr!("the cell has {} bytes; no cell of a measurement is so long", bytes),
+            Self::FortranExponent { found } => {
+                tr!("found {}, a number with the exponent of Fortran's double precision; write it with e in place of D", quoted(found))
+            }
             Self::Nul => tr!("found a NUL byte; expected plain text (UTF-8)"),
             Self::Utf16 => tr!("the file is UTF-16; expected plain text (UTF-8)"),
             Self::UnclosedQuote => tr!("a quote is not closed on its line"),
@@ -223,6 +227,36 @@ impl Localized for ImportError {
             Self::Wavelength(error) => error.localized(),
             Self::Geometry(error) => error.localized(),
             Self::NoValue { .. } => tr!("none of the geometries has a value"),
+            Self::OtherFormat(other) => tr!("this is {0}, which is not read as it is; {1}", other.name, other.advice),
+            Self::Workbook { reason } => tr!("the workbook cannot be read: {}", reason),
+            Self::NoSheet { wanted, names } if wanted.is_empty() => {
+                tr!("the first sheet holds no rows of numbers; the sheets are {}", names.join(", "))
+            }
+            Self::NoSheet { wanted, names } => tr!("there is no sheet {0}; the sheets are {1}", quoted(wanted), names.join(", ")),
+            Self::Undecided { doubts } => doubts.iter().map(Localized::localized).collect::<Vec<_>>().join("; "),
+        }
+    }
+}
+
+impl Localized for Doubt {
+    fn localized(&self) -> String {
+        match self {
+            Self::NoHeader { columns } => tr!("no row names the {} columns: choose what they are", columns),
+            Self::NoAngle { field: Field::ThetaI, .. } => {
+                tr!("no angle of incidence was found: choose its column, or give one angle for all rows")
+            }
+            Self::NoAngle { .. } => tr!("no angle of view was found: choose its column"),
+            Self::NoQuantity { .. } => tr!("no column for DoLP or BRDF was found: choose it"),
+            Self::WideQuantity { .. } => tr!("nothing says whether the columns are DoLP or BRDF: choose it"),
+            Self::Several { field, columns } => {
+                let names: Vec<&str> = columns.iter().map(|(_, name)| name.as_str()).collect();
+                tr!("several columns look like {0}: {1}; choose one", field, names.join(", "))
+            }
+            Self::BrdfMeaning { name } => {
+                tr!("the column {} may be a BRDF, a BRDF times cos θr, or a reflectance factor: choose it", quoted(name))
+            }
+            Self::MuellerCount => tr!("the Mueller elements may be counted from 0 or from 1: choose their columns"),
+            _ => self.to_string(),
         }
     }
 }
@@ -256,6 +290,24 @@ impl Localized for ImportNote {
             }
             Self::BeyondHorizon(lines) => tr!("{}: at |θr| ≥ 90°; they are kept as masked.", lines.localized()),
             Self::BlankRows(lines) => tr!("{}: without any cell filled; they are skipped.", lines.localized()),
+            Self::SkippedLines(lines) => {
+                tr!("{}: neither header nor data; they are skipped.", lines.localized())
+            }
+            Self::ZeroSigma(lines) => tr!("{}: a standard deviation of 0, which is taken as not stated.", lines.localized()),
+            Self::BiasedDolp(lines) => tr!(
+                "{}: the DoLP is of the size of its error; there noise makes it too large, and nothing is subtracted.",
+                lines.localized()
+            ),
+            Self::TakenAsPercent { name } => tr!("The values of {} are above 1 and have no unit; they are taken as percent.", name),
+            Self::NormalisedElements => tr!("Mueller elements exceed the first one; they are taken as divided by it."),
+            Self::WrappedAngles => tr!("Angles of view above 180° are taken as 360° less."),
+            Self::NegativeIncidence => {
+                tr!("θi is negative throughout; it is taken without its sign, and a positive θr as the forward side.")
+            }
+            Self::AllBackscatter => {
+                tr!("All θr are negative, which is the backscatter side; turn the sign of θr if it is the forward side.")
+            }
+            Self::FilledDown => tr!("Empty cells of the first columns are filled with the value above."),
             Self::IgnoredRows { name, count } => tr!("Ignored {0} rows of {1}.", count, name),
             Self::DepolarisationNotApplied { .. } => tr!("Depolarisation (dpolE) is named in the metadata, not applied to DoLP."),
             Self::NearestWavelength { wanted_nm, taken_nm } => {
