@@ -206,8 +206,8 @@ impl PanelPlot {
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", y.title, x.title)));
         let title = ui.painter().layout_no_wrap(y.title.clone(), FontId::proportional(11.0), ui.visuals().text_color());
         // Away from where the curve begins.
-        let middle = f64::midpoint(y.range.low, y.range.high);
-        let is_below = items.iter().find_map(PlotItem::first_height).is_some_and(|height| height > middle);
+        let high = 0.25 * y.range.low + 0.75 * y.range.high;
+        let is_below = items.iter().find_map(PlotItem::first_height).is_some_and(|height| height > high);
         let anchor = if is_below { Align2::LEFT_BOTTOM } else { Align2::LEFT_TOP };
         let corner = anchor.anchor_size(anchor.pos_in_rect(&response.response.rect.shrink2(vec2(4.0, 2.0))), title.size());
         ui.painter().rect_filled(corner.expand(1.0), 2.0, theme::plate(dark));

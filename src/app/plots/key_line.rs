@@ -32,7 +32,7 @@ const MAP: Color32 = Color32::from_rgb(49, 104, 142);
 
 impl KeyEntry {
     /// Room for the sample and the name.
-    fn allocate(&self, sense: Sense, ui: &mut Ui) -> egui::Response {
+    fn allocate_ui(&self, sense: Sense, ui: &mut Ui) -> egui::Response {
         let galley = ui.painter().layout_no_wrap(self.name.clone(), FontId::proportional(LETTERS), Color32::PLACEHOLDER);
         ui.allocate_exact_size(vec2(SAMPLE + GAP, 0.0) + galley.size(), sense).1
     }
@@ -69,7 +69,7 @@ pub fn key_line_ui(entries: &[KeyEntry], ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
         for entry in entries {
-            let response = entry.allocate(Sense::hover(), ui);
+            let response = entry.allocate_ui(Sense::hover(), ui);
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &entry.name));
             entry.paint(response.rect, 1.0, ui);
         }
@@ -84,7 +84,7 @@ pub fn switching_key_line_ui<K: Ord + Copy>(entries: &[(K, KeyEntry)], hidden: &
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
         for (key, entry) in entries {
-            let response = entry.allocate(Sense::click(), ui).on_hover_cursor(CursorIcon::PointingHand);
+            let response = entry.allocate_ui(Sense::click(), ui).on_hover_cursor(CursorIcon::PointingHand);
             if response.clicked() && !hidden.remove(key) {
                 hidden.insert(*key);
             }

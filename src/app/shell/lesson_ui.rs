@@ -11,7 +11,7 @@ use tr::tr;
 const HEIGHT: f32 = 172.0;
 
 /// The panel, while a lesson is open.
-pub fn lesson_panel(app: &mut App, ui: &mut Ui) {
+pub fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
     if app.lessons.current().is_some() {
         egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(app, ui));
     }

@@ -142,7 +142,7 @@ impl SavedFit {
     }
 
     /// The fit again. None where the data of the session are no longer such that there is one.
-    pub fn again(&self, measurements: &[SavedMeasurement]) -> Option<RestoredFit> {
+    pub fn restore(&self, measurements: &[SavedMeasurement]) -> Option<RestoredFit> {
         let measurement = &measurements.get(self.measurement)?.measurement;
         let problem = self.problem(measurement).ok()?;
         let report = match &self.account {

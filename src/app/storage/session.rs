@@ -286,18 +286,15 @@ impl Session {
         } = from_json(text)?;
         let SurfaceOfFile { settings: mut surface } = from_json(text)?;
         from_json::<EarlierFile>(text)?.apply(&mut surface);
-        if let Some(fault) = surface.fault().or_else(|| settings.fault()) {
-            return Err(SessionError::Settings(fault));
-        }
+        surface.validate().and_then(|()| settings.validate()).map_err(SessionError::Settings)?;
         let tables = measurement.into_iter().chain(measurements);
         let measurements = tables.map(|Table { name, sha256, open, surface, style, table }| -> Result<SavedMeasurement, ReadError> {
             let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
             Ok(SavedMeasurement { name, sha256, is_open: open, surface, style, measurement })
         });
         let measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
-        if let Some(fault) = measurements.iter().filter_map(|saved| saved.surface.as_ref()).find_map(Surface::fault) {
-            return Err(SessionError::Settings(fault));
-        }
+        let mut others = measurements.iter().filter_map(|saved| saved.surface.as_ref());
+        others.try_for_each(Surface::validate).map_err(SessionError::Settings)?;
         let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
         for (index, value) in stored.into_iter().enumerate() {
             match SavedFit::read(value, &measurements) {
@@ -322,4 +319,41 @@ impl Session {
 fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, SessionError> {
     let mut json = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut json).map_err(|error| SessionError::Json(error.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Layout, Measurement, MeasurementList, OpenMeasurement, PinnedSurface, Session, Settings, Surface, Workspace};
+    use crate::app::work::open_measurement::{EXAMPLES, MeasurementStyle};
+    use crate::figure::Symbol;
+    use pbrdf::model::{Parameter, ParameterSet, Parameters};
+
+    fn opened(example: usize, n: f64, style: MeasurementStyle) -> OpenMeasurement {
+        let measurement = Measurement::read(EXAMPLES[example].text.as_bytes()).expect("an example is a measurement");
+        let surface = Surface { parameters: Parameters { n, ..Parameters::default() }, ..Surface::for_measurement(&measurement) };
+        let mut opened = OpenMeasurement::new(EXAMPLES[example].name.to_owned(), measurement).with_surface(surface);
+        opened.style = style;
+        opened
+    }
+
+    #[test]
+    fn several_measurements_come_back_each_with_its_surface_and_what_they_share() {
+        let hidden = MeasurementStyle { color: 3, marker: Symbol::Square, shown: false };
+        let open = vec![opened(0, 1.5, hidden), opened(1, 2.5, MeasurementStyle::default()), opened(2, 3.5, hidden)];
+        let shared = ParameterSet::EMPTY.with(Parameter::Sigma).with(Parameter::Q);
+        let pinned =
+            PinnedSurface { name: "steel".to_owned(), color: 5, model: Surface::default().model, parameters: Parameters::default() };
+        let list = MeasurementList::several(open, 1, shared);
+        let before = Workspace::restored(Settings::default(), Layout::default(), list, vec![pinned], []);
+        let mut text = Vec::new();
+        Session::of(&before).write(&mut text).expect("memory takes everything");
+        let session = Session::read(std::str::from_utf8(&text).expect("JSON")).expect("a session");
+        let after = session.into_work(Vec::new());
+        let of = |work: &Workspace| -> Vec<(String, Surface, MeasurementStyle)> {
+            work.measurements().iter().map(|open| (open.name.clone(), open.surface.clone(), open.style)).collect()
+        };
+        assert_eq!(of(&after), of(&before));
+        assert_eq!((after.active().name.as_str(), after.measurements().shared()), (EXAMPLES[1].name, shared));
+        assert_eq!(after.pinned(), before.pinned());
+    }
 }

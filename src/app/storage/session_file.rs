@@ -41,7 +41,7 @@ impl OpenedSession {
 
     /// Restores the fits that the data of the session still allow.
     pub fn new(mut session: Session) -> Self {
-        let fits = session.fits.iter().filter_map(|fit| fit.again(&session.measurements)).collect();
+        let fits = session.fits.iter().filter_map(|fit| fit.restore(&session.measurements)).collect();
         let lesson = session.lesson.take().map(|lesson| {
             let SavedLesson { title, step, work } = *lesson;
             Box::new(OpenedLesson { title, step, work: Self::new(work) })

@@ -50,12 +50,11 @@ struct SettingsContents {
 }
 
 impl SettingsFile {
-    /// The key of a value that means nothing, and why.
-    fn fault(&self) -> Option<String> {
+    /// Checks that every value means something; the error is the key of one that does not, and why.
+    fn validate(&self) -> Result<(), String> {
         let SavedSettings { settings, surface } = &self.settings;
-        let size = || (!self.window.is_sound()).then(|| SettingsError::OutOfRange("window.size").localized());
-        let fault = surface.fault().or_else(|| settings.fault());
-        fault.map(|fault| format!("settings.{}", fault.localized())).or_else(size)
+        surface.validate().and_then(|()| settings.validate()).map_err(|error| format!("settings.{}", error.localized()))?;
+        if self.window.is_sound() { Ok(()) } else { Err(SettingsError::OutOfRange("window.size").localized()) }
     }
 }
 
@@ -87,9 +86,9 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
             );
         }
         Ok(bytes) => match read(&bytes) {
-            Ok(settings) => match settings.fault() {
-                None => return (settings, None),
-                Some(fault) => fault,
+            Ok(settings) => match settings.validate() {
+                Ok(()) => return (settings, None),
+                Err(reason) => reason,
             },
             Err(error) => error.localized(),
         },

@@ -2,7 +2,7 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
-use crate::app::work::fit_setup::problem;
+use crate::app::work::fit_setup::fit_problem;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
 use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
@@ -44,7 +44,7 @@ impl Derived {
         self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err());
         // ΔE does not depend on the options of a fit.
         self.problem.refresh((document.generation, model), |_| {
-            problem(surface, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
+            fit_problem(surface, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
         });
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
         let problem = self.problem.get().and_then(Option::as_ref);
@@ -102,7 +102,7 @@ impl Identifiability {
         let parameters = surface.parameters;
         let with = |weights| {
             let choices = FitOptions { weights, loss: Loss::Squared, ..settings.choices };
-            problem(surface, &work.active().measurement, surface.model, free, choices).ok()
+            fit_problem(surface, &work.active().measurement, surface.model, free, choices).ok()
         };
         let stated = with(Weights::Sigma);
         let from_stated = stated.is_some();

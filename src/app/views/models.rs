@@ -9,7 +9,7 @@ use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
-use crate::app::work::fit_setup::reason;
+use crate::app::work::fit_setup::explain;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::workspace::Workspace;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
@@ -79,7 +79,7 @@ const SPACING: [f32; 2] = [9.0, 4.0];
 /// Width of the names, in points: with it the numbers beside them fit into a pane of a small window.
 const NAME: f32 = 200.0;
 
-fn narrow(ui: &mut Ui, name: impl Widget) -> Response {
+fn narrow_ui(ui: &mut Ui, name: impl Widget) -> Response {
     ui.scope(|ui| {
         ui.set_max_width(NAME);
         ui.add(name)
@@ -113,13 +113,13 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, ui: &mut Ui) {
             let citation = translated(rung.preset.citation);
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
             let button = Button::selectable(is_current, text).truncate();
-            if narrow(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
+            if narrow_ui(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
                 edits.push(Edit::UseModelFit(index));
             }
             match &rung.result {
                 Ok(report) => quality_ui(report, best, ui),
                 Err(error) => {
-                    let reason = reason(error, &document.measurement);
+                    let reason = explain(error, &document.measurement);
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
             }
@@ -154,7 +154,7 @@ fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
         ui.end_row();
         for rung in comparison {
             let Ok(report) = &rung.result else { continue };
-            narrow(ui, Label::new(translated(rung.preset.name)).truncate());
+            narrow_ui(ui, Label::new(translated(rung.preset.name)).truncate());
             for parameter in Parameter::ALL {
                 match report.estimates.iter().find(|estimate| estimate.parameter == parameter) {
                     Some(estimate) => estimate_ui(estimate, ui),

@@ -171,7 +171,9 @@ impl MuellerView {
         let (curves, ((_, _, theta_i, plane), backscatter)) = (self.curves.get()?, self.curves.key()?);
         let matrix = self.matrix.get().and_then(Option::as_ref).zip(self.matrix.key().map(|key| key.1));
         let low = if *backscatter { -90.0 } else { 0.0 };
-        let angles = [low, f64::midpoint(low, 90.0), 90.0].map(|at| (at, at.to_string().replace('-', "−"))).to_vec();
+        // None at the upper end, where the next plot begins.
+        let angles = if *backscatter { [-60.0, 0.0, 60.0] } else { [0.0, 30.0, 60.0] };
+        let angles = angles.map(|at| (at, at.to_string().replace('-', "−"))).to_vec();
         let values = [(-1.0, "−1"), (0.0, "0"), (1.0, "1")].map(|(at, label)| (at, label.to_owned())).to_vec();
         let panels = curves.0.iter().enumerate().map(|(element, curve)| {
             let mut series = vec![Series::line("", curve.clone()).colored(SERIES[0])];

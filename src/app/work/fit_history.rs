@@ -40,14 +40,14 @@ const MOST_RESIDUALS: usize = 500_000;
 #[derive(Clone, Default)]
 pub struct FitHistory {
     fits: VecDeque<Arc<FitEntry>>,
-    made: usize,
+    count: usize,
 }
 
 impl FitHistory {
     /// Takes a fit in, and gives it back to be shown.
     pub fn push(&mut self, fit: FitEntry) -> Arc<FitEntry> {
-        self.made += 1;
-        let fit = Arc::new(FitEntry { id: self.made, ..fit });
+        self.count += 1;
+        let fit = Arc::new(FitEntry { id: self.count, ..fit });
         self.fits.push_front(fit.clone());
         self.fits.truncate(MOST_FITS);
         let residuals = |fits: &VecDeque<Arc<FitEntry>>| fits.iter().map(|fit| fit.problem.len()).sum::<usize>();
@@ -63,8 +63,8 @@ impl FitHistory {
     }
 
     /// How many fits the session has made, those no longer kept among them.
-    pub fn made(&self) -> usize {
-        self.made
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Arc<FitEntry>> {

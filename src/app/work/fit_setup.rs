@@ -11,7 +11,7 @@ use tr::tr;
 /// The problem of fitting those parameters from the sliders.
 ///
 /// A start outside bounds that somebody has set moves to the nearest bound; a slider's own range makes room for the start.
-pub fn problem(
+pub fn fit_problem(
     surface: &Surface,
     measurement: &Measurement,
     model: Model,
@@ -60,7 +60,7 @@ pub fn start_in_bounds(surface: &Surface, free: ParameterSet) -> (Parameters, Bo
 }
 
 /// Why there is no problem, with the line of the file where one is to blame.
-pub fn reason(error: &ProblemError, measurement: &Measurement) -> String {
+pub fn explain(error: &ProblemError, measurement: &Measurement) -> String {
     match error {
         ProblemError::MissingSigma { row, .. } => match measurement.lines.get(*row) {
             Some(line) => tr!("line {0}: {1}", line, error.localized()),

@@ -17,5 +17,6 @@ pub mod parameter_text;
 pub mod predicted_errors;
 pub mod settings;
 pub mod settings_error;
+pub mod setup;
 pub mod surface;
 pub mod workspace;

@@ -208,20 +208,20 @@ impl Settings {
         self.tabulated.look_at(opened.metal());
     }
 
-    /// What means nothing, if anything does: a file can be well-formed and still hold nonsense.
-    pub fn fault(&self) -> Option<SettingsError> {
+    /// Checks that every value means something: a file can be well-formed and still hold nonsense.
+    ///
+    /// # Errors
+    /// The first value that means nothing.
+    pub fn validate(&self) -> Result<(), SettingsError> {
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        if let Err(error) = Geometry::new(self.theta_i, 0.0, self.dphi) {
-            Some(SettingsError::Angles(error))
-        } else if !self.plan.is_sound() {
-            Some(SettingsError::OutOfRange("plan"))
-        } else if !is_positive(self.tabulated.wavelength_nm) {
-            Some(SettingsError::OutOfRange("tabulated.wavelength_nm"))
-        } else if !self.choices.loss_scale.is_none_or(is_positive) {
-            Some(SettingsError::OutOfRange("choices.loss_scale"))
-        } else {
-            None
-        }
+        Geometry::new(self.theta_i, 0.0, self.dphi).map_err(SettingsError::Angles)?;
+        let others = [
+            ("plan", self.plan.is_sound()),
+            ("tabulated.wavelength_nm", is_positive(self.tabulated.wavelength_nm)),
+            ("choices.loss_scale", self.choices.loss_scale.is_none_or(is_positive)),
+        ];
+        let wrong = others.into_iter().find(|(_, is_sound)| !is_sound);
+        wrong.map_or(Ok(()), |(key, _)| Err(SettingsError::OutOfRange(key)))
     }
 }
 

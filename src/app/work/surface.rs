@@ -61,11 +61,14 @@ impl Surface {
         self.locked = if measurement.has_brdf() { self.locked.without(Parameter::Ks) } else { self.locked.with(Parameter::Ks) };
     }
 
-    /// What means nothing, if anything does: a file can be well-formed and still hold nonsense.
-    pub fn fault(&self) -> Option<SettingsError> {
-        let bounds = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high).err();
-        let parameters = can_be_set(&self.parameters, ParameterSet::ALL).err().map(SettingsError::Parameters);
-        parameters.or_else(|| self.bounds.iter().find_map(bounds).map(SettingsError::Bounds))
+    /// Checks that every value means something: a file can be well-formed and still hold nonsense.
+    ///
+    /// # Errors
+    /// The first value that means nothing.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        can_be_set(&self.parameters, ParameterSet::ALL).map_err(SettingsError::Parameters)?;
+        let set = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high);
+        self.bounds.iter().try_for_each(set).map_err(SettingsError::Bounds)
     }
 
     /// Lower and upper bound of a parameter in fits.

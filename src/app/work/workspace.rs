@@ -7,12 +7,13 @@ use crate::app::work::history::History;
 use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::model_fit::ModelFit;
-use crate::app::work::open_measurement::{Mask, MeasurementStyle, OpenMeasurement};
+use crate::app::work::open_measurement::{Mask, OpenMeasurement};
 use crate::app::work::settings::Settings;
+use crate::app::work::setup::Setup;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::FitResult;
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, ParameterSet, Parameters};
+use pbrdf::model::{Model, Parameters};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -34,25 +35,6 @@ pub struct Workspace {
     recorded_at: u64,
     /// The revision at which the user last moved a value or masked a row; 0 where the values are those of a fit.
     moved_at: u64,
-}
-
-/// What a step of undo restores.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setup {
-    settings: Settings,
-    measurements: Vec<MeasurementSetup>,
-    shared: ParameterSet,
-    pinned: Vec<PinnedSurface>,
-}
-
-/// What a step of undo restores of the measurement at a place of the list.
-#[derive(Debug, Clone, PartialEq)]
-struct MeasurementSetup {
-    surface: Surface,
-    style: MeasurementStyle,
-    mask: Mask,
-    /// Whose mask and style those are.
-    number: u64,
 }
 
 fn next_revision() -> u64 {
@@ -279,34 +261,15 @@ impl Workspace {
 
     /// What a step of undo restores, as it is now.
     pub fn setup(&self) -> Setup {
-        let of = |open: &OpenMeasurement| MeasurementSetup {
-            surface: open.surface.clone(),
-            style: open.style,
-            mask: open.mask().clone(),
-            number: open.number,
-        };
-        Setup {
-            settings: self.settings.clone(),
-            measurements: self.measurements.iter().map(of).collect(),
-            shared: self.measurements.shared(),
-            pinned: self.pinned.clone(),
-        }
+        Setup::of(&self.settings, &self.measurements, &self.pinned)
     }
 
     fn restore(&mut self, step: fn(&mut History<Setup>) -> Option<Setup>) {
-        let Some(Setup { settings, measurements, shared, pinned }) = step(&mut self.undo) else { return };
-        (self.settings, self.pinned) = (settings, pinned);
-        self.measurements.share(shared);
-        self.moved_at = 0;
-        for (open, setup) in self.measurements.iter_mut().zip(measurements) {
-            open.surface = setup.surface;
-            // The rows of another measurement are other rows.
-            if open.number == setup.number {
-                open.style = setup.style;
-                open.restore_mask(&setup.mask);
-            }
+        if let Some(setup) = step(&mut self.undo) {
+            self.moved_at = 0;
+            (self.settings, self.pinned) = setup.restore(&mut self.measurements);
+            self.replace_step();
         }
-        self.replace_step();
     }
 
     /// Puts a measurement in the place of all that are open, without its fits; no step of undo of its own. The sliders stay.
@@ -395,7 +358,7 @@ impl Workspace {
 
 #[cfg(test)]
 mod tests {
-    use super::Workspace;
+    use super::{Layout, MeasurementList, Settings, Workspace};
     use crate::app::work::edit::{Edit, Switch};
     use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
     use pbrdf::measurement::Measurement;
@@ -451,6 +414,20 @@ mod tests {
             work.apply(Edit::Redo);
         }
         assert_eq!(work.setup(), after);
+    }
+
+    #[test]
+    fn undo_takes_a_shared_parameter_back_on_every_surface() {
+        let open = ["a", "b"].map(|name| OpenMeasurement::new(name.to_owned(), Measurement::default())).to_vec();
+        let list = MeasurementList::several(open, 0, ParameterSet::EMPTY.with(Parameter::Sigma));
+        let mut work = Workspace::restored(Settings::default(), Layout::default(), list, Vec::new(), []);
+        let sigmas = |work: &Workspace| -> Vec<f64> { work.measurements().iter().map(|open| open.surface.parameters.sigma).collect() };
+        let before = sigmas(&work);
+        work.apply(Edit::SetParameters(Parameters { sigma: 0.125, ..Parameters::default() }));
+        work.record_step();
+        assert_eq!(sigmas(&work), [0.125, 0.125]);
+        work.apply(Edit::Undo);
+        assert_eq!(sigmas(&work), before);
     }
 
     #[test]

@@ -60,7 +60,7 @@ pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
 }
 
 /// One choice out of a few, with its name in front; true when it changed.
-fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut T, options: &[(T, &str)]) -> bool {
+fn choice_ui<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut T, options: &[(T, &str)]) -> bool {
     let before = *value;
     let label = ui.label(translated(name)).on_hover_text(translated(help));
     let chosen = options.iter().find(|(option, _)| option == value).map_or_else(String::new, |(_, text)| translated(text));
@@ -75,14 +75,14 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut 
 }
 
 fn residuals_ui(choices: &mut FitOptions, ui: &mut Ui) {
-    choice(
+    choice_ui(
         ui,
         "Weights",
         "None: ΔE of Eq. (18). By standard deviation: every residual over its stated σ, so that the sum of squares is χ².",
         &mut choices.weights,
         &[(Weights::None, "none: ΔE, Eq. (18)"), (Weights::Sigma, "1/σ: χ²")],
     );
-    choice(
+    choice_ui(
         ui,
         "BRDF residuals",
         "Absolute: X − Xm. Relative: (X − Xm)/Xm. Logarithmic: ln X − ln Xm, for lobes that span decades.",
@@ -92,7 +92,7 @@ fn residuals_ui(choices: &mut FitOptions, ui: &mut Ui) {
 }
 
 fn loss_ui(choices: &mut FitOptions, ui: &mut Ui) {
-    choice(
+    choice_ui(
         ui,
         "Loss",
         "Linear: least squares. Huber and soft-L1 count residuals beyond the scale by their size, so that an outlier pulls less.",
@@ -119,7 +119,7 @@ fn loss_ui(choices: &mut FitOptions, ui: &mut Ui) {
 }
 
 fn eq17_ui(surface: &mut Surface, has_brdf: bool, ui: &mut Ui) {
-    let changed = choice(
+    let changed = choice_ui(
         ui,
         "Eq. (17)",
         "Consistent: k_s in the numerator, as Eqs. (14, 15) have it. As printed: without it, so that k_s is a gain of its own and DoLP \
@@ -143,7 +143,7 @@ fn starts_ui(draft: &mut Draft, ui: &mut Ui) {
         Starts::Exactly(count) => count,
         Starts::Automatic | Starts::One => SOME_STARTS,
     };
-    choice(
+    choice_ui(
         ui,
         "Starts",
         "Automatic: the sliders, a first guess, and spread points until nothing new is found. One: the sliders alone.",

@@ -6,7 +6,7 @@ use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_setup::{problem, reason};
+use crate::app::work::fit_setup::{explain, fit_problem};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
@@ -19,9 +19,9 @@ pub fn start_fit(app: &mut App) -> Result<(), String> {
     let (surface, open) = (app.work.surface(), app.work.active());
     let Surface { parameters, model, .. } = *surface;
     parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
-    match problem(surface, &open.measurement, model, app.free(), choices) {
+    match fit_problem(surface, &open.measurement, model, app.free(), choices) {
         Ok(problem) => app.jobs.fits.fit(problem, open, starts, seed),
-        Err(error) => Err(tr!("The fit cannot begin: {}.", reason(&error, &open.measurement))),
+        Err(error) => Err(tr!("The fit cannot begin: {}.", explain(&error, &open.measurement))),
     }
 }
 
@@ -50,7 +50,7 @@ pub fn refit_if_moved(app: &mut App) {
         return;
     }
     // Why a fit is not possible is said when one is asked for.
-    if let Ok(problem) = problem(surface, &app.work.active().measurement, model, free, app.work.settings().choices)
+    if let Ok(problem) = fit_problem(surface, &app.work.active().measurement, model, free, app.work.settings().choices)
         && let Err(sentence) = app.jobs.fits.refit(problem)
     {
         app.toasts.error(sentence);
@@ -63,7 +63,7 @@ pub fn compare_models(app: &mut App) -> Result<(), String> {
         let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
         let model = preset.model.with_dolp_formula(surface.model.dolp_formula);
         let free = free_by_default(model, measurement, &choices);
-        (preset, problem(surface, measurement, model, free, choices))
+        (preset, fit_problem(surface, measurement, model, free, choices))
     });
     let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
     app.work.apply(Edit::SetModelComparison(Vec::new()));

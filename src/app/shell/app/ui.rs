@@ -6,7 +6,7 @@ use crate::app::shell::command_palette::palette_ui;
 use crate::app::shell::docking::panes_ui;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_ui::import_ui;
-use crate::app::shell::lesson_ui::lesson_panel;
+use crate::app::shell::lesson_ui::lesson_panel_ui;
 use crate::app::shell::menu_bar::menu_ui;
 use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::status_bar::{status_ui, toasts_ui};
@@ -22,7 +22,7 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
         .min_size(250.0)
         .show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
     CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
-        lesson_panel(app, ui);
+        lesson_panel_ui(app, ui);
         let room = ui.available_rect_before_wrap();
         let (mut cx, views, dock) = app.split();
         panes_ui(dock, views, &mut cx, ui);

@@ -28,7 +28,7 @@ pub fn describe(
     for (ink, pieces) in drawn.contours.iter().filter(|_| shown.contours) {
         let gap = [[f64::NAN; 2]];
         let points = pieces.iter().flat_map(|piece| piece.iter().map(|point| back(*point)).chain(gap));
-        series.push(Series::stroke("", points.collect(), 0.6, Dash::Solid).colored(*ink));
+        series.push(Series::stroke("", points.collect(), 0.45, Dash::Solid).colored(*ink));
     }
     // Of a name, as shares of the axes.
     let room = [(key.across, 0.1), (key.up, 0.04)].map(|(nodes, share)| {

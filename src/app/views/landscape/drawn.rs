@@ -5,7 +5,7 @@ use crate::app::plots::contours::Heights;
 use crate::app::plots::{Polyline, Range};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::views::landscape::key::LandscapeKey;
-use crate::app::work::fit_setup::problem;
+use crate::app::work::fit_setup::fit_problem;
 use crate::app::work::surface::Surface;
 use crate::figure::{ColorMap, Rgb};
 use pbrdf::fit::{Landscape, LandscapeAxis, Loss, Problem, Weights};
@@ -41,7 +41,7 @@ impl LandscapeImage {
         for axis in [key.across, key.up] {
             surface.parameters[axis.parameter] = axis.low;
         }
-        let problem = problem(&surface, measurement, key.model, free, key.choices).ok()?;
+        let problem = fit_problem(&surface, measurement, key.model, free, key.choices).ok()?;
         let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
         let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
         let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();

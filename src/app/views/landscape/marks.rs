@@ -33,7 +33,7 @@ impl MarksKey {
         let LandscapeAxes { across, up, .. } = settings.landscape;
         let wavelength_nm = settings.tabulated.wavelength_nm;
         let (axes, shown) = ((across, up), work.shown_fit().map(|fit| fit.id));
-        Self { axes, fits: work.fit_history().made(), shown, number: work.active().number, wavelength_nm, language: i18n::current() }
+        Self { axes, fits: work.fit_history().count(), shown, number: work.active().number, wavelength_nm, language: i18n::current() }
     }
 }
 
