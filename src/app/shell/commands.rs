@@ -28,7 +28,7 @@ pub enum Menu {
     Export,
     Edit,
     Fit,
-    PaneId,
+    Pane,
     View,
     Theme,
     Language,
@@ -48,7 +48,7 @@ impl Menu {
             Self::Export => tr!("Export"),
             Self::Edit => tr!("Edit"),
             Self::Fit => tr!("Fitting"),
-            Self::PaneId => tr!("Panes"),
+            Self::Pane => tr!("Panes"),
             Self::View => tr!("View"),
             Self::Theme => tr!("Theme"),
             Self::Language => tr!("Language"),
@@ -86,7 +86,10 @@ impl Command {
             Action::ChooseExport(ExportKind::Plot(pane)) | Action::CopyPlot(pane) => {
                 tr!("Open the pane {} first (menu View).", translated(spec(pane).title))
             }
-            Action::ChooseExport(ExportKind::Fitted | ExportKind::Report) | Action::UseFit | Action::Back | Action::Bootstrap => {
+            Action::ChooseExport(ExportKind::Fitted | ExportKind::Report)
+            | Action::UseFit
+            | Action::UseValuesBeforeFit
+            | Action::Bootstrap => {
                 tr!("Fit first (F5).")
             }
             _ => self.tooltip.to_string(),
@@ -170,21 +173,21 @@ static ENTRIES: &[Entry] = &[
         plain(Key::F5), |app| only_if(!app.jobs.fits.fit.is_running())),
     row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |app| only_if(app.jobs.fits.fit.is_running())),
     row(Action::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |app| only_if(app.work.shown_fit().is_some())),
-    row(Action::Back, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
+    row(Action::UseValuesBeforeFit, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
         |app| only_if(app.work.shown_fit().is_some())),
-    row(Action::ReturnTo(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
+    row(Action::ReturnToFit(1), Menu::Fit, "Return to the fit before", "Sliders and results as the fit before the last one left them", None,
         |app| only_if(app.work.fit_history().len() > 1)),
     row(Action::CompareModels, Menu::Fit, "Compare all models", "Fit the whole ladder of models to this measurement", None,
         |app| only_if(!app.jobs.fits.compare.is_running())),
     row(Action::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
         |app| only_if(app.jobs.fits.compare.is_running())),
-    row(Action::MakeReport(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
+    row(Action::RunBenchmark(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
         "Evaluations against 60 digits, fits against their truth; up to a minute", None, |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::ErrorVsTime))),
-    row(Action::MakeReport(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
+    row(Action::RunBenchmark(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",
         None, |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::Stability))),
-    row(Action::MakeReport(BenchmarkId::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
+    row(Action::RunBenchmark(BenchmarkId::Cost), Menu::None, "Measure costs of scenes", "Nanoseconds per point, and what is left out", None,
         |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::Cost))),
-    row(Action::CancelReport, Menu::None, "Stop measuring", "What is done so far is shown", None,
+    row(Action::CancelBenchmark, Menu::None, "Stop measuring", "What is done so far is shown", None,
         |app| only_if(app.jobs.benchmarks.is_running())),
     row(Action::Bootstrap, Menu::Fit, "Bootstrap the fit", "Deal the residuals of the fit out anew and fit again", None,
         |app| only_if(app.work.shown_fit().is_some() && !app.jobs.fits.is_scanning())),
@@ -286,7 +289,7 @@ pub fn items(app: &App) -> Vec<Command> {
         shortcut: spec(pane).shortcut.and_then(ctrl),
         ..item(
             Action::TogglePane(pane),
-            Menu::PaneId,
+            Menu::Pane,
             translated(spec(pane).title).into(),
             translated(spec(pane).tooltip).into(),
             switch(on_screen.contains(&pane)),

@@ -42,7 +42,7 @@ pub fn import_ui(app: &mut App, ui: &mut Ui) {
             } else {
                 let open = ui.add_enabled(is_sound, egui::Button::new(tr!("Open")));
                 if open.clicked() {
-                    actions.push(Action::ImportDialog);
+                    actions.push(Action::Import);
                 }
                 // Enter opens.
                 if is_sound && ui.memory(|memory| memory.focused().is_none()) {

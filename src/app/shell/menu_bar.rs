@@ -110,7 +110,7 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
 fn view_ui(app: &mut App, ui: &mut Ui) {
     let items = commands::items(app);
     ui.weak(tr!("Panes"));
-    items_ui(&items, Menu::PaneId, &mut app.actions, ui);
+    items_ui(&items, Menu::Pane, &mut app.actions, ui);
     ui.separator();
     items_ui(&items, Menu::View, &mut app.actions, ui);
     ui.separator();

@@ -13,7 +13,7 @@ pub fn tree_of(layout: &Layout) -> Tree<PaneId> {
 
 fn insert(layout: &Layout, tiles: &mut Tiles<PaneId>) -> TileId {
     match layout {
-        Layout::PaneId(pane) => tiles.insert_pane(*pane),
+        Layout::Pane(pane) => tiles.insert_pane(*pane),
         Layout::Tabs { active, parts } => {
             let children: Vec<TileId> = parts.iter().map(|part| insert(part, tiles)).collect();
             let mut tabs = Tabs::new(children.clone());
@@ -35,7 +35,7 @@ fn layout_of_tile(tiles: &Tiles<PaneId>, id: TileId) -> Option<Layout> {
         children.iter().filter_map(|child| Some((*child, layout_of_tile(tiles, *child)?))).collect()
     };
     match tiles.get(id)? {
-        Tile::Pane(pane) => Some(Layout::PaneId(*pane)),
+        Tile::Pane(pane) => Some(Layout::Pane(*pane)),
         Tile::Container(Container::Tabs(tabs)) => {
             let parts = of_all(&tabs.children);
             let active = parts.iter().position(|(child, _)| tabs.active == Some(*child)).unwrap_or(0);
@@ -68,8 +68,8 @@ mod tests {
 
     #[test]
     fn a_layout_survives_tiles() {
-        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::PaneId(PaneId::Lobes)] };
-        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::PaneId(PaneId::Dolp))]);
+        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::Pane(PaneId::Lobes)] };
+        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::Pane(PaneId::Dolp))]);
         assert_eq!(layout_of(&tree_of(&layout)), Some(layout));
     }
 }

@@ -110,8 +110,8 @@ impl ExportKind {
             Self::Fitted => {
                 let fit = work.shown_fit().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (choices, measurement) = (*fit.problem.options(), work.active().measurement.clone());
-                Ok(written(move |out| write_fitted(&measurement, &surface, choices.dolp_only, out)))
+                let (fit_options, measurement) = (*fit.problem.options(), work.active().measurement.clone());
+                Ok(written(move |out| write_fitted(&measurement, &surface, fit_options.dolp_only, out)))
             }
             Self::Report => report(work),
             Self::Session => {

@@ -23,7 +23,8 @@ pub struct SavedFit {
     start: Parameters,
     free: Vec<Parameter>,
     bounds: Vec<(Parameter, f64, f64)>,
-    choices: FitOptions,
+    #[serde(rename = "choices")]
+    fit_options: FitOptions,
     /// The solution.
     parameters: Parameters,
     /// The sliders before it.
@@ -78,7 +79,7 @@ impl SavedFit {
             start: *problem.start(),
             free: problem.free().to_vec(),
             bounds: bounds.collect(),
-            choices: *problem.options(),
+            fit_options: *problem.options(),
             parameters: fit.report.parameters,
             before: fit.before,
             account,
@@ -137,7 +138,7 @@ impl SavedFit {
             can_be_set(&parameters, self.model.parameters()).map_err(SavedFitError::Parameters)?;
         }
         let free: ParameterSet = self.free.iter().copied().collect();
-        let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.choices);
+        let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.fit_options);
         problem.map_err(SavedFitError::Problem)
     }
 

@@ -56,13 +56,13 @@ fn a_benchmark_that_waits_comes_after_one_that_panics() {
     let app = explorer(&mut harness);
     let spawner = app.jobs.spawner.clone();
     app.jobs.benchmarks.slots()[0].start_panicking(&spawner);
-    app.actions.push(Action::MakeReport(BenchmarkId::Stability));
+    app.actions.push(Action::RunBenchmark(BenchmarkId::Stability));
     let begun = Instant::now();
     while explorer(&mut harness).jobs.benchmarks.progress().is_none() {
         assert!(begun.elapsed() < PATIENCE, "the second benchmark does not start");
         harness.step();
     }
-    explorer(&mut harness).actions.push(Action::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelBenchmark);
     wait(&mut harness);
     assert!(explorer(&mut harness).benchmarks.stability.is_some());
 }

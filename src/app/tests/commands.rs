@@ -42,10 +42,10 @@ fn every_command_can_be_carried_out() {
             wait(&mut harness);
         }
         explorer(&mut harness).actions.push(command.clone());
-        if matches!(command, Action::MakeReport(_)) {
+        if matches!(command, Action::RunBenchmark(_)) {
             // Begun is enough: to its end it takes a minute in a debug build.
             harness.step();
-            explorer(&mut harness).actions.push(Action::CancelReport);
+            explorer(&mut harness).actions.push(Action::CancelBenchmark);
         }
         wait(&mut harness);
         let notice = explorer(&mut harness).toasts.take();
@@ -59,9 +59,9 @@ fn commands_about_what_is_not_there_change_nothing() {
     let (settings, rows) = (explorer(&mut harness).work.values(), explorer(&mut harness).work.active().measurement.rows.clone());
     let profiles = pbrdf::model::Parameter::ALL.map(Action::Profile);
     let others = [
-        Action::ImportDialog,
+        Action::Import,
         Action::CancelImport,
-        Action::ReturnTo(99),
+        Action::ReturnToFit(99),
         Action::UseCase(99),
         Action::UseFinish(99),
         Action::UseModel("none"),

@@ -133,7 +133,7 @@ fn settings_survive_a_restart() {
     let settings = SavedSettings { settings: Settings { log_brdf: true, ..Settings::default() }, surface };
     let mut window = WindowSettings { theme: Theme::Dark, ..WindowSettings::default() };
     window.remember(&path);
-    let settings = SettingsFile { settings, layout: Layout::PaneId(PaneId::Dolp), window };
+    let settings = SettingsFile { settings, layout: Layout::Pane(PaneId::Dolp), window };
     settings_file::save(&path, &settings).expect("a writable folder");
     assert_eq!(settings_file::load_from(&path), (settings, None));
 }

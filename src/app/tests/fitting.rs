@@ -221,10 +221,10 @@ fn stated_standard_deviations_are_offered_as_weights() {
     let offer = "The file states standard deviations: use them as weights";
     harness.get_by_label(offer).click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings().choices.weights, Weights::Sigma);
+    assert_eq!(explorer(&mut harness).work.settings().fit_options.weights, Weights::Sigma);
     harness.get_by_label(offer).click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings().choices.weights, Weights::None);
+    assert_eq!(explorer(&mut harness).work.settings().fit_options.weights, Weights::None);
     let mut bare = explorer(&mut harness).work.active().measurement.as_ref().clone();
     bare.rows[4].dolp = bare.rows[4].dolp.map(|quantity| Quantity { sigma: None, ..quantity });
     take(explorer(&mut harness), "bare.csv".to_owned(), bare);

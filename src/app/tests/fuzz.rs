@@ -83,7 +83,7 @@ fn opened(bytes: &[u8]) -> Option<OpenedSession> {
 #[test]
 fn sessions() {
     let whole = session();
-    let bare = Session { measurements: Vec::new(), fits: Vec::new(), layout: Layout::PaneId(PaneId::ALL[0]), ..whole.clone() };
+    let bare = Session { measurements: Vec::new(), fits: Vec::new(), layout: Layout::Pane(PaneId::ALL[0]), ..whole.clone() };
     fuzz("session", &[text(&whole), text(&bare)], |bytes| {
         let Some(opened) = opened(bytes) else { return false };
         let Session { settings, layout, measurements, fits, .. } = &opened.session;
@@ -101,7 +101,7 @@ fn sessions() {
 #[test]
 fn sessions_in_every_view() {
     let whole = session();
-    let samples: Vec<Vec<u8>> = PaneId::ALL.iter().map(|pane| text(&Session { layout: Layout::PaneId(*pane), ..whole.clone() })).collect();
+    let samples: Vec<Vec<u8>> = PaneId::ALL.iter().map(|pane| text(&Session { layout: Layout::Pane(*pane), ..whole.clone() })).collect();
     let mut harness = harness();
     fuzz("session-in-views", &samples, |bytes| {
         let Some(opened) = opened(bytes) else { return false };
@@ -118,7 +118,7 @@ fn settings() {
             settings: Settings { log_brdf: true, show_bounds: true, ..Settings::default() },
             surface: Surface { bounds: vec![(Parameter::K, 0.0, 5.0)], ..Surface::default() },
         },
-        layout: Layout::PaneId(PaneId::ALL[1]),
+        layout: Layout::Pane(PaneId::ALL[1]),
         window: WindowSettings { theme: Theme::Dark, ..WindowSettings::default() },
     };
     let samples = [SettingsFile::default(), other].map(|stored| serde_json::to_vec_pretty(&stored).expect("JSON"));

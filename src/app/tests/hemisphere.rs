@@ -51,7 +51,7 @@ fn the_pointer_reads_what_the_model_gives_there() {
         // A tab may have the same name; it comes first.
         harness.query_all_by_role_and_label(Role::Button, button).last().expect("a choice").click();
         harness.run();
-        assert_eq!(explorer(&mut harness).work.settings().shown.hemisphere, quantity);
+        assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere, quantity);
         let mut read = 0;
         for (right, down) in [(-60.0, -20.0), (-30.0, 40.0), (10.0, -50.0), (-80.0, 5.0)] {
             let Some(line) = reading(&mut harness, rect.center() + egui::vec2(right, down)) else { continue };

@@ -48,7 +48,7 @@ fn what_a_pointer_reads_on_the_landscape() {
 fn why_nothing_is_predicted() {
     let mut harness = harness();
     explorer(&mut harness).dock.show(PaneId::Planner);
-    explorer(&mut harness).work.settings_mut().plan.theta_r.clear();
+    explorer(&mut harness).work.settings_mut().design.theta_r.clear();
     wait(&mut harness);
     assert_eq!(is_there_in_both(&mut harness, "There is no angle"), [true, false]);
 }

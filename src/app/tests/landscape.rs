@@ -160,10 +160,10 @@ fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
     wait(&mut harness);
     harness.get_by_label("Both axes are the same parameter: choose another one for one of them.");
     explorer(&mut harness).work.settings_mut().landscape.up = Parameter::K;
-    explorer(&mut harness).work.settings_mut().choices.weights = Weights::Sigma;
+    explorer(&mut harness).work.settings_mut().fit_options.weights = Weights::Sigma;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
-    explorer(&mut harness).work.settings_mut().choices.loss = pbrdf::fit::Loss::Huber;
+    explorer(&mut harness).work.settings_mut().fit_options.loss = pbrdf::fit::Loss::Huber;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());
 }

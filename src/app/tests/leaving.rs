@@ -112,7 +112,7 @@ fn an_exported_hemisphere_has_the_models_values_where_its_axes_say() {
     let mut harness = harness();
     show(&mut harness, PaneId::Hemisphere);
     for quantity in [HemisphereQuantity::Dolp, HemisphereQuantity::Brdf] {
-        explorer(&mut harness).work.settings_mut().shown.hemisphere = quantity;
+        explorer(&mut harness).work.settings_mut().view_options.hemisphere = quantity;
         wait(&mut harness);
         let explorer = explorer(&mut harness);
         let exported = explorer.figure(PaneId::Hemisphere).expect("a map");

@@ -192,7 +192,7 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
         let open = explorer(&mut harness);
         open.work.surface_mut().parameters.sigma = 1.75;
         let settings = open.work.settings_mut();
-        (settings.shown.facets_equal_median, settings.tabulated.wavelength_nm) = (true, 333.0);
+        (settings.view_options.facets_equal_median, settings.metal_selection.wavelength_nm) = (true, 333.0);
         order(&mut harness, Action::ClosePane(PaneId::Dolp));
         for (step, forward) in forward.iter().enumerate().rev() {
             order(&mut harness, Action::ShowStep(lesson, step));
@@ -237,7 +237,7 @@ fn a_lesson_has_a_measurement_of_its_own() {
     order(&mut harness, Action::ShowStep(last, 1));
     assert!(explorer(&mut harness).work.active().measurement.rows.is_empty());
     assert!(harness.query_by_label("No measurement: curves alone").is_some());
-    let tabulated = &explorer(&mut harness).work.settings().tabulated;
+    let tabulated = &explorer(&mut harness).work.settings().metal_selection;
     assert_eq!((tabulated.metal.as_str(), tabulated.wavelength_nm), ("Cu", 450.0));
     order(&mut harness, Action::CloseLesson);
     assert_eq!(work(explorer(&mut harness)), before);

@@ -12,7 +12,7 @@ use pbrdf::optics;
 
 fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).work.settings_mut().tabulated =
+    explorer(&mut harness).work.settings_mut().metal_selection =
         MetalSelection { metal: metal.to_owned(), wavelength_nm, ..MetalSelection::default() };
     explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Metals));
     wait(&mut harness);
@@ -56,12 +56,12 @@ fn n_and_k_follow_the_wavelength_of_the_source_that_was_set_unless_they_shall_no
     };
     let before = explorer(&mut harness).work.surface().parameters;
     press(&mut harness, egui::Key::ArrowLeft);
-    assert!(explorer(&mut harness).work.settings().tabulated.wavelength_nm < 650.0);
+    assert!(explorer(&mut harness).work.settings().metal_selection.wavelength_nm < 650.0);
     assert_eq!(explorer(&mut harness).work.surface().parameters, before, "nothing is followed yet");
     harness.get_by_label("Set n and k of Johnson and Christy 1972").click();
     harness.run();
     press(&mut harness, egui::Key::ArrowLeft);
-    let wavelength_nm = explorer(&mut harness).work.settings().tabulated.wavelength_nm;
+    let wavelength_nm = explorer(&mut harness).work.settings().metal_selection.wavelength_nm;
     assert_eq!(index(&explorer(&mut harness).work.surface().parameters), johnson(wavelength_nm));
     harness.get_by_label("n and k follow the wavelength").click();
     harness.run();
@@ -75,7 +75,7 @@ fn outside_the_tabulated_range_there_is_a_word_and_no_button() {
     assert!(harness.query_by_label("Set n and k of Johnson and Christy 1972").is_none());
     assert!(harness.query_all_by_label("outside").next().is_some());
     assert!(harness.query_by_label_contains("No source has this wavelength").is_none());
-    explorer(&mut harness).work.settings_mut().tabulated.wavelength_nm = 90.0;
+    explorer(&mut harness).work.settings_mut().metal_selection.wavelength_nm = 90.0;
     wait(&mut harness);
     assert!(harness.query_by_label_contains("No source has this wavelength").is_some());
 }
@@ -85,12 +85,12 @@ fn every_metal_is_shown_and_an_unknown_one_is_the_first() {
     let mut harness = shown("Ag", 650.0);
     let metals = optics::metals().expect("the bundled table is whole");
     for metal in metals {
-        explorer(&mut harness).work.settings_mut().tabulated.metal = metal.key.clone();
+        explorer(&mut harness).work.settings_mut().metal_selection.metal = metal.key.clone();
         wait(&mut harness);
         let first = &metal.sources[0];
         assert!(harness.query_all_by_label(&first.name).next().is_some(), "{}", metal.key);
     }
-    explorer(&mut harness).work.settings_mut().tabulated.metal = "unobtainium".to_owned();
+    explorer(&mut harness).work.settings_mut().metal_selection.metal = "unobtainium".to_owned();
     wait(&mut harness);
     assert!(harness.query_all_by_label(&metals[0].sources[0].name).next().is_some());
 }
@@ -114,7 +114,7 @@ fn the_wavelength_of_a_measurement_is_taken_over() {
         measurement.metadata = vec![("wavelength_nm".to_owned(), stated.to_owned())];
         take(explorer(&mut harness), "mine".to_owned(), measurement.clone());
         wait(&mut harness);
-        assert_eq!(explorer(&mut harness).work.settings().tabulated.wavelength_nm, expected, "{stated}");
+        assert_eq!(explorer(&mut harness).work.settings().metal_selection.wavelength_nm, expected, "{stated}");
     }
 }
 
@@ -126,6 +126,6 @@ fn the_metal_that_a_measurement_names_is_looked_at() {
         measurement.metadata = vec![("material".to_owned(), material.to_owned())];
         take(explorer(&mut harness), "mine".to_owned(), measurement.clone());
         wait(&mut harness);
-        assert_eq!(explorer(&mut harness).work.settings().tabulated.metal, expected, "{material}");
+        assert_eq!(explorer(&mut harness).work.settings().metal_selection.metal, expected, "{material}");
     }
 }

@@ -94,7 +94,7 @@ fn options_reach_the_fit() {
     fit(&mut harness);
     let explorer = explorer(&mut harness);
     let settings = &explorer.work.settings();
-    assert_eq!((settings.choices.weights, settings.choices.loss, settings.starts), (Weights::Sigma, Loss::Huber, Starts::One));
+    assert_eq!((settings.fit_options.weights, settings.fit_options.loss, settings.starts), (Weights::Sigma, Loss::Huber, Starts::One));
     let report = &explorer.work.shown_fit().expect("a fit").report;
     assert_eq!(report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>(), 1);
     assert!(report.statistics.chi2.is_some() && !report.statistics.minimises_delta_e);
@@ -127,7 +127,7 @@ fn weights_without_standard_deviations_are_a_sentence() {
     let mut measurement = (*explorer.work.active().measurement).clone();
     measurement.rows[3].dolp = measurement.rows[3].dolp.map(|dolp| pbrdf::measurement::Quantity { sigma: None, ..dolp });
     take(explorer, "bare".to_owned(), measurement);
-    explorer.work.settings_mut().choices.weights = Weights::Sigma;
+    explorer.work.settings_mut().fit_options.weights = Weights::Sigma;
     explorer.actions.push(Action::StartFit);
     harness.run();
     let notice = self::explorer(&mut harness).toasts.text().expect("a sentence");
@@ -156,8 +156,8 @@ fn settings_with_bounds_and_choices_survive_a_restart_and_nonsense_does_not() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("settings.json");
     let mut settings = Settings { starts: Starts::Exactly(12), seed: 7, ..Settings::default() };
-    settings.choices.loss = Loss::SoftL1;
-    settings.choices.loss_scale = Some(0.02);
+    settings.fit_options.loss = Loss::SoftL1;
+    settings.fit_options.loss_scale = Some(0.02);
     let mut surface = Surface::default();
     surface.set_bounds(Parameter::C, -2.0, 0.5).expect("sound bounds");
     let settings = SettingsFile { settings: SavedSettings { settings, surface }, ..SettingsFile::default() };

@@ -138,11 +138,11 @@ fn views_draw_whatever_the_sliders_hold() {
                     surface.model.diffuse = if specular { Diffuse::Minnaert } else { Diffuse::Lambert };
                     let settings = explorer(&mut harness).work.settings_mut();
                     settings.log_brdf = logarithmic;
-                    settings.shown.polar_log = logarithmic;
-                    settings.shown.facets_log = logarithmic;
-                    settings.shown.share = true;
-                    settings.shown.filled = logarithmic;
-                    settings.shown.overlay = crate::app::work::settings::Overlay::EqualMedian;
+                    settings.view_options.polar_log = logarithmic;
+                    settings.view_options.facets_log = logarithmic;
+                    settings.view_options.share = true;
+                    settings.view_options.filled = logarithmic;
+                    settings.view_options.overlay = crate::app::work::settings::Overlay::EqualMedian;
                     wait(&mut harness);
                 }
             }

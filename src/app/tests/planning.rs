@@ -38,15 +38,15 @@ fn angles_are_added_and_removed() {
     let mut harness = planner();
     harness.get_by_label("add θi").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings().plan.counts().0, 9);
+    assert_eq!(explorer(&mut harness).work.settings().design.counts().0, 9);
     harness.get_by_label("θi 2 from").set_value_accesskit(25.0);
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings().plan.theta_i[1].from, 25.0);
+    assert_eq!(explorer(&mut harness).work.settings().design.theta_i[1].from, 25.0);
     for name in ["Remove θi 2", "Remove θi 1"] {
         harness.get_by_label(name).click();
         harness.run();
     }
-    assert_eq!(explorer(&mut harness).work.settings().plan.counts().0, 0);
+    assert_eq!(explorer(&mut harness).work.settings().design.counts().0, 0);
     harness.get_by_label_contains("There is no angle");
 }
 
@@ -55,7 +55,7 @@ fn the_measured_angles_taken_over_predict_what_is_now() {
     let mut harness = planner();
     harness.get_by_label("As measured").click();
     harness.run();
-    assert_eq!(explorer(&mut harness).work.settings().plan.counts(), (3, 9));
+    assert_eq!(explorer(&mut harness).work.settings().design.counts(), (3, 9));
     let [now, planned] = errors_of_n(&mut harness).map(|error| error.expect("determined"));
     assert!((now / planned - 1.0).abs() < 1e-6, "{now} {planned}");
 }
@@ -70,7 +70,7 @@ fn a_planned_brdf_lets_ks_be_free() {
         planned.errors.iter().any(|(parameter, _)| *parameter == Parameter::Ks)
     };
     assert!(!free(&mut harness));
-    explorer(&mut harness).work.settings_mut().plan.columns = Columns::Both;
+    explorer(&mut harness).work.settings_mut().design.columns = Columns::Both;
     harness.run();
     assert!(free(&mut harness));
     harness.get_by_role_and_label(Role::SpinButton, "Noise of BRDF");

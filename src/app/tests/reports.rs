@@ -108,7 +108,7 @@ fn a_report_is_measured_in_the_background_and_can_be_stopped() {
 fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     let mut harness = harness();
     let made = |harness: &mut Harness<'static, Option<App>>| explorer(harness).jobs.benchmarks.progress().map(|(subject, _)| subject);
-    explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::Cost));
+    explorer(&mut harness).actions.push(Action::RunBenchmark(BenchmarkId::Cost));
     explorer(&mut harness).dock.show(PaneId::Stability);
     harness.step();
     harness.step();
@@ -119,7 +119,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     // Side by side they would disturb each other.
     assert_eq!(made(&mut harness), Some(BenchmarkId::Cost));
     harness.get_by_label_contains("Comes after the report that is being made");
-    explorer(&mut harness).actions.push(Action::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelBenchmark);
     let begun = Instant::now();
     while made(&mut harness) != Some(BenchmarkId::Stability) {
         assert!(begun.elapsed() < PATIENCE, "the second report does not begin");
@@ -127,7 +127,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     }
     // Another one behind it is called off.
     explorer(&mut harness).dock.show(PaneId::ErrorVsTime);
-    explorer(&mut harness).actions.push(Action::MakeReport(BenchmarkId::ErrorVsTime));
+    explorer(&mut harness).actions.push(Action::RunBenchmark(BenchmarkId::ErrorVsTime));
     for _ in 0..3 {
         harness.step();
     }
@@ -135,7 +135,7 @@ fn a_second_report_waits_for_the_first_and_can_be_called_off() {
     for _ in 0..3 {
         harness.step();
     }
-    explorer(&mut harness).actions.push(Action::CancelReport);
+    explorer(&mut harness).actions.push(Action::CancelBenchmark);
     wait(&mut harness);
     let reports = &explorer(&mut harness).benchmarks;
     assert!(reports.cost.is_some() && reports.stability.is_some() && reports.error_vs_time.is_none());

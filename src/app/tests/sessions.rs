@@ -70,10 +70,10 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     let mut before = harness();
     // One with an automatic scale of its loss, and an earlier one that is shown.
     order(&mut before, Action::StartFit);
-    explorer(&mut before).work.settings_mut().choices.loss = Loss::Huber;
+    explorer(&mut before).work.settings_mut().fit_options.loss = Loss::Huber;
     order(&mut before, Action::StartFit);
     edit(&mut before, Edit::Mask { rows: vec![4], masked: true });
-    order(&mut before, Action::ReturnTo(1));
+    order(&mut before, Action::ReturnToFit(1));
     let path = saved(&mut before, folder.path());
     let mut after = harness();
     order(&mut after, Action::OpenSession(path));
@@ -161,7 +161,7 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     let parameters = &mut explorer(&mut source).work.surface_mut().parameters;
     (parameters.n, parameters.k) = (0.0, 0.0);
     wait(&mut source);
-    order(&mut source, Action::Back);
+    order(&mut source, Action::UseValuesBeforeFit);
     let path = saved(&mut source, folder.path());
     let mut other = harness();
     order(&mut other, Action::OpenMeasurement(path));
@@ -241,9 +241,9 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
 fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut source = worked_in();
-    explorer(&mut source).work.settings_mut().choices.loss = Loss::Huber;
+    explorer(&mut source).work.settings_mut().fit_options.loss = Loss::Huber;
     order(&mut source, Action::StartFit);
-    order(&mut source, Action::ReturnTo(1));
+    order(&mut source, Action::ReturnToFit(1));
     let good: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(saved(&mut source, folder.path())).expect("the session")).expect("JSON");
     assert_eq!(good["shown"], 1);

@@ -50,7 +50,7 @@ pub enum Action {
     /// Out of the lesson, and on with what it set.
     KeepLesson,
     /// Read the foreign file as it was chosen.
-    ImportDialog,
+    Import,
     /// Leave it; what is open stays.
     CancelImport,
     /// Stop reading.
@@ -61,12 +61,12 @@ pub enum Action {
     /// Fitted values to the sliders.
     UseFit,
     /// The values from before the fit to the sliders.
-    Back,
+    UseValuesBeforeFit,
     DismissToasts,
     Undo,
     Redo,
     /// Sliders and results as the earlier fit of that number left them, the newest first.
-    ReturnTo(usize),
+    ReturnToFit(usize),
     /// Hold a parameter around its fitted value, and fit the rest.
     Profile(Parameter),
     /// Deal the residuals of the fit out anew.
@@ -87,10 +87,10 @@ pub enum Action {
     CompareModels,
     CancelComparison,
     /// Measure, in the background.
-    MakeReport(BenchmarkId),
-    CancelReport,
+    RunBenchmark(BenchmarkId),
+    CancelBenchmark,
     /// Not to be made after the one that is being made.
-    ForgetReport(BenchmarkId),
+    ForgetBenchmark(BenchmarkId),
     /// Sliders, terms and angles as that case of the stability gallery has them.
     UseCase(usize),
     Toggle(Switch),

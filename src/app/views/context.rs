@@ -38,7 +38,7 @@ impl Cx<'_> {
 
     /// Widgets that change what panes show.
     pub fn view_options_ui(&mut self, content: impl FnOnce(&mut ViewOptions)) {
-        let before = self.work.settings().shown;
+        let before = self.work.settings().view_options;
         let mut options = before;
         content(&mut options);
         if options != before {

@@ -54,7 +54,7 @@ fn describe(fit: &FitEntry, by_time: bool, title: String) -> Figure {
 
 impl View for ConvergenceView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let key = Key(cx.work.shown_fit().cloned(), cx.work.settings().shown.convergence_by_time, i18n::current());
+        let key = Key(cx.work.shown_fit().cloned(), cx.work.settings().view_options.convergence_by_time, i18n::current());
         self.plot.refresh(key, |Key(fit, by_time, _)| fit.as_ref().map(|fit| describe(fit, *by_time, cx.work.active().title())));
     }
 
@@ -74,7 +74,7 @@ impl View for ConvergenceView {
         }
         let starts = report.course.minima.iter().map(|minimum| minimum.hits).sum::<usize>();
         ui.weak(tr!("Winning start of {0}; {1}", starts, report.stop_reason.localized()));
-        let title = if cx.work.settings().shown.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
+        let title = if cx.work.settings().view_options.convergence_by_time { tr!("time / ms") } else { tr!("residual evaluations") };
         let hover = |_: &str, x: f64, y: f64| format!("{title}: {}\nΔE = {y:.6e}", decimal(x, 0.1));
         let style = PanelStyle::new("convergence", ui.available_height(), &hover).named(tr!("Plot: ΔE of the last fit against {}", title));
         if let Some(panel) = self.plot.panel(0) {

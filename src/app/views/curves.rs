@@ -133,7 +133,7 @@ impl CurveKey {
             model: surface.model,
             theta_i: settings.theta_i,
             dphi: settings.dphi,
-            times_cosine: settings.shown.times_cosine,
+            times_cosine: settings.view_options.times_cosine,
             backscatter: settings.show_backscatter || document.has_backscatter(),
             generation: document.generation,
         }

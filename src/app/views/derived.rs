@@ -32,7 +32,7 @@ impl Derived {
     /// The measured points and the curves, for the panes that draw them.
     pub fn refresh_curves(&mut self, work: &Workspace) {
         let (settings, document) = (work.settings(), work.active());
-        let times_cosine = settings.shown.times_cosine;
+        let times_cosine = settings.view_options.times_cosine;
         self.marks.refresh((document.generation, times_cosine), |_| MarkSet::new(document, times_cosine));
         self.curves.refresh(CurveKey::new(work), |key| CurveSet::new(key, document));
     }
@@ -54,7 +54,7 @@ impl Derived {
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
     pub fn refresh_outlook(&mut self, work: &Workspace, free: ParameterSet) {
         if self.is_outlook_shown {
-            let key = (work.surface().clone(), free, work.settings().choices, work.active().generation);
+            let key = (work.surface().clone(), free, work.settings().fit_options, work.active().generation);
             self.outlook.refresh(key, |_| Identifiability::new(work, free));
         } else {
             self.outlook.clear();
@@ -101,8 +101,8 @@ impl Identifiability {
         let (settings, surface) = (work.settings(), work.surface());
         let parameters = surface.parameters;
         let with = |weights| {
-            let choices = FitOptions { weights, loss: Loss::Squared, ..settings.choices };
-            fit_problem(surface, &work.active().measurement, surface.model, free, choices).ok()
+            let fit_options = FitOptions { weights, loss: Loss::Squared, ..settings.fit_options };
+            fit_problem(surface, &work.active().measurement, surface.model, free, fit_options).ok()
         };
         let stated = with(Weights::Sigma);
         let from_stated = stated.is_some();

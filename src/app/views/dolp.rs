@@ -95,7 +95,7 @@ impl DolpView {
         let points = marks.series.iter().flat_map(|marks| &marks.dolp.used).map(|point| point.bar.map_or(point.y, |bar| bar.1));
         let ghost = self.ghost.get().into_iter().flatten().flat_map(axis_values);
         let top = values.chain(ghost).chain(points).fold(0.0, f64::max);
-        let high = if cx.work.settings().shown.share { 1.05 } else { nice_ceiling(top).min(1.05) };
+        let high = if cx.work.settings().view_options.share { 1.05 } else { nice_ceiling(top).min(1.05) };
         self.range.follow(Range { low: 0.0, high }, cx.interacting);
     }
 
@@ -137,7 +137,7 @@ impl DolpView {
     }
 
     fn push_share(&self, series: &mut Vec<Series>, curves: &ModelCurves, names: &Names, color: Rgb, settings: &Settings) {
-        if settings.shown.share && self.shows(Line::Share) && !curves.share.is_empty() {
+        if settings.view_options.share && self.shows(Line::Share) && !curves.share.is_empty() {
             series.push(Series::stroke(&names.share, curves.share.clone(), 0.6, Dash::Solid).colored(color).faded(SHARE));
         }
     }
@@ -155,8 +155,14 @@ impl View for DolpView {
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);
         let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.ghost.stamp(), self.overlay.stamp(), self.band.stamp()];
-        let figure_key =
-            (stamps, cx.work.settings().shown, cx.work.settings().show_limit, self.hidden.clone(), self.range.get(), i18n::current());
+        let figure_key = (
+            stamps,
+            cx.work.settings().view_options,
+            cx.work.settings().show_limit,
+            self.hidden.clone(),
+            self.range.get(),
+            i18n::current(),
+        );
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
@@ -241,7 +247,7 @@ impl DolpView {
             (is_fitted && settings.show_band, band),
             (is_fitted, (Line::Ghost, names.ghost, quiet, (LineStyle::dotted_dense(), 1.5))),
             (is_overlaid, (Line::Other, names.other, quiet, (LineStyle::dotted_loose(), 2.0))),
-            (settings.shown.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
+            (settings.view_options.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
         ];
         let others = others.into_iter().filter(|(is_shown, _)| *is_shown).map(|(_, entry)| entry);
         series
@@ -260,7 +266,7 @@ fn along_series(key: Option<&SurfaceKey>, document: &OpenMeasurement) -> Vec<Pol
 
 /// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.
 fn other_distribution(work: &Workspace) -> Option<(Parameters, Model)> {
-    let (surface, shown) = (work.surface(), work.settings().shown);
+    let (surface, shown) = (work.surface(), work.settings().view_options);
     let (model, mut parameters) = (surface.model, surface.parameters);
     let other = another(model.distribution);
     match shown.overlay {
@@ -302,7 +308,7 @@ struct Names {
 impl Names {
     fn new(work: &Workspace) -> Self {
         let settings = work.settings();
-        let other = match (another(work.surface().model.distribution), settings.shown.overlay) {
+        let other = match (another(work.surface().model.distribution), settings.view_options.overlay) {
             (SlopeDistribution::Gauss, Overlay::EqualMedian) => tr!("Gauss, equal median slope"),
             (SlopeDistribution::Gauss, _) => tr!("Gauss, equal σ"),
             (SlopeDistribution::Cauchy, Overlay::EqualMedian) => tr!("Cauchy, equal median slope"),

@@ -153,7 +153,7 @@ impl FacetsView {
     fn describe(&self, densities: &[Density; 2], masking: &Polyline, work: &Workspace) -> Option<Figure> {
         let (settings, surface) = (work.settings(), work.surface());
         let range = self.range.get()?;
-        let y = if settings.shown.facets_log {
+        let y = if settings.view_options.facets_log {
             Axis::log(tr!("density"), "sr⁻¹").between(libm::exp10(range.low), libm::exp10(range.high))
         } else {
             range.on(Axis::linear(tr!("density"), "sr⁻¹"))
@@ -195,7 +195,7 @@ impl FacetsView {
 impl View for FacetsView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let (settings, work) = (cx.work.settings(), cx.work);
-        let (parameters, model, shown) = (work.surface().parameters, work.surface().model, settings.shown);
+        let (parameters, model, shown) = (work.surface().parameters, work.surface().model, settings.view_options);
         let key = (parameters.sigma, parameters.q, model.distribution, shown.facets_equal_median);
         self.densities.refresh(key, |&(sigma, q, own, equal_median)| {
             SlopeDistribution::ALL.map(|distribution| {

@@ -63,15 +63,15 @@ impl View for LandscapeView {
             self.job = AsyncMemo::default();
             return;
         }
-        let (model, choices) = (surface.model, settings.choices);
-        let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.options() == choices);
-        let is_scaled = choices.loss != Loss::Squared && choices.loss_scale.is_none();
+        let (model, fit_options) = (surface.model, settings.fit_options);
+        let fitted = fit.filter(|fit| fit.report.model == model && *fit.problem.options() == fit_options);
+        let is_scaled = fit_options.loss != Loss::Squared && fit_options.loss_scale.is_none();
         let scale_at = is_scaled.then(|| fitted.map_or(surface.parameters, |fit| fit.report.parameters));
         let rows = document.measurement.rows.len() - document.mask().len();
         let key = |fine: bool| {
             let count = if fine { nodes(rows, FINE, EVALUATIONS[0]) } else { nodes(rows, COARSE, EVALUATIONS[1]) };
             let (across, up) = (axis_over(across, x, count)?, axis_over(up, y, count)?);
-            Some(LandscapeKey { generation: document.generation, others, model, choices, scale_at, across, up })
+            Some(LandscapeKey { generation: document.generation, others, model, fit_options, scale_at, across, up })
         };
         let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
@@ -271,7 +271,7 @@ mod tests {
             let others = Parameters { sigma, ..Parameters::default() };
             let model = Model::full(SlopeDistribution::Cauchy);
             let (across, up) = (axis(Parameter::N), axis(Parameter::K));
-            LandscapeKey { generation, others, model, choices: FitOptions::default(), scale_at: None, across, up }
+            LandscapeKey { generation, others, model, fit_options: FitOptions::default(), scale_at: None, across, up }
         };
         let (fine, coarse) = (key(1, 0.3, 256), key(1, 0.3, 128));
         assert!(fine.is_of_use(&fine, &coarse) && key(1, 0.2, 128).is_of_use(&coarse, &coarse));

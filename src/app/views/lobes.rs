@@ -87,7 +87,7 @@ impl LobesView {
     fn describe(&self, curves: &CurveSet, key: &CurveKey, marks: &MarkSet, cx: &Cx<'_>) -> Option<Figure> {
         let settings = cx.work.settings();
         let range = self.range.get()?;
-        let (quantity, unit) = (quantity(settings.shown.times_cosine), "sr⁻¹");
+        let (quantity, unit) = (quantity(settings.view_options.times_cosine), "sr⁻¹");
         let y = if settings.log_brdf {
             Axis::log(quantity, unit).between(libm::exp10(range.low), libm::exp10(range.high))
         } else {
@@ -103,7 +103,7 @@ impl LobesView {
             series.extend(marks.brdf.series(&marks.name, color));
         }
         for (term, curve) in curves.own.terms().filter(|(term, _)| self.shows(Line::Term(*term))) {
-            if settings.shown.filled {
+            if settings.view_options.filled {
                 let floor = y.range.map_or(0.0, |(low, _)| low);
                 series.push(Series::band(term.name(), curve.iter().map(|[x, y]| [*x, floor, *y]).collect()).colored(term.ink()));
             }
@@ -143,14 +143,14 @@ impl View for LobesView {
         // Where no BRDF was measured there is no fitted lobe.
         let shown = cx.work.settings().show_band && cx.work.active().measurement.has_brdf();
         let (fit, document) = (cx.work.shown_fit().map(|fit| &**fit), cx.work.active());
-        let band_key = band_key(fit, document, key.backscatter, cx.work.settings().shown.times_cosine, shown);
+        let band_key = band_key(fit, document, key.backscatter, cx.work.settings().view_options.times_cosine, shown);
         self.band.refresh(band_key, |key| match (key, fit) {
             (Some((_, _, backscatter, times_cosine)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *times_cosine),
             _ => Vec::new(),
         });
         let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp()];
         let figure_key =
-            (stamps, cx.work.settings().shown, cx.work.settings().log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
+            (stamps, cx.work.settings().view_options, cx.work.settings().log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| self.describe(curves, key, marks, cx));
         self.plot = plot;
@@ -159,7 +159,7 @@ impl View for LobesView {
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
         switching_key_line_ui(&Self::key_entries(curves, marks, ui.visuals().dark_mode), &mut self.hidden, ui);
-        let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().shown.times_cosine);
+        let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
         let quantity = quantity(times_cosine);
         let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr\n{}", translated(MASK_HINT));
         let style = PanelStyle::new("lobes", ui.available_height(), &hover).named(tr!("Plot: BRDF against θr"));

@@ -78,12 +78,12 @@ impl MetalsView {
     fn describe(&self, metal: &Metal, work: &Workspace) -> Option<Figure> {
         let (settings, surface) = (work.settings(), work.surface());
         let (lines, found) = (self.lines.get()?, self.found.get()?);
-        let wavelength_nm = settings.tabulated.wavelength_nm;
+        let wavelength_nm = settings.metal_selection.wavelength_nm;
         let panels = PARTS.into_iter().enumerate().map(|(i, (parameter, part))| {
             let mut series = Vec::new();
             let sources = metal.sources.iter().zip(lines).zip(found).zip(SERIES.into_iter().cycle());
             for (((source, line), index), color) in sources {
-                let is_followed = settings.tabulated.source.as_deref() == Some(&source.key);
+                let is_followed = settings.metal_selection.source.as_deref() == Some(&source.key);
                 let width = if is_followed { FOLLOWED } else { SOURCE };
                 series.push(Series::stroke(&source.name, line[i].clone(), width, Dash::Solid).colored(color));
                 if let Some(index) = index {
@@ -123,8 +123,8 @@ const FOLLOWED: f64 = 2.0;
 impl View for MetalsView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let (settings, surface, work) = (cx.work.settings(), cx.work.surface(), cx.work);
-        let Some(metal) = chosen(&settings.tabulated) else { return };
-        let wavelength_nm = settings.tabulated.wavelength_nm;
+        let Some(metal) = chosen(&settings.metal_selection) else { return };
+        let wavelength_nm = settings.metal_selection.wavelength_nm;
         self.found.refresh((metal.key.clone(), wavelength_nm), |_| {
             metal.sources.iter().map(|source| source.index_at(wavelength_nm).ok()).collect()
         });
@@ -139,12 +139,12 @@ impl View for MetalsView {
         let sliders = PARTS.map(|(parameter, _)| surface.parameters[parameter]);
         let axes = [self.wavelengths.get(), self.ranges[0].get(), self.ranges[1].get()];
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh((stamps, sliders, settings.tabulated.source.clone(), axes, i18n::current()), |_| self.describe(metal, work));
+        plot.refresh((stamps, sliders, settings.metal_selection.source.clone(), axes, i18n::current()), |_| self.describe(metal, work));
         self.plot = plot;
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let before = &cx.work.settings().tabulated;
+        let before = &cx.work.settings().metal_selection;
         let Some(metal) = chosen(before) else { return };
         let (mut tabulated, sliders) = (before.clone(), cx.work.surface().parameters);
         ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {

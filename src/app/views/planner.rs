@@ -46,7 +46,7 @@ const SIDE_BY_SIDE: f32 = 540.0;
 
 impl View for PlannerView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let (design, surface, document) = (&cx.work.settings().plan, cx.work.surface(), cx.work.active());
+        let (design, surface, document) = (&cx.work.settings().design, cx.work.surface(), cx.work.active());
         let free = free_in_design(surface, design, document.measurement.has_brdf());
         let key = (surface.parameters, surface.model, free, design.clone(), document.generation, i18n::current());
         self.predictions.refresh(key, |_| {
@@ -56,7 +56,7 @@ impl View for PlannerView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let (before, document) = (&cx.work.settings().plan, cx.work.active());
+        let (before, document) = (&cx.work.settings().design, cx.work.active());
         let mut design = before.clone();
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
             if ui.available_width() > SIDE_BY_SIDE {
@@ -206,7 +206,7 @@ fn predictions_ui(work: &Workspace, view: &PlannerView, ui: &mut Ui) {
         return;
     };
     let parameters = &work.surface().parameters;
-    let (incidences, views) = work.settings().plan.counts();
+    let (incidences, views) = work.settings().design.counts();
     ui.strong(tr!("Predicted standard errors: {0} × {1} planned points", incidences, views));
     ui.weak(tr!("At the sliders as they stand; both columns with the planned noise."));
     for sentence in [now, planned].into_iter().filter_map(|prediction| prediction.as_ref().err()) {

@@ -169,7 +169,7 @@ impl PolarLobesView {
 impl View for PolarLobesView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let (settings, surface) = (cx.work.settings(), cx.work.surface());
-        let log = settings.shown.polar_log;
+        let log = settings.view_options.polar_log;
         let key = (surface.parameters, surface.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
         self.curves.refresh(key, |&(parameters, model, theta_i, plane)| {
             let Ok(surface) = Pbrdf::new(model, parameters) else { return ModelCurves::default() };
@@ -189,13 +189,13 @@ impl View for PolarLobesView {
         self.range.follow(wanted, cx.interacting);
         let Some(radius) = self.radius(log) else { return };
         let title = cx.work.active().title();
-        let filled = settings.shown.filled;
+        let filled = settings.view_options.filled;
         let figure_key = (self.curves.stamp(), self.range.get(), [log, filled], i18n::current());
         self.plot.refresh(figure_key, |_| Some(describe(curves, radius, (key.2, key.3), filled, title)));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let Some(radius) = self.radius(cx.work.settings().shown.polar_log) else { return };
+        let Some(radius) = self.radius(cx.work.settings().view_options.polar_log) else { return };
         let Some(panel) = self.plot.panel(0) else { return };
         panel.key_line_ui(ui);
         if cx.work.settings().dphi.rem_euclid(360.0) != 180.0 {

@@ -18,7 +18,7 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
         match running {
             Some((own, done)) if own == subject => {
                 if ui.button(tr!("Stop measuring")).on_hover_text(tr!("What is done so far is shown")).clicked() {
-                    cx.actions.push(Action::CancelReport);
+                    cx.actions.push(Action::CancelBenchmark);
                 }
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
                 let done = done as f32;
@@ -27,13 +27,13 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
             }
             _ if cx.jobs.benchmarks.is_waiting(subject) => {
                 if ui.button(tr!("Do not wait")).on_hover_text(tr!("This report is not made after all")).clicked() {
-                    cx.actions.push(Action::ForgetReport(subject));
+                    cx.actions.push(Action::ForgetBenchmark(subject));
                 }
                 ui.label(tr!("Comes after the report that is being made: both would be slower side by side."));
             }
             _ => {
                 if ui.button(button).on_hover_text(about).clicked() {
-                    cx.actions.push(Action::MakeReport(subject));
+                    cx.actions.push(Action::RunBenchmark(subject));
                 }
             }
         }

@@ -16,10 +16,10 @@ pub fn fit_problem(
     measurement: &Measurement,
     model: Model,
     free: ParameterSet,
-    choices: FitOptions,
+    fit_options: FitOptions,
 ) -> Result<Problem, ProblemError> {
     let (start, bounds) = start_in_bounds(surface, free);
-    Problem::new(measurement, model, start, free, bounds, choices)
+    Problem::new(measurement, model, start, free, bounds, fit_options)
 }
 
 /// The parameters that a fit would change: those that the data can speak of, less the locked ones.

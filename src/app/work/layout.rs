@@ -7,10 +7,12 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
-    #[serde(rename = "pane")]
-    PaneId(PaneId),
+    Pane(PaneId),
     /// One of several at a time, by its place in the list.
-    Tabs { active: usize, parts: Vec<Layout> },
+    Tabs {
+        active: usize,
+        parts: Vec<Layout>,
+    },
     /// Side by side, with shares of the width.
     Columns(Vec<(f32, Layout)>),
     /// One above the other, with shares of the height.
@@ -21,7 +23,7 @@ impl Default for Layout {
     /// Two groups of tabs, one above the other.
     fn default() -> Self {
         let tabs = |area| {
-            let parts = PaneId::ALL.iter().filter(|pane| pane.area() == area).map(|pane| Self::PaneId(*pane));
+            let parts = PaneId::ALL.iter().filter(|pane| pane.area() == area).map(|pane| Self::Pane(*pane));
             Self::Tabs { active: 0, parts: parts.collect() }
         };
         Self::Rows(vec![(1.2, tabs(DockArea::Upper)), (1.0, tabs(DockArea::Lower))])
@@ -48,7 +50,7 @@ impl Layout {
 
     fn collect(&self, panes: &mut Vec<PaneId>) -> bool {
         match self {
-            Self::PaneId(pane) => {
+            Self::Pane(pane) => {
                 let is_new = !panes.contains(pane);
                 panes.push(*pane);
                 is_new
@@ -78,8 +80,8 @@ mod tests {
 
     #[test]
     fn a_layout_survives_files() {
-        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::PaneId(PaneId::Lobes)] };
-        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::PaneId(PaneId::Dolp))]);
+        let tabs = Layout::Tabs { active: 0, parts: vec![Layout::Pane(PaneId::Lobes)] };
+        let layout = Layout::Columns(vec![(0.7, Layout::Rows(vec![(2.0, tabs)])), (1.3, Layout::Pane(PaneId::Dolp))]);
         assert_eq!(read(&serde_json::to_string(&layout).expect("a layout is JSON")), layout);
     }
 

@@ -59,6 +59,6 @@ fn apply(step: &Step, settings: &mut Settings, surface: &mut Surface) {
     settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
     settings.dphi = step.dphi.unwrap_or(settings.dphi);
     settings.log_brdf = step.log.unwrap_or(settings.log_brdf);
-    settings.tabulated.look_at(step.metal);
-    settings.tabulated.wavelength_nm = step.wavelength_nm.unwrap_or(settings.tabulated.wavelength_nm);
+    settings.metal_selection.look_at(step.metal);
+    settings.metal_selection.wavelength_nm = step.wavelength_nm.unwrap_or(settings.metal_selection.wavelength_nm);
 }

@@ -144,13 +144,15 @@ pub struct Settings {
     /// Whether the bounds stand under the sliders.
     pub show_bounds: bool,
     /// What a fit minimises.
-    pub choices: FitOptions,
+    #[serde(rename = "choices")]
+    pub fit_options: FitOptions,
     /// Where a fit begins.
     pub starts: Starts,
     /// Seed of the starts and of the bootstrap.
     pub seed: u64,
     /// Angles that might be measured.
-    pub plan: DesignSettings,
+    #[serde(rename = "plan")]
+    pub design: DesignSettings,
     /// Angle of incidence of the lobes, degrees.
     pub theta_i: f64,
     /// Relative azimuth of the lobes, degrees; 180 is the plane of incidence.
@@ -165,8 +167,10 @@ pub struct Settings {
     pub show_backscatter: bool,
     /// Whether what is free is fitted again whenever a slider moves.
     pub refit_live: bool,
-    pub shown: ViewOptions,
-    pub tabulated: MetalSelection,
+    #[serde(rename = "shown")]
+    pub view_options: ViewOptions,
+    #[serde(rename = "tabulated")]
+    pub metal_selection: MetalSelection,
     pub landscape: LandscapeAxes,
 }
 
@@ -174,10 +178,10 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             show_bounds: false,
-            choices: FitOptions::default(),
+            fit_options: FitOptions::default(),
             starts: Starts::Automatic,
             seed: 1,
-            plan: DesignSettings::default(),
+            design: DesignSettings::default(),
             theta_i: 40.0,
             dphi: 180.0,
             log_brdf: false,
@@ -185,8 +189,8 @@ impl Default for Settings {
             show_band: true,
             show_backscatter: false,
             refit_live: false,
-            shown: ViewOptions::default(),
-            tabulated: MetalSelection::default(),
+            view_options: ViewOptions::default(),
+            metal_selection: MetalSelection::default(),
             landscape: LandscapeAxes::default(),
         }
     }
@@ -203,9 +207,9 @@ impl Settings {
             self.dphi = first.plane;
         }
         if let Some(wavelength_nm) = opened.wavelength_nm() {
-            self.tabulated.wavelength_nm = wavelength_nm;
+            self.metal_selection.wavelength_nm = wavelength_nm;
         }
-        self.tabulated.look_at(opened.metal());
+        self.metal_selection.look_at(opened.metal());
     }
 
     /// Checks that every value means something: a file can be well-formed and still hold nonsense.
@@ -216,9 +220,9 @@ impl Settings {
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
         Geometry::new(self.theta_i, 0.0, self.dphi).map_err(SettingsError::Angles)?;
         let others = [
-            ("plan", self.plan.is_sound()),
-            ("tabulated.wavelength_nm", is_positive(self.tabulated.wavelength_nm)),
-            ("choices.loss_scale", self.choices.loss_scale.is_none_or(is_positive)),
+            ("plan", self.design.is_sound()),
+            ("tabulated.wavelength_nm", is_positive(self.metal_selection.wavelength_nm)),
+            ("choices.loss_scale", self.fit_options.loss_scale.is_none_or(is_positive)),
         ];
         let wrong = others.into_iter().find(|(_, is_sound)| !is_sound);
         wrong.map_or(Ok(()), |(key, _)| Err(SettingsError::OutOfRange(key)))

@@ -185,13 +185,13 @@ impl Workspace {
             }
             Edit::SetDirection { theta_i, dphi } => (self.settings.theta_i, self.settings.dphi) = (theta_i, dphi),
             Edit::SetSwitch(switch, on) => switch.set(&mut self.settings, on),
-            Edit::SetFitOptions(options) => self.settings.choices = options,
+            Edit::SetFitOptions(options) => self.settings.fit_options = options,
             Edit::SetStarts(starts) => self.settings.starts = starts,
             Edit::SetSeed(seed) => self.settings.seed = seed,
-            Edit::SetViewOptions(options) => self.settings.shown = options,
+            Edit::SetViewOptions(options) => self.settings.view_options = options,
             Edit::SetLandscapeAxes(axes) => self.settings.landscape = axes,
-            Edit::SetMetalSelection(selection) => self.settings.tabulated = selection,
-            Edit::SetDesign(design) => self.settings.plan = design,
+            Edit::SetMetalSelection(selection) => self.settings.metal_selection = selection,
+            Edit::SetDesign(design) => self.settings.design = design,
             Edit::Mask { rows, masked } => {
                 self.measurements.active_mut().set_masked(&rows, masked);
                 self.moved_at = self.revision;

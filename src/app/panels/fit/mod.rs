@@ -95,13 +95,13 @@ pub fn delta_e_text(delta_e: Option<f64>) -> String {
 /// Offers stated standard deviations as weights, where they are there.
 fn sigmas_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     if cx.derived.states_sigmas() && cx.derived.values().is_some_and(|values| values > 0) {
-        let choices = cx.work.settings().choices;
-        let mut used = choices.weights == Weights::Sigma;
+        let fit_options = cx.work.settings().fit_options;
+        let mut used = fit_options.weights == Weights::Sigma;
         let help =
             tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ²; without, ΔE is minimised.");
         if ui.checkbox(&mut used, tr!("The file states standard deviations: use them as weights")).on_hover_text(help).changed() {
             let weights = if used { Weights::Sigma } else { Weights::None };
-            cx.edits.push(Edit::SetFitOptions(FitOptions { weights, ..choices }));
+            cx.edits.push(Edit::SetFitOptions(FitOptions { weights, ..fit_options }));
         }
     }
 }

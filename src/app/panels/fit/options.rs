@@ -18,28 +18,28 @@ const SOME_STARTS: usize = 100;
 
 /// Copies of what the panel sets; those that change become edits.
 struct Draft {
-    choices: FitOptions,
+    fit_options: FitOptions,
     starts: Starts,
     seed: u64,
     surface: Surface,
 }
 
 pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
-    let Settings { choices, starts, seed, .. } = *cx.work.settings();
+    let Settings { fit_options, starts, seed, .. } = *cx.work.settings();
     let surface = cx.work.surface();
     let has_brdf = cx.work.active().measurement.has_brdf();
-    let mut draft = Draft { choices, starts, seed, surface: surface.clone() };
+    let mut draft = Draft { fit_options, starts, seed, surface: surface.clone() };
     let are_defaults =
-        choices == FitOptions::default() && starts == Starts::Automatic && surface.model.dolp_formula == DolpFormula::default();
+        fit_options == FitOptions::default() && starts == Starts::Automatic && surface.model.dolp_formula == DolpFormula::default();
     let title = if are_defaults { tr!("Options") } else { tr!("Options (not the defaults)") };
     CollapsingHeader::new(title).id_salt("fit options").show(ui, |ui| {
         Grid::new("fit options").num_columns(2).show(ui, |ui| {
-            residuals_ui(&mut draft.choices, ui);
-            loss_ui(&mut draft.choices, ui);
+            residuals_ui(&mut draft.fit_options, ui);
+            loss_ui(&mut draft.fit_options, ui);
             eq17_ui(&mut draft.surface, has_brdf, ui);
             starts_ui(&mut draft, ui);
         });
-        if choices.weights == Weights::Sigma && !cx.derived.states_sigmas() {
+        if fit_options.weights == Weights::Sigma && !cx.derived.states_sigmas() {
             let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
@@ -47,11 +47,11 @@ pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
             let mut surface = surface.clone();
             surface.model.dolp_formula = DolpFormula::default();
             keep_ks_where_only_ratios_count(&mut surface, has_brdf);
-            draft = Draft { choices: FitOptions::default(), starts: Starts::Automatic, seed: 1, surface };
+            draft = Draft { fit_options: FitOptions::default(), starts: Starts::Automatic, seed: 1, surface };
         }
     });
     let edits = [
-        (draft.choices != choices).then_some(Edit::SetFitOptions(draft.choices)),
+        (draft.fit_options != fit_options).then_some(Edit::SetFitOptions(draft.fit_options)),
         (draft.starts != starts).then_some(Edit::SetStarts(draft.starts)),
         (draft.seed != seed).then_some(Edit::SetSeed(draft.seed)),
         (draft.surface != *surface).then(|| Edit::SetSurface(Box::new(draft.surface))),
@@ -74,43 +74,43 @@ fn choice_ui<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &m
     *value != before
 }
 
-fn residuals_ui(choices: &mut FitOptions, ui: &mut Ui) {
+fn residuals_ui(fit_options: &mut FitOptions, ui: &mut Ui) {
     choice_ui(
         ui,
         "Weights",
         "None: ΔE of Eq. (18). By standard deviation: every residual over its stated σ, so that the sum of squares is χ².",
-        &mut choices.weights,
+        &mut fit_options.weights,
         &[(Weights::None, "none: ΔE, Eq. (18)"), (Weights::Sigma, "1/σ: χ²")],
     );
     choice_ui(
         ui,
         "BRDF residuals",
         "Absolute: X − Xm. Relative: (X − Xm)/Xm. Logarithmic: ln X − ln Xm, for lobes that span decades.",
-        &mut choices.brdf_residuals,
+        &mut fit_options.brdf_residuals,
         &[(BrdfResiduals::Absolute, "absolute"), (BrdfResiduals::Relative, "relative"), (BrdfResiduals::Log, "logarithmic")],
     );
 }
 
-fn loss_ui(choices: &mut FitOptions, ui: &mut Ui) {
+fn loss_ui(fit_options: &mut FitOptions, ui: &mut Ui) {
     choice_ui(
         ui,
         "Loss",
         "Linear: least squares. Huber and soft-L1 count residuals beyond the scale by their size, so that an outlier pulls less.",
-        &mut choices.loss,
+        &mut fit_options.loss,
         &[(Loss::Squared, "linear"), (Loss::Huber, "Huber"), (Loss::SoftL1, "soft-L1")],
     );
-    if choices.loss == Loss::Squared {
+    if fit_options.loss == Loss::Squared {
         return;
     }
     let help = tr!("Where the loss changes from squares to sizes, in units of the residual; automatic: 1.345 × the normalised median \
          absolute deviation of the residuals of a linear fit.");
     let label = ui.label(tr!("Loss scale")).on_hover_text(&help);
     ui.horizontal(|ui| {
-        let mut automatic = choices.loss_scale.is_none();
+        let mut automatic = fit_options.loss_scale.is_none();
         if ui.checkbox(&mut automatic, tr!("automatic")).on_hover_text(&help).changed() {
-            choices.loss_scale = if automatic { None } else { Some(0.01) };
+            fit_options.loss_scale = if automatic { None } else { Some(0.01) };
         }
-        if let Some(scale) = &mut choices.loss_scale {
+        if let Some(scale) = &mut fit_options.loss_scale {
             let speed = 0.02 * *scale;
             ui.add(DragValue::new(scale).range(1e-12..=1e12).speed(speed).max_decimals(8)).labelled_by(label.id);
         }

@@ -30,7 +30,7 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
                 let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
                 let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.localized());
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
-                    commands.push(Action::ReturnTo(index));
+                    commands.push(Action::ReturnToFit(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
                 ui.monospace(if report.course.minima.is_empty() {

@@ -26,7 +26,7 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, commands: &mut Vec<Action>, u
             commands.push(Action::UseFit);
         }
         if ui.button(tr!("Back to before the fit")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
-            commands.push(Action::Back);
+            commands.push(Action::UseValuesBeforeFit);
         }
     });
     ui.add_space(4.0);
@@ -112,16 +112,16 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
 /// What fell, where that was not ΔE, named for what it is.
 fn minimised_text(fit: &FitEntry) -> String {
     let report = &fit.report;
-    let choices = fit.problem.options();
+    let fit_options = fit.problem.options();
     let Some(start) = report.statistics.start_rss.filter(|_| !report.statistics.minimises_delta_e) else { return String::new() };
-    let has_brdf = !fit.problem.knows_only_ratios() && !choices.dolp_only;
-    let form = match choices.brdf_residuals {
+    let has_brdf = !fit.problem.knows_only_ratios() && !fit_options.dolp_only;
+    let form = match fit_options.brdf_residuals {
         BrdfResiduals::Relative if has_brdf => tr!("relative residuals"),
         BrdfResiduals::Log if has_brdf => tr!("logarithmic residuals"),
         _ => tr!("residuals"),
     };
-    let weights = if choices.weights == Weights::Sigma { tr!(" over σ") } else { String::new() };
-    let loss = match choices.loss {
+    let weights = if fit_options.weights == Weights::Sigma { tr!(" over σ") } else { String::new() };
+    let loss = match fit_options.loss {
         Loss::Squared => String::new(),
         Loss::Huber => tr!(", Huber loss"),
         Loss::SoftL1 => tr!(", soft-L1 loss"),

@@ -48,7 +48,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::ShowStep(lesson, step) => show_step(app, lesson, step)?,
         Action::CloseLesson => end_lesson(app)?,
         Action::KeepLesson => keep_lesson(app),
-        Action::ImportDialog => start_import(app)?,
+        Action::Import => start_import(app)?,
         Action::CancelImport => cancel_import(app),
         Action::CancelLoading => app.jobs.files.cancel_load(),
         Action::StartFit => start_fit(app)?,
@@ -61,13 +61,13 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
             compare_models(app)?;
         }
         Action::CancelComparison => app.jobs.fits.compare.cancel(),
-        Action::MakeReport(id) => app.jobs.benchmarks.start(id)?,
-        Action::ForgetReport(id) => app.jobs.benchmarks.forget(id),
-        Action::CancelReport => app.jobs.benchmarks.cancel(),
+        Action::RunBenchmark(id) => app.jobs.benchmarks.start(id)?,
+        Action::ForgetBenchmark(id) => app.jobs.benchmarks.forget(id),
+        Action::CancelBenchmark => app.jobs.benchmarks.cancel(),
         Action::UseCase(index) => use_case(app, index),
         Action::UseFit => app.work.apply(Edit::UseFit),
-        Action::Back => app.work.apply(Edit::UseValuesBeforeFit),
-        Action::ReturnTo(index) => {
+        Action::UseValuesBeforeFit => app.work.apply(Edit::UseValuesBeforeFit),
+        Action::ReturnToFit(index) => {
             app.work.apply(Edit::ReturnToFit(index));
             app.jobs.fits.abandon_scan();
         }

@@ -15,11 +15,11 @@ use pbrdf::model::{PRESETS, Parameter};
 use tr::tr;
 
 pub fn start_fit(app: &mut App) -> Result<(), String> {
-    let Settings { choices, starts, seed, .. } = *app.work.settings();
+    let Settings { fit_options, starts, seed, .. } = *app.work.settings();
     let (surface, open) = (app.work.surface(), app.work.active());
     let Surface { parameters, model, .. } = *surface;
     parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
-    match fit_problem(surface, &open.measurement, model, app.free(), choices) {
+    match fit_problem(surface, &open.measurement, model, app.free(), fit_options) {
         Ok(problem) => app.jobs.fits.fit(problem, open, starts, seed),
         Err(error) => Err(tr!("The fit cannot begin: {}.", explain(&error, &open.measurement))),
     }
@@ -50,7 +50,7 @@ pub fn refit_if_moved(app: &mut App) {
         return;
     }
     // Why a fit is not possible is said when one is asked for.
-    if let Ok(problem) = fit_problem(surface, &app.work.active().measurement, model, free, app.work.settings().choices)
+    if let Ok(problem) = fit_problem(surface, &app.work.active().measurement, model, free, app.work.settings().fit_options)
         && let Err(sentence) = app.jobs.fits.refit(problem)
     {
         app.toasts.error(sentence);
@@ -60,10 +60,10 @@ pub fn refit_if_moved(app: &mut App) {
 pub fn compare_models(app: &mut App) -> Result<(), String> {
     let (settings, surface, measurement) = (app.work.settings(), app.work.surface(), &app.work.active().measurement);
     let problems = PRESETS.iter().map(|preset| {
-        let choices = FitOptions { dolp_only: preset.dolp_only, ..settings.choices };
+        let fit_options = FitOptions { dolp_only: preset.dolp_only, ..settings.fit_options };
         let model = preset.model.with_dolp_formula(surface.model.dolp_formula);
-        let free = free_by_default(model, measurement, &choices);
-        (preset, fit_problem(surface, measurement, model, free, choices))
+        let free = free_by_default(model, measurement, &fit_options);
+        (preset, fit_problem(surface, measurement, model, free, fit_options))
     });
     let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
     app.work.apply(Edit::SetModelComparison(Vec::new()));

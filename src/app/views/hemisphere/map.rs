@@ -21,21 +21,20 @@ pub struct Made {
     pub hemisphere: Arc<Hemisphere>,
     pub theta_i: f64,
     pub map: HemisphereMap,
-    /// Smallest and largest value of each quantity, as it is coloured.
+    /// Smallest and largest value of each quantity, of the BRDF in decimal logarithms.
     pub extremes: [(f64, f64); HemisphereQuantity::ALL.len()],
 }
 
 impl Made {
     /// The map in a figure, over degrees from the middle outwards so that axes can tell θr.
     pub fn heat_map(&self, quantity: HemisphereQuantity, range: Range, axis: Axis) -> HeatMap {
-        // The BRDF is kept as its logarithm.
-        let value = |value: f64| if quantity == HemisphereQuantity::Brdf { libm::exp10(value) } else { value };
+        let end = |end: f64| if quantity == HemisphereQuantity::Brdf { libm::exp10(end) } else { end };
         let edges = Range { low: -90.0, high: 90.0 }.edges(SIZE);
         HeatMap {
             x_edges: edges.clone(),
             y_edges: edges,
-            values: values(&self.map, quantity).iter().map(|at| value(*at)).collect(),
-            color_axis: axis.between(value(range.low), value(range.high)),
+            values: values(&self.map, quantity).to_vec(),
+            color_axis: axis.between(end(range.low), end(range.high)),
             colors: quantity.colors(),
         }
     }
@@ -43,15 +42,13 @@ impl Made {
     pub fn new(surface: &Pbrdf, theta_i: f64, before: Option<Arc<Hemisphere>>, stopped: Stopped<'_>) -> Option<Self> {
         let prepared = || Some(Arc::new(Hemisphere::new(theta_i, SIZE, stopped).ok()??));
         let hemisphere = before.or_else(prepared)?;
-        let mut map = hemisphere.map(surface, stopped)?;
-        // Coloured by its decades.
-        map.brdf.iter_mut().for_each(|brdf| *brdf = libm::log10(*brdf));
-        let extremes = HemisphereQuantity::ALL.map(|quantity| extremes(values(&map, quantity)));
+        let map = hemisphere.map(surface, stopped)?;
+        let extremes = HemisphereQuantity::ALL.map(|quantity| extremes(&map, quantity));
         Some(Self { hemisphere, theta_i, map, extremes })
     }
 }
 
-/// The values that are coloured, cell by cell; of the BRDF the logarithms.
+/// The values that are coloured, cell by cell.
 pub fn values(map: &HemisphereMap, quantity: HemisphereQuantity) -> &[f64] {
     match quantity {
         HemisphereQuantity::Dolp => &map.dolp,
@@ -61,8 +58,16 @@ pub fn values(map: &HemisphereMap, quantity: HemisphereQuantity) -> &[f64] {
     }
 }
 
-/// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound.
-fn extremes(values: &[f64]) -> (f64, f64) {
+/// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound; of the BRDF, which is coloured by its decades,
+/// their logarithms.
+fn extremes(map: &HemisphereMap, quantity: HemisphereQuantity) -> (f64, f64) {
+    let is_log = quantity == HemisphereQuantity::Brdf;
+    let (low, high) = ends(values(map, quantity), if is_log { f64::MIN_POSITIVE } else { f64::NEG_INFINITY });
+    if is_log { (libm::log10(low), libm::log10(high)) } else { (low, high) }
+}
+
+/// The smallest and the largest finite value from `least` on, the horizon left out.
+fn ends(values: &[f64], least: f64) -> (f64, f64) {
     // Of the disc of radius 1 that has the horizon at its rim; a square of the radius needs no angle.
     let rim = (SETS_AXES / 90.0) * (SETS_AXES / 90.0);
     let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
@@ -70,7 +75,7 @@ fn extremes(values: &[f64]) -> (f64, f64) {
         let y = center(row);
         for (column, &value) in values.iter().enumerate() {
             let x = center(column);
-            if value.is_finite() && x * x + y * y <= rim {
+            if value.is_finite() && value >= least && x * x + y * y <= rim {
                 ends = (ends.0.min(value), ends.1.max(value));
             }
         }
@@ -121,7 +126,7 @@ impl HemisphereQuantity {
 
 #[cfg(test)]
 mod tests {
-    use super::{HemisphereQuantity, Made, Range, SIZE, extremes, index, place, values, wanted};
+    use super::{HemisphereQuantity, Made, Range, SIZE, ends, index, place, values, wanted};
     use pbrdf::model::{Model, Parameters, Pbrdf};
     use pbrdf::optics::SlopeDistribution;
 
@@ -154,7 +159,7 @@ mod tests {
         for (column, value) in [(SIZE / 2, 0.2), (SIZE / 2 + 112, 0.7), (SIZE / 2 + 117, 9.0)] {
             map[SIZE / 2 * SIZE + column] = value;
         }
-        assert_eq!(extremes(&map), (0.2, 0.7));
+        assert_eq!(ends(&map, f64::NEG_INFINITY), (0.2, 0.7));
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl HemisphereQuantity {
             _ if value.is_nan() => tr!("nothing to tell"),
             Self::Dolp => tr!("DoLP = {}", format!("{value:.5}")),
             Self::Angle => tr!("angle of polarisation = {}°", format!("{:.2}", value + 0.0)),
-            Self::Brdf => tr!("BRDF = {} 1/sr", format!("{:.4e}", libm::exp10(value))),
+            Self::Brdf => tr!("BRDF = {} 1/sr", format!("{value:.4e}")),
             Self::SpecularShare => tr!("specular share = {}", format!("{value:.5}")),
         }
     }
@@ -166,7 +166,7 @@ impl View for HemisphereView {
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(&surface, theta_i, before, stopped));
         self.measured.refresh((cx.work.active().generation, theta_i), |_| measured(cx.work.active(), theta_i));
         let (Some(key), Some(Some(made))) = (self.job.key(), self.job.get()) else { return };
-        let quantity = settings.shown.hemisphere;
+        let quantity = settings.view_options.hemisphere;
         let range = &mut self.ranges[quantity as usize];
         range.follow(wanted(quantity, made.extremes[quantity as usize]), cx.interacting);
         let range = range.get();
@@ -186,7 +186,7 @@ impl View for HemisphereView {
                 }
             });
         });
-        let quantity = cx.work.settings().shown.hemisphere;
+        let quantity = cx.work.settings().view_options.hemisphere;
         if let Some(panel) = self.plot.panel(0) {
             panel.key_line_ui(ui);
         }

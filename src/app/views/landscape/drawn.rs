@@ -41,7 +41,7 @@ impl LandscapeImage {
         for axis in [key.across, key.up] {
             surface.parameters[axis.parameter] = axis.low;
         }
-        let problem = fit_problem(&surface, measurement, key.model, free, key.choices).ok()?;
+        let problem = fit_problem(&surface, measurement, key.model, free, key.fit_options).ok()?;
         let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
         let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
         let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();

@@ -9,7 +9,7 @@ pub struct LandscapeKey {
     pub generation: u64,
     pub others: Parameters,
     pub model: Model,
-    pub choices: FitOptions,
+    pub fit_options: FitOptions,
     /// Where the residuals are looked at that set the scale of a robust loss.
     pub scale_at: Option<Parameters>,
     pub across: LandscapeAxis,
@@ -20,7 +20,7 @@ impl LandscapeKey {
     /// Whether the landscape of these inputs is worth waiting for while other ones are wanted: under a moving slider each coarse one
     /// is a picture on the way. A fine one, or one of other data, is not.
     pub fn is_of_use(&self, wanted: &Self, coarse: &Self) -> bool {
-        let subject = |key: &Self| (key.generation, key.model, key.choices, key.across.parameter, key.up.parameter, key.across.count);
+        let subject = |key: &Self| (key.generation, key.model, key.fit_options, key.across.parameter, key.up.parameter, key.across.count);
         self == wanted || subject(self) == subject(coarse)
     }
 }
