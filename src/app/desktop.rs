@@ -45,7 +45,8 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     match std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| eframe::run_native(TITLE, options, create))) {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(tr!("The window cannot be opened: {}.", reason(&error))),
-        // winit panics where a library of X11 is missing; any later panic is a fault of the program.
+        // winit panics where a library of X11 is missing; any later panic is a fault of the
+        // program.
         Err(panic) if STARTED.load(Ordering::Relaxed) => std::panic::resume_unwind(panic),
         Err(_) => Err("The window cannot be opened: a library of the window system is missing (on Debian: libxkbcommon-x11-0).".to_owned()),
     }

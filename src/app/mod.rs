@@ -1,7 +1,8 @@
 //! Floor 6: the window.
 //!
-//! In each frame `logic` takes the results of jobs, executes actions and refreshes what is derived; `ui` draws, and gathers edits of the
-//! work, which are carried out after it, and actions. No paint closure evaluates a model, and no fit runs on this thread.
+//! In each frame `logic` takes the results of jobs, executes actions and refreshes what is derived;
+//! `ui` draws, and gathers edits of the work, which are carried out after it, and actions. No paint
+//! closure evaluates a model, and no fit runs on this thread.
 
 mod desktop;
 mod jobs;

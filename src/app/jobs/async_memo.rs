@@ -14,8 +14,9 @@ struct Running<K, V> {
 /// Tells a job whether it is to stop.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// A [`Memo`](crate::app::jobs::memo::Memo) whose value is made by a job. At most one job runs; of inputs that come meanwhile only the
-/// newest are used. Until their value is there, the value before is shown. Dropping the memo stops its job.
+/// A [`Memo`](crate::app::jobs::memo::Memo) whose value is made by a job. At most one job runs; of
+/// inputs that come meanwhile only the newest are used. Until their value is there, the value
+/// before is shown. Dropping the memo stops its job.
 pub struct AsyncMemo<K, V> {
     shown: Option<MemoState<K, V>>,
     running: Option<Running<K, V>>,
@@ -39,8 +40,9 @@ impl<K, V> Default for AsyncMemo<K, V> {
 }
 
 impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
-    /// Takes the value of a job that has ended, and starts a job if the value belongs to other inputs than these. Call it before every
-    /// frame that shows the value. `make` owns its inputs and runs apart from the window; its value is dropped after a stop.
+    /// Takes the value of a job that has ended, and starts a job if the value belongs to other
+    /// inputs than these. Call it before every frame that shows the value. `make` owns its inputs
+    /// and runs apart from the window; its value is dropped after a stop.
     pub fn refresh(&mut self, spawner: &Spawner, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
         self.poll();
         let is_current = self.note_frame(spawner.frame(), key);
@@ -73,7 +75,8 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
         }
     }
 
-    /// Stops the running job if nobody waits for the value of its inputs; the next job then need not wait for it.
+    /// Stops the running job if nobody waits for the value of its inputs; the next job then need
+    /// not wait for it.
     pub fn stop_if(&mut self, is_useless: impl FnOnce(&K) -> bool) {
         self.poll();
         if self.running.as_ref().is_some_and(|running| is_useless(&running.key)) {
@@ -91,7 +94,8 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
         self.shown.as_ref().map(|shown| &shown.key)
     }
 
-    /// How many frames ago the inputs of the value that is shown were the newest; 0 where they still are.
+    /// How many frames ago the inputs of the value that is shown were the newest; 0 where they
+    /// still are.
     pub fn frames_behind(&self) -> u64 {
         self.frames_behind
     }

@@ -9,7 +9,8 @@ use std::time::Duration;
 /// Makes the window draw a frame.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// A running job with a result `T` and a progress `P`, as its owner sees it. Dropping it asks the job to stop; the result is then lost.
+/// A running job with a result `T` and a progress `P`, as its owner sees it. Dropping it asks the
+/// job to stop; the result is then lost.
 pub struct Job<T, P = ()> {
     receiver: Receiver<T>,
     cancelled: Arc<AtomicBool>,
@@ -61,7 +62,8 @@ impl<T, P> Job<T, P> {
 impl<T, P: Clone> Job<T, P> {
     /// The newest report of the job.
     pub fn progress(&self) -> Option<P> {
-        // The lock is poisoned where the job panicked while it reported; such a job has no progress.
+        // The lock is poisoned where the job panicked while it reported; such a job has no
+        // progress.
         self.progress.lock().ok().and_then(|progress| progress.clone())
     }
 }

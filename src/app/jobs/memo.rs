@@ -42,7 +42,8 @@ impl<K: PartialEq, V> Memo<K, V> {
         self.made.as_ref().map(|(key, _)| key)
     }
 
-    /// Another number for every value that was ever made, 0 without one: what is made from this value has it in its key.
+    /// Another number for every value that was ever made, 0 without one: what is made from this
+    /// value has it in its key.
     pub fn stamp(&self) -> u64 {
         self.stamp
     }

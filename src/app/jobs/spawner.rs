@@ -47,7 +47,8 @@ impl Spawner {
             // Each thread of a test has a language of its own.
             #[cfg(test)]
             crate::app::text::i18n::set(language);
-            // The variables are dropped in reverse order: the channel has a result or is closed before the window wakes.
+            // The variables are dropped in reverse order: the channel has a result or is closed
+            // before the window wakes.
             let _completion = completion;
             let sender = sender;
             // The job may be abandoned.

@@ -38,8 +38,8 @@ impl SliderStep {
     }
 }
 
-/// Gives the slider the focus when it is clicked or dragged, and lets arrow keys step its value from where it was `before` the slider
-/// was drawn; with Shift or Ctrl by a tenth of a step.
+/// Gives the slider the focus when it is clicked or dragged, and lets arrow keys step its value
+/// from where it was `before` the slider was drawn; with Shift or Ctrl by a tenth of a step.
 pub fn step_with_arrows(ui: &Ui, slider: &Response, before: f64, value: &mut f64, range: &RangeInclusive<f64>, step: SliderStep) {
     if slider.is_pointer_button_down_on() {
         slider.request_focus();

@@ -2,7 +2,8 @@
 
 use egui::{Id, Rect, RectAlign, Response, Tooltip, Ui};
 
-/// Whether the pointer dragged the control and is still on it: then the plots are looked at, and no text comes before them.
+/// Whether the pointer dragged the control and is still on it: then the plots are looked at, and no
+/// text comes before them.
 fn was_dragged(response: &Response) -> bool {
     let key = Id::unique("dragged last");
     if response.dragged() {

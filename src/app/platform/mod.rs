@@ -1,4 +1,5 @@
-//! What differs between a desktop and a browser: threads, the clock, folders of the user, file dialogs, the heap.
+//! What differs between a desktop and a browser: threads, the clock, folders of the user, file
+//! dialogs, the heap.
 //!
 //! The functions know nothing of the program; every other floor of the window may call them.
 

@@ -1,4 +1,5 @@
-//! The desktop: threads, the clock of the system, folders by the desktop's conventions, dialogs of the desktop.
+//! The desktop: threads, the clock of the system, folders by the desktop's conventions, dialogs of
+//! the desktop.
 
 use std::cell::Cell;
 use std::io;
@@ -47,7 +48,8 @@ pub struct FileDialog {
 pub enum PathPurpose {
     /// The file exists and is read.
     Open,
-    /// The file is written; the dialog suggests a name and asks before an existing file is replaced.
+    /// The file is written; the dialog suggests a name and asks before an existing file is
+    /// replaced.
     Save { suggested_name: String },
 }
 
@@ -68,7 +70,8 @@ pub struct DialogUnavailable;
 /// # Errors
 /// No dialog can open.
 pub fn show_file_dialog(dialog: FileDialog) -> Result<Option<PathBuf>, DialogUnavailable> {
-    // A program has one logger. Where another one is installed, a dialog that cannot open counts as cancelled.
+    // A program has one logger. Where another one is installed, a dialog that cannot open counts as
+    // cancelled.
     let _ = log::set_logger(&RFD_LOG).map(|()| log::set_max_level(log::LevelFilter::Error));
     DIALOG_FAILED.set(false);
     let FileDialog { title, purpose, filters } = dialog;
@@ -87,12 +90,14 @@ thread_local! {
     static DIALOG_FAILED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// rfd returns `None` both where the user cancels and where no dialog opens; only its log tells which.
+/// rfd returns `None` both where the user cancels and where no dialog opens; only its log tells
+/// which.
 struct RfdLog;
 
 static RFD_LOG: RfdLog = RfdLog;
 
-/// The module of rfd that tries zenity after the portal has failed. An error from this module means that no way is left; the test
+/// The module of rfd that tries zenity after the portal has failed. An error from this module means
+/// that no way is left; the test
 /// `a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled` fails where a new version of rfd logs otherwise.
 const RFD_LOG_TARGET: &str = "rfd::backend::xdg_desktop_portal";
 

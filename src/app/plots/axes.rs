@@ -6,7 +6,8 @@ use crate::app::plots::theme;
 use egui::{Role, Ui, WidgetInfo};
 use egui_plot::{AxisHints, Plot, PlotBounds, PlotResponse, PlotUi};
 
-/// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a double click gives them back.
+/// How the axes of a plot are looked at: as the contents want, until the user pans or zooms; a
+/// double click gives them back.
 #[derive(Debug, Default)]
 pub struct Axes {
     by_hand: bool,
@@ -35,7 +36,8 @@ impl Axes {
         self.by_hand
     }
 
-    /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the plot answered.
+    /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the
+    /// plot answered.
     pub fn track_interaction<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         self.seen = Some(*response.transform.bounds());

@@ -12,7 +12,8 @@ pub fn axis<'a>(hints: AxisHints<'a>, ui: &Ui, title: &str, format: impl Fn(f64,
         .tick_label_color(ui.visuals().text_color())
 }
 
-/// Marks 1, 2 or 5 times a power of ten apart: at least `spread` times the plot's smallest spacing, and at least `least`.
+/// Marks 1, 2 or 5 times a power of ten apart: at least `spread` times the plot's smallest spacing,
+/// and at least `least`.
 pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     let wanted = (spread * input.base_step_size).max(least);
     if !(wanted.is_finite() && wanted > 0.0) {
@@ -32,7 +33,8 @@ pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     marks
 }
 
-/// A number with as many decimals as the step between marks has; in powers of ten where those would be many.
+/// A number with as many decimals as the step between marks has; in powers of ten where those would
+/// be many.
 pub fn decimal(value: f64, step_size: f64) -> String {
     // Adding 0 turns -0 into 0.
     let value = value + 0.0;
@@ -50,7 +52,8 @@ pub fn decimal(value: f64, step_size: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Marks of a decimal logarithm: at powers of ten or, where there are fewer of those than fit, at 1, 2 and 5 times each.
+/// Marks of a decimal logarithm: at powers of ten or, where there are fewer of those than fit, at
+/// 1, 2 and 5 times each.
 pub fn decades(input: &GridInput, spread: f64) -> Vec<GridMark> {
     let wanted = spread * input.base_step_size;
     // The narrowest of the three gaps is that from 1 to 2.
@@ -74,7 +77,8 @@ pub fn decades(input: &GridInput, spread: f64) -> Vec<GridMark> {
     all
 }
 
-/// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer than decades.
+/// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer
+/// than decades.
 pub fn logarithmic(exponent: f64, step_size: f64) -> String {
     if step_size >= 1.0 {
         return power_of_ten(exponent, step_size);

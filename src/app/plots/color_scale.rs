@@ -71,7 +71,8 @@ pub const BAR_ROOM: f32 = 78.0;
 /// Points of the screen between marks.
 const SPREAD: f64 = 26.0;
 
-/// Draws a colour bar with its upper left corner there; the axis of its colours stands to the right, its title above.
+/// Draws a colour bar with its upper left corner there; the axis of its colours stands to the
+/// right, its title above.
 pub fn color_bar(ui: &Ui, at: Pos2, height: f32, scale: ColorScale, axis: &PlotAxis) {
     let rect = Rect::from_min_size(at, vec2(BAR_WIDTH, height));
     let (painter, ink) = (ui.painter(), ui.visuals().text_color());

@@ -1,6 +1,8 @@
-//! Lines of equal height over a grid, by marching squares: crossings on the edges of cells, joined into long lines.
+//! Lines of equal height over a grid, by marching squares: crossings on the edges of cells, joined
+//! into long lines.
 //!
-//! A cell with a corner without a value has no line. In a saddle the mean of the corners says which of them belong together.
+//! A cell with a corner without a value has no line. In a saddle the mean of the corners says which
+//! of them belong together.
 
 use std::collections::HashMap;
 
@@ -47,7 +49,8 @@ impl Heights<'_> {
         lines
     }
 
-    /// What crosses the cell whose lower left node that is: none, one or two segments from edge to edge.
+    /// What crosses the cell whose lower left node that is: none, one or two segments from edge to
+    /// edge.
     fn segments(&self, node: usize, level: f64) -> Vec<(Edge, Edge)> {
         let corners = [node, node + 1, node + self.columns + 1, node + self.columns];
         let heights = corners.map(|corner| self.values[corner]);

@@ -23,7 +23,8 @@ pub struct ErrorBars<'a> {
 const CAP: f32 = 2.5;
 
 impl<'a> ErrorBars<'a> {
-    /// Of that name: the one of the points they belong to, so that the legend has one entry for both.
+    /// Of that name: the one of the points they belong to, so that the legend has one entry for
+    /// both.
     pub fn new(name: String, bars: &'a [ErrorBar], color: Color32) -> Self {
         Self { base: PlotItemBase::new(name), bars, color }
     }

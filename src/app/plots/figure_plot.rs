@@ -188,8 +188,9 @@ impl PanelPlot {
 }
 
 impl PanelPlot {
-    /// Paints it as one of many, of that size: what is along its vertical axis stands in its corner, numbers stand at the axes that lie
-    /// at the rim and take so much room. It cannot be moved; the answer is the place of the pointer along the horizontal axis.
+    /// Paints it as one of many, of that size: what is along its vertical axis stands in its
+    /// corner, numbers stand at the axes that lie at the rim and take so much room. It cannot be
+    /// moved; the answer is the place of the pointer along the horizontal axis.
     pub fn cell_ui(&self, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<f64> {
         let Content { x, y, items, .. } = self.content.as_ref()?;
         let dark = ui.visuals().dark_mode;
@@ -217,7 +218,8 @@ impl PanelPlot {
     }
 }
 
-/// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of a plot of that size.
+/// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of
+/// a plot of that size.
 fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {
     let ratio = f64::from(width.max(1.0) / height.max(1.0));
     let wide = f64::max(x.high - x.low, ratio * (y.high - y.low));

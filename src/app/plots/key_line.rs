@@ -1,4 +1,5 @@
-//! What the lines of a plot mean, in a line above it, where it covers no curve, and a broken line is told from a whole one.
+//! What the lines of a plot mean, in a line above it, where it covers no curve, and a broken line
+//! is told from a whole one.
 
 use crate::figure::Symbol;
 use egui::{Align2, Color32, CursorIcon, FontId, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
@@ -79,7 +80,8 @@ pub fn key_line_ui(entries: &[KeyEntry], ui: &mut Ui) {
 /// How faint the entry of a line is that is not drawn.
 const HIDDEN: f32 = 0.35;
 
-/// The same, where a click on a name takes its lines out of the plot or puts them back. Each line is known by a key.
+/// The same, where a click on a name takes its lines out of the plot or puts them back. Each line
+/// is known by a key.
 pub fn switching_key_line_ui<K: Ord + Copy>(entries: &[(K, KeyEntry)], hidden: &mut BTreeSet<K>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);

@@ -34,7 +34,8 @@ impl PlotAxis {
         coordinate(self.log, value)
     }
 
-    /// Like [`PlotAxis::coordinate`], but 0 and less lie far below a logarithmic axis: ends of bands and error bars.
+    /// Like [`PlotAxis::coordinate`], but 0 and less lie far below a logarithmic axis: ends of
+    /// bands and error bars.
     pub fn end_coordinate(&self, value: f64) -> Option<f64> {
         if self.log && value <= 0.0 { Some(self.range.low - BELOW) } else { self.coordinate(value) }
     }

@@ -47,11 +47,13 @@ const FILLED: f32 = 0.2;
 const LETTERS: f32 = 12.0;
 /// Width of the sample of a band in a line of names.
 const BAND_SAMPLE: f32 = 8.0;
-/// Pieces of a whole line up to this many points are drawn edge by edge: the sharp corners of one long line would be filled wedges.
+/// Pieces of a whole line up to this many points are drawn edge by edge: the sharp corners of one
+/// long line would be filled wedges.
 const FEW: usize = 40;
 
 impl PlotItem {
-    /// The item of a series; none of what the window does not paint this way. Ends of axes are not needed yet.
+    /// The item of a series; none of what the window does not paint this way. Ends of axes are not
+    /// needed yet.
     pub fn new(series: &Series, color: Rgb, x: &PlotAxis, y: &PlotAxis) -> Option<Self> {
         let point = |[a, b]: [f64; 2]| Some(PlotPoint::new(x.coordinate(a)?, y.coordinate(b)?));
         let pieces = |points: &[[f64; 2]]| split_at_gaps(points.iter().map(|at| point(*at)));
@@ -161,7 +163,8 @@ impl PlotItem {
     }
 }
 
-/// Coordinates of a series that decide about an axis without ends, by the logarithms that its axes have.
+/// Coordinates of a series that decide about an axis without ends, by the logarithms that its axes
+/// have.
 pub fn coordinates(series: &Series, [x, y]: [Scale; 2]) -> Vec<(f64, f64)> {
     let place = |a: f64, b: f64| Some((coordinate(x == Scale::Log, a)?, coordinate(y == Scale::Log, b)?));
     match &series.mark {

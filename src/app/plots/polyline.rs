@@ -24,8 +24,8 @@ pub fn finite(points: &Polyline) -> impl Iterator<Item = [f64; 2]> {
     points.iter().copied().filter(|point| point.iter().all(|coordinate| coordinate.is_finite()))
 }
 
-/// A line that is as wide where it is steep: `egui_plot` draws points that are less than a pixel apart as a band, which is as high
-/// everywhere as the line is wide.
+/// A line that is as wide where it is steep: `egui_plot` draws points that are less than a pixel
+/// apart as a band, which is as high everywhere as the line is wide.
 pub fn line<'a>(name: &str, points: &'a [PlotPoint]) -> Line<'a> {
     Line::new(name, PlotPoints::Borrowed(points)).allow_band(false)
 }

@@ -27,7 +27,8 @@ impl Range {
     }
 }
 
-/// A range that grows with its contents and shrinks only while nothing is dragged: no axis jumps under a moving slider.
+/// A range that grows with its contents and shrinks only while nothing is dragged: no axis jumps
+/// under a moving slider.
 #[derive(Debug, Default)]
 pub struct AutoRange {
     shown: Option<Range>,

@@ -34,7 +34,8 @@ pub const MARK: Rgb = Rgb(235, 50, 60);
 /// Other inks than those of series, each with its colour on a dark background.
 const ON_DARK: [(Rgb, Rgb); 3] = [(FOREGROUND, Rgb(240, 240, 240)), (MUTED, Rgb(110, 110, 110)), (ALARM, Rgb(255, 170, 80))];
 
-/// An ink of a figure on the screen. Inks are made for a light page; what is meant for a map is the same on both.
+/// An ink of a figure on the screen. Inks are made for a light page; what is meant for a map is the
+/// same on both.
 pub fn on_screen(ink: Rgb, dark: bool) -> Color32 {
     let other = SERIES.into_iter().zip(SERIES_ON_DARK).chain(ON_DARK).find(|(light, _)| *light == ink).map(|(_, other)| other);
     let Rgb(r, g, b) = other.filter(|_| dark).unwrap_or(ink);

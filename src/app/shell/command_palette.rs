@@ -116,8 +116,8 @@ fn english_names(app: &App) -> Option<Vec<Name>> {
     (i18n::current() != Language::English).then(|| i18n::in_english(names))
 }
 
-/// The commands that fit, the best first; what is impossible now comes last. Scattered letters count where no command has the words.
-/// Those found by their English names show these too.
+/// The commands that fit, the best first; what is impossible now comes last. Scattered letters
+/// count where no command has the words. Those found by their English names show these too.
 fn matching(found: Vec<Found>, english: Option<Vec<Name>>, filter: &str) -> Vec<Found> {
     let english: Vec<Option<Name>> =
         english.map_or_else(|| found.iter().map(|_| None).collect(), |names| names.into_iter().map(Some).collect());
@@ -143,8 +143,8 @@ fn matching(found: Vec<Found>, english: Option<Vec<Name>>, filter: &str) -> Vec<
     ranked.into_iter().map(|(_, found)| found).collect()
 }
 
-/// How far a name is from having the words of a filter; none if one is nowhere. The beginnings of its own words fit best, then what
-/// stands inside of them, then what its menu is called.
+/// How far a name is from having the words of a filter; none if one is nowhere. The beginnings of
+/// its own words fit best, then what stands inside of them, then what its menu is called.
 fn misfit_of_words(name: &Name, filter: &str) -> Option<u32> {
     let [menu, text, alias] = [&name.menu, &name.text, name.alias].map(str::to_lowercase);
     let begins = |text: &str, word: &str| {
@@ -160,8 +160,9 @@ fn misfit_of_words(name: &Name, filter: &str) -> Option<u32> {
     filter.to_lowercase().split_whitespace().map(misfit).sum()
 }
 
-/// How far a name is from the letters of a filter; none if it lacks some of them in their order. A letter costs nothing where a word
-/// begins, little right after the letter before it, and else the more the further it is away.
+/// How far a name is from the letters of a filter; none if it lacks some of them in their order. A
+/// letter costs nothing where a word begins, little right after the letter before it, and else the
+/// more the further it is away.
 fn misfit_of_letters(name: &str, filter: &str) -> Option<u32> {
     let letters: Vec<char> = name.to_lowercase().chars().collect();
     let begins = |i: usize| i == 0 || !letters[i - 1].is_alphanumeric();
@@ -170,7 +171,8 @@ fn misfit_of_letters(name: &str, filter: &str) -> Option<u32> {
     for wanted in filter.to_lowercase().chars().filter(|c| !c.is_whitespace()) {
         let is_wanted = |i: &usize| letters[*i] == wanted;
         let next = (from..letters.len()).find(is_wanted)?;
-        // The beginning of a later word is worth the jump, if the letters before it are not adjacent.
+        // The beginning of a later word is worth the jump, if the letters before it are not
+        // adjacent.
         let word = (from..letters.len()).filter(is_wanted).find(|&i| begins(i));
         let at = if from > 0 && next == from { next } else { word.unwrap_or(next) };
         misfit += match at {

@@ -1,4 +1,5 @@
-//! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a test for clashes.
+//! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a
+//! test for clashes.
 
 use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
@@ -130,7 +131,8 @@ fn switch(on: bool) -> Availability {
     if on { Availability::On } else { Availability::Off }
 }
 
-/// One row: what it orders, where it stands, what it is called, what it does, its keys, and whether it is possible.
+/// One row: what it orders, where it stands, what it is called, what it does, its keys, and whether
+/// it is possible.
 const fn row(
     action: Action,
     menu: Menu,
@@ -142,7 +144,8 @@ const fn row(
     Entry { action, menu, text, tooltip, shortcut, status }
 }
 
-/// Commands that are always the same; those of examples, recent files, panes, models and themes follow from their own tables.
+/// Commands that are always the same; those of examples, recent files, panes, models and themes
+/// follow from their own tables.
 #[rustfmt::skip]
 static ENTRIES: &[Entry] = &[
     row(Action::ChooseMeasurement, Menu::File, "Open measurement…", "A table of DoLP or BRDF against angles", ctrl(Key::O), always),

@@ -1,4 +1,5 @@
-//! What lies over the window: command palette, help, questions about files; and the paths typed by hand.
+//! What lies over the window: command palette, help, questions about files; and the paths typed by
+//! hand.
 
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::path_entry::PathEntry;

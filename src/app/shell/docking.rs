@@ -21,7 +21,8 @@ pub struct Dock {
     scrolling: Vec<(PaneId, u8)>,
 }
 
-/// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of their room.
+/// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of
+/// their room.
 const SCROLLING: u8 = 4;
 
 impl Dock {
@@ -34,7 +35,8 @@ impl Dock {
         layout_of(&self.tree)
     }
 
-    /// The arrangement, once after it has changed; while all panes are closed, that of before is the one to keep.
+    /// The arrangement, once after it has changed; while all panes are closed, that of before is
+    /// the one to keep.
     pub fn take_edit(&mut self) -> Option<Layout> {
         std::mem::take(&mut self.is_edited).then(|| self.layout()).flatten()
     }
@@ -44,7 +46,8 @@ impl Dock {
         self.tree.active_tiles().into_iter().filter_map(|tile| self.tree.tiles.get_pane(&tile).copied()).collect()
     }
 
-    /// Gives every group of tabs an active one, so that [`Dock::on_screen`] knows it before it is drawn.
+    /// Gives every group of tabs an active one, so that [`Dock::on_screen`] knows it before it is
+    /// drawn.
     pub fn activate_tabs(&mut self) {
         self.tree.simplify(&SIMPLIFICATION);
         let ids: Vec<TileId> = self.tree.tiles.tile_ids().filter(|tile| is_tabs(&self.tree.tiles, *tile)).collect();
@@ -56,7 +59,8 @@ impl Dock {
         }
     }
 
-    /// Notes which tabs have come to the front since the last frame: they may lie outside their bar.
+    /// Notes which tabs have come to the front since the last frame: they may lie outside their
+    /// bar.
     fn note_fresh_tabs(&mut self) {
         let on_screen = self.on_screen();
         let fresh = on_screen.iter().filter(|pane| !self.drawn.contains(pane)).map(|pane| (*pane, SCROLLING));
@@ -77,8 +81,8 @@ impl Dock {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(other) if *other == pane));
     }
 
-    /// Puts panes on screen side by side: one that lies behind another of them moves to a group of tabs that shows none of them,
-    /// if there is one.
+    /// Puts panes on screen side by side: one that lies behind another of them moves to a group of
+    /// tabs that shows none of them, if there is one.
     pub fn show_together(&mut self, panes: &[PaneId]) {
         let mut taken: Vec<TileId> = Vec::new();
         for pane in panes {

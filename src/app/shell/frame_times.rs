@@ -1,9 +1,10 @@
-//! Frame times, as eframe's `cpu_usage` measures them (logic and drawing without the swap of buffers), and how many frames the maps on
-//! screen are behind the sliders, over the last five seconds.
+//! Frame times, as eframe's `cpu_usage` measures them (logic and drawing without the swap of
+//! buffers), and how many frames the maps on screen are behind the sliders, over the last five
+//! seconds.
 //!
-//! With *View › Frame times* the status line shows them, and the program prints them when it ends. Mesa's `GALLIUM_NOOP=1` under Xvfb
-//! leaves out the share of a software rasteriser: hold a slider, move it for more than five seconds (`xdotool mousemove`), leave with
-//! Ctrl+Q.
+//! With *View › Frame times* the status line shows them, and the program prints them when it ends.
+//! Mesa's `GALLIUM_NOOP=1` under Xvfb leaves out the share of a software rasteriser: hold a slider,
+//! move it for more than five seconds (`xdotool mousemove`), leave with Ctrl+Q.
 
 use crate::app::platform::Instant;
 use std::collections::VecDeque;

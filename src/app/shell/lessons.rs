@@ -1,6 +1,7 @@
 //! The lessons: those that are bundled, those in the user's own folder, and the one that is open.
 //!
-//! A lesson works on a workspace of its own; the user's workspace is saved meanwhile and comes back when the lesson ends.
+//! A lesson works on a workspace of its own; the user's workspace is saved meanwhile and comes back
+//! when the lesson ends.
 
 use crate::app::platform;
 use crate::app::storage::settings_file;
@@ -49,7 +50,8 @@ pub struct LessonSession {
 }
 
 impl Lessons {
-    /// The bundled ones, those of a folder, and a sentence for each file of the folder that is no lesson.
+    /// The bundled ones, those of a folder, and a sentence for each file of the folder that is no
+    /// lesson.
     pub fn load(own: Option<&Path>) -> (Self, Vec<String>) {
         let mut all: Vec<Lesson> = BUNDLED.iter().filter_map(|text| Lesson::from_text(text).ok()).collect();
         let mut faults = Vec::new();

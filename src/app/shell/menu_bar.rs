@@ -39,8 +39,8 @@ struct Open {
     by_hover: bool,
 }
 
-/// A menu of the bar, as egui's own, except that a click on the title of one that opened under the pointer does not close it again: the
-/// click was meant to open it.
+/// A menu of the bar, as egui's own, except that a click on the title of one that opened under the
+/// pointer does not close it again: the click was meant to open it.
 fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     let button = ui.button(title);
     let popup = Popup::menu(&button);

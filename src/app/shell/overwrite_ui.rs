@@ -25,7 +25,8 @@ pub fn overwrite_ui(app: &mut App, ui: &mut Ui) {
             if keep.clicked() {
                 actions.push(Action::KeepFile);
             }
-            // Enter, with which the path was typed, must not answer by itself what cannot be taken back.
+            // Enter, with which the path was typed, must not answer by itself what cannot be taken
+            // back.
             if ui.memory(|memory| memory.focused().is_none()) {
                 keep.request_focus();
             }

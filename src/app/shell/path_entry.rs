@@ -1,5 +1,6 @@
-//! Paths typed by hand, for where the desktop has no dialog. A box keeps its path until that has served; a file that is there is
-//! replaced only after a question, which elsewhere the desktop's own dialog asks.
+//! Paths typed by hand, for where the desktop has no dialog. A box keeps its path until that has
+//! served; a file that is there is replaced only after a question, which elsewhere the desktop's
+//! own dialog asks.
 
 use crate::app::storage::export::ExportKind;
 use crate::app::views::action::Action;

@@ -26,7 +26,8 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
-/// The default fonts, and behind them what they lack: arrows, marks, mathematical signs and Chinese.
+/// The default fonts, and behind them what they lack: arrows, marks, mathematical signs and
+/// Chinese.
 fn fonts() -> egui::FontDefinitions {
     let mut fonts = egui::FontDefinitions::default();
     for (name, data) in [("symbols", &include_bytes!("../../../assets/fonts/symbols.ttf")[..]), ("cjk", CJK)] {

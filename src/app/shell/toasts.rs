@@ -1,5 +1,5 @@
-//! Sentences to the user. A success disappears by itself, an error about a file when another file opens, any other error when the user
-//! dismisses it.
+//! Sentences to the user. A success disappears by itself, an error about a file when another file
+//! opens, any other error when the user dismisses it.
 
 use egui::Color32;
 

@@ -5,7 +5,8 @@ use crate::app::work::surface::Surface;
 use pbrdf::model::{DolpFormula, Model};
 use serde::Deserialize;
 
-/// Earlier keys of settings, and of a fit of a session: the formula of DoLP stood under `choices.eq17`.
+/// Earlier keys of settings, and of a fit of a session: the formula of DoLP stood under
+/// `choices.eq17`.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 pub struct EarlierKeys {
@@ -35,7 +36,8 @@ struct EarlierWindow {
 }
 
 impl EarlierFile {
-    /// Puts the values where they stand now; weights too small for the domain, which earlier releases took, become 0.
+    /// Puts the values where they stand now; weights too small for the domain, which earlier
+    /// releases took, become 0.
     pub fn apply(&self, surface: &mut Surface) {
         self.settings.apply(&mut surface.model);
         surface.parameters = surface.parameters.flushed_to_zero();

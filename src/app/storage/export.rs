@@ -88,7 +88,8 @@ impl ExportKind {
         fits.map_err(|reason| tr!("{}.", reason.localized()))
     }
 
-    /// A snapshot of the work that writes itself: the work may change while it is written. A plot is its figure.
+    /// A snapshot of the work that writes itself: the work may change while it is written. A plot
+    /// is its figure.
     ///
     /// # Errors
     /// There is nothing to write; the error is a sentence.

@@ -1,5 +1,5 @@
-//! How a fit came about, as a session tells it: where its starts ended and the way of the winning one. Data and solution do not tell that
-//! again.
+//! How a fit came about, as a session tells it: where its starts ended and the way of the winning
+//! one. Data and solution do not tell that again.
 
 use crate::app::text::localized::Localized;
 use crate::app::work::fit_history::FitEntry;
@@ -14,7 +14,8 @@ use tr::tr;
 /// Steps of a way that are kept: a longer one is thinned.
 const MOST_STEPS: usize = 120;
 
-/// Scales of a loss that squares of residuals over them stay finite with. 0 is a quantity without residuals.
+/// Scales of a loss that squares of residuals over them stay finite with. 0 is a quantity without
+/// residuals.
 const LOSS_SCALES: RangeInclusive<f64> = 1e-100..=1e100;
 
 fn is_loss_scale(scale: &f64) -> bool {

@@ -32,7 +32,8 @@ pub struct SavedFit {
     /// How it came about; older files do not tell.
     #[serde(default)]
     account: Option<FitRecord>,
-    /// The rows that were masked, from 0, where no account tells; without, those that the measurement has masked.
+    /// The rows that were masked, from 0, where no account tells; without, those that the
+    /// measurement has masked.
     #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
     masked: Option<Vec<usize>>,
 }

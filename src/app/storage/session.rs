@@ -1,12 +1,15 @@
-//! A session as a file: everything that the user set, the data with their masks, and the fits, so that it opens on another machine.
+//! A session as a file: everything that the user set, the data with their masks, and the fits, so
+//! that it opens on another machine.
 //!
 //! `*.pbrdf.json` is JSON with the keys `format` ("pbrdf-session"), `version`, `program`, `settings`, `layout`, `measurements` and `fits`.
-//! A measurement stands in it as the lines of its CSV, so that its reader checks it and names the line of an error. Beside the open
-//! measurement the list holds those that only fits belong to. Of a fit the file holds which measurement it was about, from where it
-//! began, where it ended and how it came about; residuals and errors follow from that when the file is opened.
+//! A measurement stands in it as the lines of its CSV, so that its reader checks it and names the
+//! line of an error. Beside the open measurement the list holds those that only fits belong to. Of
+//! a fit the file holds which measurement it was about, from where it began, where it ended and how
+//! it came about; residuals and errors follow from that when the file is opened.
 //!
 //! `settings` holds the surface of the active measurement among the rest; of several open measurements the others have a `surface` each.
-//! Where a lesson is open, `lesson` holds its title, the step, and the lesson's own work as a session; the rest is the user's work.
+//! Where a lesson is open, `lesson` holds its title, the step, and the lesson's own work as a
+//! session; the rest is the user's work.
 //!
 //! Version 1 has one `measurement` instead of the list, and all fits are about it.
 
@@ -151,7 +154,8 @@ pub struct SavedLesson {
     pub work: Session,
 }
 
-/// Rows of closed measurements that a session keeps for their fits; fits of older ones are left out.
+/// Rows of closed measurements that a session keeps for their fits; fits of older ones are left
+/// out.
 const MOST_CLOSED_ROWS: usize = 20_000;
 
 impl Session {

@@ -68,7 +68,8 @@ pub fn working_path() -> Option<PathBuf> {
     platform::local_data_folder(APP).map(|folder| folder.join("working.pbrdf.json"))
 }
 
-/// The settings of the last session, or the defaults; with a sentence if a file had to be set aside.
+/// The settings of the last session, or the defaults; with a sentence if a file had to be set
+/// aside.
 pub fn load() -> (SettingsFile, Option<String>) {
     path().map_or_else(|| (SettingsFile::default(), None), |path| load_from(&path))
 }

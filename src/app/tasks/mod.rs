@@ -1,7 +1,8 @@
 //! The jobs of the program: one slot for each kind, and the functions that start them.
 //!
-//! A new background task touches three places: its slot and the function that starts it, both in [`files`], [`fits`] or
-//! [`benchmarks`], and the line of `shell/job_results.rs` that says where its result goes.
+//! A new background task touches three places: its slot and the function that starts it, both in
+//! [`files`], [`fits`] or [`benchmarks`], and the line of `shell/job_results.rs` that says where
+//! its result goes.
 
 pub mod benchmarks;
 pub mod file_request;

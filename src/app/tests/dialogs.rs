@@ -27,7 +27,8 @@ fn asker() {
     }
 }
 
-/// Asks in a process that has no portal and finds that in the place of zenity; whether all is as expected.
+/// Asks in a process that has no portal and finds that in the place of zenity; whether all is as
+/// expected.
 #[cfg(target_os = "linux")]
 fn asked(expected: &str, zenity: Option<&str>) -> bool {
     use std::os::unix::fs::PermissionsExt as _;

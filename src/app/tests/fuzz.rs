@@ -1,4 +1,5 @@
-//! The window's own readers against damaged files: no input panics, what is accepted keeps its promises, and every view can show it.
+//! The window's own readers against damaged files: no input panics, what is accepted keeps its
+//! promises, and every view can show it.
 //!
 //! A second per reader in a normal run, beside showing the samples. Ten minutes each:
 //!

@@ -69,7 +69,8 @@ fn the_pointer_reads_what_the_model_gives_there() {
                 HemisphereQuantity::Brdf => reflection.brdf,
                 HemisphereQuantity::SpecularShare => reflection.specular / reflection.brdf,
             };
-            // Angles are read to 0.01°, over which nothing here changes by more than some thousandths of itself.
+            // Angles are read to 0.01°, over which nothing here changes by more than some
+            // thousandths of itself.
             assert!((value - expected).abs() < 5e-3 * expected.abs().max(1e-2), "{line}: {expected}");
             read += 1;
         }

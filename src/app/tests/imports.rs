@@ -1,4 +1,5 @@
-//! Foreign files: each asks its questions, shows the first rows of its measurement, and leaves the open measurement where it fails.
+//! Foreign files: each asks its questions, shows the first rows of its measurement, and leaves the
+//! open measurement where it fails.
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::open::begin;
@@ -181,7 +182,8 @@ fn the_question_stays_where_it_is_and_as_large_as_it_is() {
     let area = |harness: &Harness<'static, Option<App>>| {
         harness.ctx.memory(|memory| memory.area_rect(egui::Id::unique("import"))).expect("a question")
     };
-    // Nothing is guessed; then what is chosen fails, with a long sentence; then it succeeds, with rows.
+    // Nothing is guessed; then what is chosen fails, with a long sentence; then it succeeds, with
+    // rows.
     let (mut harness, _folder) = opened("letters.csv", b"a,b,c,d\n30,20,12,1\n30,40,14,1\n");
     let before = area(&harness);
     for text in [

@@ -1,4 +1,5 @@
-//! The landscape: it follows the sliders, knows what lies on it, and a click puts the sliders there.
+//! The landscape: it follows the sliders, knows what lies on it, and a click puts the sliders
+//! there.
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};

@@ -15,7 +15,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use std::collections::BTreeSet;
 
-/// The window in Chinese after a fit and a comparison of models, so that every view has something to show.
+/// The window in Chinese after a fit and a comparison of models, so that every view has something
+/// to show.
 fn chinese() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
@@ -51,8 +52,9 @@ pub(crate) fn written(harness: &Harness<'static, Option<App>>) -> BTreeSet<Strin
     texts
 }
 
-/// Words that are the same in both languages: names of quantities, people and units, keys of parameters, columns and models, of licences
-/// and this program, and two texts of the toolkit that only a screen reader sees.
+/// Words that are the same in both languages: names of quantities, people and units, keys of
+/// parameters, columns and models, of licences and this program, and two texts of the toolkit that
+/// only a screen reader sees.
 const SAME: &[&str] = &[
     "AVX2",
     "arctan",
@@ -112,10 +114,12 @@ const SAME: &[&str] = &[
     "HTML",
 ];
 
-/// Whether something in it is English: an entry of the literature, which has its year, is not translated.
+/// Whether something in it is English: an entry of the literature, which has its year, is not
+/// translated.
 pub(crate) fn is_english(text: &str) -> bool {
     let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit));
-    // One that is cut before its year begins with initials, or stands in a bracket that does not close.
+    // One that is cut before its year begins with initials, or stands in a bracket that does not
+    // close.
     let is_cut = text.ends_with('…') && (text.as_bytes().get(1) == Some(&b'.') || text.contains('（'));
     if PRESETS.iter().any(|preset| preset.key == text) {
         return false;

@@ -54,7 +54,8 @@ fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     wait(harness);
 }
 
-/// Panes and a title of an axis or a colour bar in their figures; of the reports those in the tests of the core.
+/// Panes and a title of an axis or a colour bar in their figures; of the reports those in the tests
+/// of the core.
 const TITLES: [(PaneId, &[&str]); 14] = [
     (PaneId::Dolp, &["θr / °", "DoLP"]),
     (PaneId::Lobes, &["θr / °", "BRDF / sr⁻¹"]),

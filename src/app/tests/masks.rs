@@ -17,7 +17,8 @@ use pbrdf::optics::Geometry;
 fn table() -> Harness<'static, Option<App>> {
     let mut harness = harness();
     harness.get_by_label("Data table").click();
-    // The rows that are seen are known after a frame, and what the model gives in them after another.
+    // The rows that are seen are known after a frame, and what the model gives in them after
+    // another.
     harness.run();
     harness
 }
@@ -160,7 +161,8 @@ fn click_with(harness: &mut Harness<'static, Option<App>>, at: egui::Pos2, modif
 #[test]
 fn a_click_with_ctrl_masks_the_point_under_it_and_with_shift_its_series() {
     let mut harness = harness();
-    // Points are 5° apart, which is less than three times the distance that a click may miss them by.
+    // Points are 5° apart, which is less than three times the distance that a click may miss them
+    // by.
     let places = [650.0, 660.0, 670.0_f32].into_iter().flat_map(|x| (8..38_u16).map(move |y| egui::pos2(x, 10.0 * f32::from(y))));
     let hit = places.into_iter().find(|&at| {
         click_with(&mut harness, at, egui::Modifiers::COMMAND);

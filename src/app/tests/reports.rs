@@ -1,4 +1,5 @@
-//! The reports in the window: made in the background, shown, exported, and cases of the gallery taken to the sliders.
+//! The reports in the window: made in the background, shown, exported, and cases of the gallery
+//! taken to the sliders.
 
 use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;

@@ -125,7 +125,8 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
     order(&mut other, Action::OpenSession(path.clone()));
     assert!(explorer(&mut other).work.shown_fit().is_some());
     assert!(other.query_by_label_contains("not known: from a session of an older version").is_some());
-    // Saved again with another mask, and so as some files are: with an account that tells of the mask alone.
+    // Saved again with another mask, and so as some files are: with an account that tells of the
+    // mask alone.
     edit(&mut other, Edit::Mask { rows: vec![8], masked: true });
     order(&mut other, Action::SaveSession);
     let again: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("the session")).expect("JSON");
@@ -375,7 +376,8 @@ fn a_process_killed_while_saving_leaves_the_old_or_the_new_state() {
             .stderr(Stdio::null())
             .spawn()
             .expect("this test again");
-        // From before the first save to some tens of saves, at moments that nothing ties to the writing.
+        // From before the first save to some tens of saves, at moments that nothing ties to the
+        // writing.
         std::thread::sleep(Duration::from_micros(u64::from(kill * 7919 % 60_000)));
         child.kill().expect("a running process");
         child.wait().expect("its end");

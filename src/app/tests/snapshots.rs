@@ -1,6 +1,7 @@
 //! Exported figures as pictures, against those that somebody looked at and committed.
 //!
-//! Fonts are outlines of our own and the renderer runs on the processor, so that pictures hardly differ from machine to machine.
+//! Fonts are outlines of our own and the renderer runs on the processor, so that pictures hardly
+//! differ from machine to machine.
 //! `UPDATE_SNAPSHOTS=1 cargo test snapshots` writes them anew: look at each before you commit it.
 
 use crate::app::shell::app::App;
@@ -22,9 +23,11 @@ use std::sync::atomic::{AtomicU32, Ordering};
 const DPI: f64 = 60.0;
 /// Between neighbouring shades.
 const SHADE: u8 = 17;
-/// What a colour may differ by, of 255: less than two shades, so that none counts that was just rounded the other way.
+/// What a colour may differ by, of 255: less than two shades, so that none counts that was just
+/// rounded the other way.
 const LITTLE: u8 = 32;
-/// Share of pixels that may differ by more: the last places of sums are not the same on every processor. A word of a legend is more.
+/// Share of pixels that may differ by more: the last places of sums are not the same on every
+/// processor. A word of a legend is more.
 const SHARE: f64 = 5e-4;
 
 fn folder() -> PathBuf {
@@ -80,7 +83,8 @@ impl Picture {
     }
 }
 
-/// What is wrong with a figure's picture, in a sentence; where it is asked for, the picture is replaced instead.
+/// What is wrong with a figure's picture, in a sentence; where it is asked for, the picture is
+/// replaced instead.
 fn compare(folder: &Path, name: &str, figure: &Figure, update: bool) -> Option<String> {
     let path = folder.join(format!("{name}.png"));
     let new = Picture::new(figure);
@@ -110,8 +114,8 @@ fn fitted() -> Harness<'static, Option<App>> {
     harness
 }
 
-/// The reports by a clock that goes on by a long repetition whenever it is looked at; of the first the evaluations alone, since the
-/// others take long.
+/// The reports by a clock that goes on by a long repetition whenever it is looked at; of the first
+/// the evaluations alone, since the others take long.
 fn report(subject: BenchmarkId) -> FinishedBenchmark {
     let (looks, asked) = (AtomicU32::new(0), AtomicU32::new(0));
     let clock = || 10.0 * f64::from(looks.fetch_add(1, Ordering::Relaxed));

@@ -1,7 +1,8 @@
 //! The language of the window, switchable while it runs.
 //!
-//! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is looked up under the English
-//! text in `assets/locales/zh_CN.po` (gettext's format, which translators' tools read). Numbers are formatted before they go in:
+//! Every text stands in English where it is used, as `tr!("Open measurement…")`; the translation is
+//! looked up under the English text in `assets/locales/zh_CN.po` (gettext's format, which
+//! translators' tools read). Numbers are formatted before they go in:
 //! `tr!("{} rows", count)`. A text that comes out of a table goes through [`translated`]: `translated(parameter.help())`.
 //! A message of the core, an error say, has its texts in [`crate::app::text::messages`].
 //! Names of parameters, models and files are the same in all languages.
@@ -65,7 +66,8 @@ struct Catalogue {
 /// The catalogue, once it is made known.
 static CATALOGUE: OnceLock<Catalogue> = OnceLock::new();
 
-/// Entries of gettext's text form that have a translation; none where it is damaged, which a test rules out.
+/// Entries of gettext's text form that have a translation; none where it is damaged, which a test
+/// rules out.
 fn entries(po: &str) -> Option<impl Iterator<Item = (String, String)>> {
     let file = rspolib::pofile(po).ok()?;
     Some(file.entries.into_iter().filter_map(|entry| Some((entry.msgid, entry.msgstr.filter(|text| !text.is_empty())?))))
@@ -108,7 +110,8 @@ pub fn translated(text: &str) -> String {
     if text.is_empty() { String::new() } else { tr!(text) }
 }
 
-/// A text that may stand in the catalogue, such as a label of a figure, or be data, such as the name of a file.
+/// A text that may stand in the catalogue, such as a label of a figure, or be data, such as the
+/// name of a file.
 pub fn label(text: &str) -> String {
     match (current(), CATALOGUE.get()) {
         (Language::Chinese, Some(catalogue)) if !text.is_empty() => catalogue.chinese.get(text).map_or(text, String::as_str).to_owned(),
@@ -214,6 +217,7 @@ mod tests {
         sources("src/app").into_iter().filter(|(path, _)| !path.ends_with("i18n.rs")).collect()
     }
 
-    /// Behind what stands a text of the window: in the program, or in a table out of which it goes through `translated`.
+    /// Behind what stands a text of the window: in the program, or in a table out of which it goes
+    /// through `translated`.
     const TEXTS: [&str; 7] = ["tr!(", "translated(", "text: ", "help: ", "tooltip: ", "word: ", "meaning: "];
 }

@@ -10,7 +10,8 @@ use crate::app::work::settings::Theme;
 use pbrdf::model::Parameter;
 use std::path::PathBuf;
 
-/// Something that menus, keys, panes and panels ask of the window, which carries it out before the next frame.
+/// Something that menus, keys, panes and panels ask of the window, which carries it out before the
+/// next frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
     /// Ask the desktop for a file.

@@ -1,4 +1,5 @@
-//! What the physics says of the sliders' surface: each check with its number and verdict, and the reflectance against θi.
+//! What the physics says of the sliders' surface: each check with its number and verdict, and the
+//! reflectance against θi.
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
@@ -114,7 +115,8 @@ impl View for AuditView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let key = (cx.work.surface().parameters, cx.work.surface().model);
         let Ok(surface) = Pbrdf::new(key.1, key.0) else {
-            // Values that are not numbers differ from themselves: a job would follow a job for ever.
+            // Values that are not numbers differ from themselves: a job would follow a job for
+            // ever.
             self.job = AsyncMemo::default();
             self.curves.clear();
             return;

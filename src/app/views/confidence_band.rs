@@ -7,8 +7,9 @@ use pbrdf::fit::FitResult;
 use pbrdf::model::{DolpFormula, Pbrdf};
 use pbrdf::optics::Facet;
 
-/// What a band depends on: the fit by its number in the session, the document, whether the backscatter side is drawn, whether the BRDF
-/// is multiplied by cos θr. None where there is no band.
+/// What a band depends on: the fit by its number in the session, the document, whether the
+/// backscatter side is drawn, whether the BRDF is multiplied by cos θr. None where there is no
+/// band.
 pub type BandKey = Option<(usize, u64, bool, bool)>;
 
 /// A curve's band: θr, low and high; not finite where the data leave the curve open.

@@ -49,7 +49,8 @@ impl Cx<'_> {
 
 /// The content of a pane.
 pub trait View: Any {
-    /// Makes anew what it paints where inputs are others; called before each frame that has the pane on screen, and at no other time.
+    /// Makes anew what it paints where inputs are others; called before each frame that has the
+    /// pane on screen, and at no other time.
     fn refresh(&mut self, _cx: &mut Cx<'_>) {}
 
     /// Paints it; evaluates nothing.

@@ -1,4 +1,5 @@
-//! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or time.
+//! The way of the last fit: ΔE after each improvement of the winning start, against evaluations or
+//! time.
 
 use crate::app::plots::axis::decimal;
 use crate::app::plots::{FigurePlot, PanelStyle};

@@ -1,4 +1,5 @@
-//! What is drawn against θr: the model along every measured θi and at the sliders' own, and the measured points.
+//! What is drawn against θr: the model along every measured θi and at the sliders' own, and the
+//! measured points.
 
 use crate::app::plots::theme::MUTED;
 use crate::app::plots::{Polyline, Range, finite};
@@ -12,14 +13,16 @@ use tr::tr;
 
 pub use crate::report::directions;
 
-/// ModelCurves that are drawn at most, and points: more cannot be told apart, and would make the window slow.
+/// ModelCurves that are drawn at most, and points: more cannot be told apart, and would make the
+/// window slow.
 pub const MOST_SERIES: usize = 12;
 pub const MOST_POINTS: usize = 20_000;
 
 /// Decades below its top that a logarithmic axis shows at most.
 pub const DECADES: f64 = 8.0;
 
-/// Up to this θr, in degrees, curves take part in choosing the axes: a Minnaert lobe has no bound at the horizon.
+/// Up to this θr, in degrees, curves take part in choosing the axes: a Minnaert lobe has no bound
+/// at the horizon.
 pub const SETS_AXES: f64 = 80.0;
 
 /// Measured points of one series and quantity.
@@ -106,7 +109,8 @@ pub struct ModelCurves {
     pub share: Polyline,
 }
 
-/// A BRDF at θr (degrees) as it is drawn: times cos θr on demand, which is what a detector sees of a spot that it looks at as a whole.
+/// A BRDF at θr (degrees) as it is drawn: times cos θr on demand, which is what a detector sees of
+/// a spot that it looks at as a whole.
 pub fn drawn_brdf(theta_r: f64, brdf: f64, times_cosine: bool) -> f64 {
     if times_cosine { brdf * Degrees(theta_r.abs()).sin_cos().1 } else { brdf }
 }

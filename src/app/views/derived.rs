@@ -1,4 +1,5 @@
-//! What more than one part of the window shows and none computes while it draws: curves, points, ΔE, what the data determine.
+//! What more than one part of the window shows and none computes while it draws: curves, points,
+//! ΔE, what the data determine.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
@@ -17,7 +18,8 @@ pub struct Derived {
     pub curves: Memo<CurveKey, CurveSet>,
     problem: Memo<(u64, Model), Option<Problem>>,
     delta_e: Memo<(Parameters, u64, Model), Option<f64>>,
-    /// Whether every value that counts comes with its standard deviation, by generation of the document.
+    /// Whether every value that counts comes with its standard deviation, by generation of the
+    /// document.
     states_sigmas: Memo<u64, bool>,
     fault: Memo<(Parameters, Model), Option<ParameterError>>,
     /// Whether the panel of fits shows what the data determine.

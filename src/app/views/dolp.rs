@@ -1,5 +1,5 @@
-//! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel limit, the last fit, and under it what
-//! the model misses.
+//! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel
+//! limit, the last fit, and under it what the model misses.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
@@ -48,11 +48,12 @@ pub struct DolpView {
     hidden: BTreeSet<Line>,
 }
 
-/// What the figure depends on: curves, points, last fit, other distribution and band, each by its stamp; what is shown and what hidden;
-/// the axis; the language.
+/// What the figure depends on: curves, points, last fit, other distribution and band, each by its
+/// stamp; what is shown and what hidden; the axis; the language.
 type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
-/// Another surface than the sliders', the generation of the document, whether the backscatter side is drawn.
+/// Another surface than the sliders', the generation of the document, whether the backscatter side
+/// is drawn.
 type SurfaceKey = (Parameters, Model, u64, bool);
 
 impl DolpView {
@@ -232,7 +233,8 @@ impl DolpView {
         cx.edits.extend(mask);
     }
 
-    /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot keeps its height while one moves.
+    /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot
+    /// keeps its height while one moves.
     fn key_entries(&self, marks: &MarkSet, work: &Workspace, dark: bool) -> Vec<(Line, KeyEntry)> {
         let (names, settings, is_fitted) = (Names::new(work), work.settings(), work.shown_fit().is_some());
         let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
@@ -264,7 +266,8 @@ fn along_series(key: Option<&SurfaceKey>, document: &OpenMeasurement) -> Vec<Pol
     drawn(document).map(|series| ModelCurves::new(&surface, series, backscatter, false).dolp).collect()
 }
 
-/// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked for.
+/// The sliders' surface with Gauss in the place of Cauchy or the other way round, if that is asked
+/// for.
 fn other_distribution(work: &Workspace) -> Option<(Parameters, Model)> {
     let (surface, shown) = (work.surface(), work.settings().view_options);
     let (model, mut parameters) = (surface.model, surface.parameters);

@@ -1,4 +1,5 @@
-//! Error against run time: of evaluations against the 60-digit table, and along fits, as a table and as diagrams with hover values.
+//! Error against run time: of evaluations against the 60-digit table, and along fits, as a table
+//! and as diagrams with hover values.
 
 use crate::app::plots::PanelStyle;
 use crate::app::tasks::benchmarks::BenchmarkId;

@@ -1,4 +1,5 @@
-//! The facets behind the specular lobe: densities of their tilt α for both distributions, Eqs. (5, 7), and masking–shadowing, Eq. (6).
+//! The facets behind the specular lobe: densities of their tilt α for both distributions, Eqs. (5,
+//! 7), and masking–shadowing, Eq. (6).
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
@@ -256,7 +257,8 @@ fn name(distribution: SlopeDistribution) -> String {
     }
 }
 
-/// What the lines of the plot mean, and where the upright ones stand: in lines above it, where they hide nothing.
+/// What the lines of the plot mean, and where the upright ones stand: in lines above it, where they
+/// hide nothing.
 fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let help = tr!("Dotted: P has fallen to half of P(0). Dashed: half of the projected facets are tilted less.");

@@ -1,5 +1,6 @@
-//! The objective over two parameters, the others at their sliders: its valleys, the way of the last fits, where they ended, and
-//! tabulated metals where the axes are n and k. It follows the sliders; a click puts them there.
+//! The objective over two parameters, the others at their sliders: its valleys, the way of the last
+//! fits, where they ended, and tabulated metals where the axes are n and k. It follows the sliders;
+//! a click puts them there.
 
 mod axes;
 mod describe;

@@ -1,4 +1,5 @@
-//! BRDF against θr: total and each term at the sliders' θi, and the measured values with the model's total.
+//! BRDF against θr: total and each term at the sliders' θi, and the measured values with the
+//! model's total.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
@@ -38,7 +39,8 @@ pub struct LobesView {
     hidden: BTreeSet<Line>,
 }
 
-/// What the figure depends on: curves, points and band by their stamps; what is shown and what hidden; the axis; the language.
+/// What the figure depends on: curves, points and band by their stamps; what is shown and what
+/// hidden; the axis; the language.
 type FigureKey = ([u64; 3], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
 /// A curve of the pane.

@@ -1,4 +1,5 @@
-//! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button that sets them, and surface finishes.
+//! Tabulated metals: n and k of every source side by side at one wavelength and along all, a button
+//! that sets them, and surface finishes.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::panels::{SliderStep, step_with_arrows};
@@ -40,7 +41,8 @@ pub struct MetalsView {
     plot: FigurePlot<FigureKey>,
 }
 
-/// What the figure depends on: both of the above by their stamps, the sliders n and k, the followed source, the axes, the language.
+/// What the figure depends on: both of the above by their stamps, the sliders n and k, the followed
+/// source, the axes, the language.
 type FigureKey = ([u64; 2], [f64; 2], Option<String>, [Option<Range>; 3], Language);
 
 /// n or k of an index.
@@ -48,10 +50,12 @@ type Part = fn(RefractiveIndex) -> f64;
 
 /// Both, in the order of the plots.
 const PARTS: [(Parameter, Part); 2] = [(Parameter::N, RefractiveIndex::n), (Parameter::K, RefractiveIndex::k_m)];
-/// Wavelengths in nm up to which the plots go while the chosen one is not beyond: the visible and what silicon sees.
+/// Wavelengths in nm up to which the plots go while the chosen one is not beyond: the visible and
+/// what silicon sees.
 const SHORT: f64 = 1000.0;
 
-/// The metal that is looked at; none where the bundled table is damaged, which a test of the core rules out.
+/// The metal that is looked at; none where the bundled table is damaged, which a test of the core
+/// rules out.
 fn chosen(tabulated: &MetalSelection) -> Option<&'static Metal> {
     let metals = optics::metals().ok()?;
     metals.iter().find(|metal| metal.key == tabulated.metal).or(metals.first())

@@ -1,6 +1,8 @@
-//! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and how it is drawn.
+//! What the panes show: a file for each, with what it keeps, what it makes anew before a frame, and
+//! how it is drawn.
 //!
-//! A new pane is a file with a `SPEC` and a [`View`], its name in the list of [`crate::app::work::pane_id`], and its `mod` here.
+//! A new pane is a file with a `SPEC` and a [`View`], its name in the list of
+//! [`crate::app::work::pane_id`], and its `mod` here.
 
 pub mod action;
 mod audit;

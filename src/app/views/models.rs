@@ -1,4 +1,5 @@
-//! The ladder of models on the open measurement: how well each fits, what it says, where its starts led, Gauss against Cauchy.
+//! The ladder of models on the open measurement: how well each fits, what it says, where its starts
+//! led, Gauss against Cauchy.
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
@@ -76,7 +77,8 @@ pub fn running_model_ui(key: Option<&str>, ui: &mut Ui) {
 /// Between columns.
 const SPACING: [f32; 2] = [9.0, 4.0];
 
-/// Width of the names, in points: with it the numbers beside them fit into a pane of a small window.
+/// Width of the names, in points: with it the numbers beside them fit into a pane of a small
+/// window.
 const NAME: f32 = 200.0;
 
 fn narrow_ui(ui: &mut Ui, name: impl Widget) -> Response {
@@ -144,7 +146,8 @@ fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     ui.monospace(format!("{:.1}", report.course.elapsed_ms));
 }
 
-/// The parameters of each model, with what is known of each under its value: side by side they would be wider than most screens.
+/// The parameters of each model, with what is known of each under its value: side by side they
+/// would be wider than most screens.
 fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
     Grid::new("parameters of models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(translated("model"));

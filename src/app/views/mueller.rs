@@ -1,4 +1,5 @@
-//! The Mueller matrix over m00: each element against θr at the sliders' θi and Δφ, and all sixteen at one θr as a heat map.
+//! The Mueller matrix over m00: each element against θr at the sliders' θi and Δφ, and all sixteen
+//! at one θr as a heat map.
 //!
 //! Between the meridian bases [E_s, E_p] of the incident and the reflected ray.
 
@@ -31,7 +32,8 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct MuellerView {
     curves: Memo<CurveKey, ElementCurves>,
-    /// θr that the numbers belong to, in degrees, negative on the backscatter side; the mirror direction until the user chooses another.
+    /// θr that the numbers belong to, in degrees, negative on the backscatter side; the mirror
+    /// direction until the user chooses another.
     cursor: Option<f64>,
     matrix: Memo<(SurfaceKey, f64), Option<Mueller>>,
     /// Of curves and matrix by their stamps; the language.

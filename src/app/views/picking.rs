@@ -12,8 +12,9 @@ const NEAR: f32 = 12.0;
 /// What hovering a point says of it.
 pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
 
-/// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks` gives the points that are drawn of a
-/// series, by its number, and `coordinate` their height in the plot.
+/// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks`
+/// gives the points that are drawn of a series, by its number, and `coordinate` their height in the
+/// plot.
 pub fn clicked_mask(
     response: &PlotResponse<()>,
     ui: &Ui,

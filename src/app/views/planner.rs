@@ -1,4 +1,5 @@
-//! The angle planner: angles that might be measured, and what they would determine beside what the open measurement does.
+//! The angle planner: angles that might be measured, and what they would determine beside what the
+//! open measurement does.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme;

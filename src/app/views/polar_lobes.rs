@@ -1,6 +1,8 @@
-//! Polar lobe diagram: the BRDF as the length of a ray in each direction of view, with surface, incident ray and mirror direction.
+//! Polar lobe diagram: the BRDF as the length of a ray in each direction of view, with surface,
+//! incident ray and mirror direction.
 //!
-//! The plane is the sliders' own: θr to the right is the forward side, to the left the backscatter side.
+//! The plane is the sliders' own: θr to the right is the forward side, to the left the backscatter
+//! side.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
@@ -31,7 +33,8 @@ pub static SPEC: PaneSpec = PaneSpec {
 pub struct PolarLobesView {
     curves: Memo<CurveKey, ModelCurves>,
     range: AutoRange,
-    /// Of the curves by their stamp; the radius, whether it is logarithmic and whether lobes are filled; the language.
+    /// Of the curves by their stamp; the radius, whether it is logarithmic and whether lobes are
+    /// filled; the language.
     plot: FigurePlot<(u64, Option<Range>, [bool; 2], Language)>,
 }
 

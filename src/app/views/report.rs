@@ -1,4 +1,5 @@
-//! What the panes of reports have in common: the line that starts and stops them, the choice between table and figures, and the table.
+//! What the panes of reports have in common: the line that starts and stops them, the choice
+//! between table and figures, and the table.
 
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::i18n::translated;
@@ -22,7 +23,8 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
                 }
                 #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
                 let done = done as f32;
-                // Nothing that moves by itself: frames would take their time from what is being measured.
+                // Nothing that moves by itself: frames would take their time from what is being
+                // measured.
                 ui.add(ProgressBar::new(done).desired_width(160.0).show_percentage());
             }
             _ if cx.jobs.benchmarks.is_waiting(subject) => {
@@ -41,7 +43,8 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
     });
 }
 
-/// Where the report was made and when, and the choice of what is in front; tells whether that is the table.
+/// Where the report was made and when, and the choice of what is in front; tells whether that is
+/// the table.
 pub fn pages_ui<R: BenchmarkRow>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };

@@ -1,4 +1,5 @@
-//! Residuals against the angle of view: of the sliders or of the shown fit, over the stated standard deviations where all are stated.
+//! Residuals against the angle of view: of the sliders or of the shown fit, over the stated
+//! standard deviations where all are stated.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::MUTED;
@@ -30,7 +31,8 @@ pub struct ResidualsAgainstAngleView {
     of_fit: bool,
     residuals: Memo<(Parameters, Model, u64), Vec<QuantityResiduals>>,
     ranges: [AutoRange; 2],
-    /// Of the residuals by their stamp; whether the backscatter side is drawn; the axes; the language.
+    /// Of the residuals by their stamp; whether the backscatter side is drawn; the axes; the
+    /// language.
     plot: FigurePlot<(u64, bool, [Option<Range>; 2], Language)>,
 }
 

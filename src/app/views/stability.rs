@@ -1,5 +1,5 @@
-//! The stability gallery: stiff and extreme cases with the digits that are held, beside those of the textbook form. A click on a case, in the
-//! table or in the figure, loads it.
+//! The stability gallery: stiff and extreme cases with the digits that are held, beside those of
+//! the textbook form. A click on a case, in the table or in the figure, loads it.
 
 use crate::app::plots::{PanelStyle, theme};
 use crate::app::tasks::benchmarks::BenchmarkId;
@@ -125,7 +125,8 @@ fn clicked(response: &PlotResponse<()>, rows: &[Stability]) -> Option<usize> {
     case_at(response.transform.value_from_position(at).x, rows)
 }
 
-/// The evaluation whose column of points stands there: they stand at whole numbers, in the order of the table.
+/// The evaluation whose column of points stands there: they stand at whole numbers, in the order of
+/// the table.
 fn case_at(x: f64, rows: &[Stability]) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list of some hundred, saturating")]
     let index = x.round().max(0.0) as usize;

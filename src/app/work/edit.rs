@@ -14,8 +14,8 @@ use std::path::PathBuf;
 
 /// One change of the work, in terms of what a user does; [`Workspace::apply`] carries it out.
 ///
-/// A panel never writes to the work. Where a widget needs a `&mut`, the panel hands it a copy of the small value behind it, and pushes an
-/// edit if the copy differs afterwards:
+/// A panel never writes to the work. Where a widget needs a `&mut`, the panel hands it a copy of
+/// the small value behind it, and pushes an edit if the copy differs afterwards:
 ///
 /// ```ignore
 /// let mut options = cx.work.settings().shown;
@@ -23,8 +23,8 @@ use std::path::PathBuf;
 /// cx.set_view_options(options);
 /// ```
 ///
-/// The edits of a frame are carried out after it, in their order. Each bumps [`Workspace::revision`]; what depends on the work compares
-/// that number.
+/// The edits of a frame are carried out after it, in their order. Each bumps
+/// [`Workspace::revision`]; what depends on the work compares that number.
 ///
 /// [`Workspace::apply`]: crate::app::work::workspace::Workspace::apply
 /// [`Workspace::revision`]: crate::app::work::workspace::Workspace::revision

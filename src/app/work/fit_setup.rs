@@ -10,7 +10,8 @@ use tr::tr;
 
 /// The problem of fitting those parameters from the sliders.
 ///
-/// A start outside bounds that somebody has set moves to the nearest bound; a slider's own range makes room for the start.
+/// A start outside bounds that somebody has set moves to the nearest bound; a slider's own range
+/// makes room for the start.
 pub fn fit_problem(
     surface: &Surface,
     measurement: &Measurement,
@@ -27,7 +28,8 @@ pub fn free(surface: &Surface, has_brdf: bool) -> ParameterSet {
     free_of_model(surface, has_brdf).without_all(surface.locked)
 }
 
-/// The same for planned angles: if they decide otherwise than the open measurement whether there is a BRDF, so does k_s.
+/// The same for planned angles: if they decide otherwise than the open measurement whether there is
+/// a BRDF, so does k_s.
 pub fn free_in_design(surface: &Surface, design: &DesignSettings, has_brdf: bool) -> ParameterSet {
     let planned = design.has_brdf();
     let locked = match surface.locked {

@@ -31,8 +31,8 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// The arrangement in a file, or the default where that is damaged or names panes that do not exist: a session is not lost for
-    /// its layout.
+    /// The arrangement in a file, or the default where that is damaged or names panes that do not
+    /// exist: a session is not lost for its layout.
     pub fn lenient<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         serde_json::Value::deserialize(deserializer).map(Self::from_value)
     }

@@ -1,12 +1,13 @@
 //! A guided experiment: settings of the model in steps, with what to move, what to watch and why.
 //!
-//! A lesson is a plain text file of lines `key: text`; an indented line goes on with the text of the line before, a line that
-//! begins with `#` is a comment. Texts may be given in further languages under the key with the language behind a dot
-//! (`title.zh`).
+//! A lesson is a plain text file of lines `key: text`; an indented line goes on with the text of
+//! the line before, a line that begins with `#` is a comment. Texts may be given in further
+//! languages under the key with the language behind a dot (`title.zh`).
 //!
-//! A lesson begins with the program's default settings and with a measurement of its own: the first bundled example, if it does not name
-//! one; `example: none` is for lessons that points in the plots would only hide. A step shows what the lesson's beginning and all steps up to
-//! it set, whichever way one came to it. When the lesson is closed, all is as it was before.
+//! A lesson begins with the program's default settings and with a measurement of its own: the first
+//! bundled example, if it does not name one; `example: none` is for lessons that points in the
+//! plots would only hide. A step shows what the lesson's beginning and all steps up to it set,
+//! whichever way one came to it. When the lesson is closed, all is as it was before.
 //!
 //! | key | where | meaning |
 //! |---|---|---|

@@ -1,5 +1,5 @@
-//! How a step of a lesson is set up: data and settings as the lesson's beginning and all steps up to this one set them, whatever the user
-//! moved meanwhile.
+//! How a step of a lesson is set up: data and settings as the lesson's beginning and all steps up
+//! to this one set them, whatever the user moved meanwhile.
 
 use crate::app::work::lesson::{Data, Step};
 use crate::app::work::open_measurement::{EXAMPLES, Mask, OpenMeasurement};
@@ -8,8 +8,8 @@ use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
 
 impl Workspace {
-    /// Sets up the last of these steps of a lesson, which `begins` if no step of it was shown before. Undo leads to the step before it, so
-    /// that the two can be compared.
+    /// Sets up the last of these steps of a lesson, which `begins` if no step of it was shown
+    /// before. Undo leads to the step before it, so that the two can be compared.
     pub fn set_up_lesson(&mut self, steps: &[Step], begins: bool) {
         self.forget_fits();
         let mut fresh = begins;
@@ -24,7 +24,8 @@ impl Workspace {
         }
     }
 
-    /// Data and settings of the last of these steps. Where a lesson begins, open data of the same name may be the user's own.
+    /// Data and settings of the last of these steps. Where a lesson begins, open data of the same
+    /// name may be the user's own.
     fn set_up_step(&mut self, steps: &[Step], begins: bool) {
         let (name, text) = match steps.iter().rev().find_map(|step| step.data.as_ref()) {
             Some(Data::Nothing) => ("", None),

@@ -4,8 +4,8 @@ use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{ParameterSet, Parameters};
 
-/// The open measurements, one of which is active: panels and panes show it. Without data the list holds one measurement without rows,
-/// whose surface the sliders move.
+/// The open measurements, one of which is active: panels and panes show it. Without data the list
+/// holds one measurement without rows, whose surface the sliders move.
 #[derive(Debug, Clone)]
 pub struct MeasurementList {
     all: Vec<OpenMeasurement>,
@@ -20,7 +20,8 @@ impl MeasurementList {
         Self { all: vec![measurement], active: 0, shared: ParameterSet::EMPTY }
     }
 
-    /// Several measurements, the active one by its place; with the first active where there is none of that place.
+    /// Several measurements, the active one by its place; with the first active where there is none
+    /// of that place.
     pub fn several(mut all: Vec<OpenMeasurement>, active: usize, shared: ParameterSet) -> Self {
         if all.is_empty() {
             all.push(OpenMeasurement::new(String::new(), Measurement::default()));

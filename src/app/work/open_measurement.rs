@@ -54,7 +54,8 @@ pub struct OpenMeasurement {
     pub series: Vec<IncidenceSeries>,
     /// Which measurement of this session it is.
     pub number: u64,
-    /// Another one for every measurement and after every change of one, so that what is derived knows.
+    /// Another one for every measurement and after every change of one, so that what is derived
+    /// knows.
     pub generation: u64,
     pub surface: Surface,
     pub style: MeasurementStyle,
@@ -64,7 +65,8 @@ pub struct OpenMeasurement {
 /// The rows that are masked, in ascending order.
 pub type Mask = Arc<[usize]>;
 
-/// The generation that came last: none comes twice, though a lesson gives back a measurement of before.
+/// The generation that came last: none comes twice, though a lesson gives back a measurement of
+/// before.
 static LAST: AtomicU64 = AtomicU64::new(0);
 
 fn next_generation() -> u64 {

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Hands every pane to the macro `$then`: its variant, its name in files, which is that of its module in `views` too, and where it
-/// opens. Here the list becomes [`PaneId`], in `views` the table of what the panes are.
+/// Hands every pane to the macro `$then`: its variant, its name in files, which is that of its
+/// module in `views` too, and where it opens. Here the list becomes [`PaneId`], in `views` the
+/// table of what the panes are.
 macro_rules! with_panes {
     ($then:ident) => {
         $then! {

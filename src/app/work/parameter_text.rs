@@ -1,4 +1,5 @@
-//! A set of parameters as text on the clipboard: written as files and options have it, read as people write it.
+//! A set of parameters as text on the clipboard: written as files and options have it, read as
+//! people write it.
 
 use crate::app::text::localized::Localized as _;
 use pbrdf::model::{Parameter, ParameterSet, Parameters, assignments_from_text, text_from_parameters};
@@ -26,8 +27,8 @@ pub fn read(text: &str, before: Parameters) -> Result<Parameters, String> {
     Ok(parameters)
 }
 
-/// The same in the form of files: symbols as keys, a colon as an equals sign, no quotes, braces or units; with semicolons between
-/// the pairs, commas are decimal commas.
+/// The same in the form of files: symbols as keys, a colon as an equals sign, no quotes, braces or
+/// units; with semicolons between the pairs, commas are decimal commas.
 fn plain(text: &str) -> String {
     let decimal_comma = text.contains(';');
     let mut plain: String = text

@@ -28,7 +28,8 @@ impl PredictedErrors {
         Self::new(surface, design, free, design.geometries())
     }
 
-    /// Of the angles of the open measurement, as if they were measured with the planned noise and columns.
+    /// Of the angles of the open measurement, as if they were measured with the planned noise and
+    /// columns.
     pub fn of_measurement(
         surface: &Surface,
         design: &DesignSettings,

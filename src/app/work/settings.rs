@@ -1,4 +1,5 @@
-//! What survives a restart: what the user set, all of which can be undone, and how the window stands.
+//! What survives a restart: what the user set, all of which can be undone, and how the window
+//! stands.
 
 use crate::app::text::i18n::Language;
 use crate::app::work::design::DesignSettings;
@@ -137,7 +138,8 @@ impl MetalSelection {
     pub const LONGEST_NM: f64 = 2500.0;
 }
 
-/// What the user sets beside the surfaces: switches, views, options of fits. Each change of it is a step of undo.
+/// What the user sets beside the surfaces: switches, views, options of fits. Each change of it is a
+/// step of undo.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {

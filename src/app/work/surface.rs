@@ -40,7 +40,8 @@ pub struct PinnedSurface {
     pub parameters: Parameters,
 }
 
-/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface: then the window says so.
+/// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface:
+/// then the window says so.
 pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), ParameterError> {
     match parameters.validate(used) {
         Err(ParameterError::NoIndex) => Ok(()),

@@ -33,7 +33,8 @@ pub struct Workspace {
     revision: u64,
     /// The revision at which a step of undo was recorded last.
     recorded_at: u64,
-    /// The revision at which the user last moved a value or masked a row; 0 where the values are those of a fit.
+    /// The revision at which the user last moved a value or masked a row; 0 where the values are
+    /// those of a fit.
     moved_at: u64,
 }
 
@@ -70,7 +71,8 @@ impl Workspace {
         }
     }
 
-    /// The workspace in which a lesson begins: the same measurement, fits and panes, default settings, nothing to undo.
+    /// The workspace in which a lesson begins: the same measurement, fits and panes, default
+    /// settings, nothing to undo.
     pub fn for_lesson(&self) -> Self {
         let active = self.active().clone();
         let surface = Surface::for_measurement(&active.measurement);
@@ -162,13 +164,14 @@ impl Workspace {
         self.undo.can_redo()
     }
 
-    /// Another number after every change, and none twice in a run of the program: work of the same revision is the same work.
+    /// Another number after every change, and none twice in a run of the program: work of the same
+    /// revision is the same work.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// The revision at which the user last moved a value or masked a row, 0 where the values are those of a fit: a live refit of an
-    /// earlier one is out of date.
+    /// The revision at which the user last moved a value or masked a row, 0 where the values are
+    /// those of a fit: a live refit of an earlier one is out of date.
     pub fn moved_at(&self) -> u64 {
         self.moved_at
     }
@@ -239,7 +242,8 @@ impl Workspace {
         }
     }
 
-    /// Records a step of undo, if anything that undo restores differs from the step before. Called while no slider is held.
+    /// Records a step of undo, if anything that undo restores differs from the step before. Called
+    /// while no slider is held.
     pub fn record_step(&mut self) {
         if self.recorded_at != self.revision {
             self.recorded_at = self.revision;
@@ -272,7 +276,8 @@ impl Workspace {
         }
     }
 
-    /// Puts a measurement in the place of all that are open, without its fits; no step of undo of its own. The sliders stay.
+    /// Puts a measurement in the place of all that are open, without its fits; no step of undo of
+    /// its own. The sliders stay.
     pub(super) fn open(&mut self, mut opened: OpenMeasurement) {
         opened.surface = self.surface().clone();
         opened.surface.adapt_to(&opened.measurement);
@@ -307,7 +312,8 @@ impl Workspace {
         self.moved_at = 0;
     }
 
-    /// Takes what a live refit found. Sliders may have moved since it began: locked ones stay, free ones are the fit's.
+    /// Takes what a live refit found. Sliders may have moved since it began: locked ones stay, free
+    /// ones are the fit's.
     fn take_refit(&mut self, report: &FitResult) {
         let Surface { mut parameters, locked, .. } = *self.surface();
         let free = report.estimates.iter().map(|estimate| estimate.parameter);

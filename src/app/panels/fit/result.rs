@@ -170,7 +170,8 @@ fn minima_ui(report: &FitResult, ui: &mut Ui) {
     });
 }
 
-/// Correlations of the determined parameters as a coloured table: blue where two rise together, orange where one makes up for the other.
+/// Correlations of the determined parameters as a coloured table: blue where two rise together,
+/// orange where one makes up for the other.
 fn correlations_ui(report: &FitResult, ui: &mut Ui) {
     if report.correlations.parameters.len() < 2 {
         return;

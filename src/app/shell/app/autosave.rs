@@ -1,4 +1,5 @@
-//! What is kept without being asked: the settings, and the working state with a lesson that is open.
+//! What is kept without being asked: the settings, and the working state with a lesson that is
+//! open.
 
 use crate::app::platform::Instant;
 use crate::app::shell::app::App;
@@ -38,7 +39,8 @@ impl App {
     }
 }
 
-/// The file of the working state, if it is to be written: not while a job is about to replace what there is.
+/// The file of the working state, if it is to be written: not while a job is about to replace what
+/// there is.
 fn due(app: &App) -> Option<(PathBuf, AutosaveRevision)> {
     let path = app.persistence.autosave_path.clone().filter(|_| app.own_work().active().measurement.rows.len() <= MOST_ROWS)?;
     let is_waiting = app.jobs.files.session.is_running() || app.jobs.files.autosave.is_running();

@@ -64,7 +64,8 @@ fn fit_panicked() -> String {
 
 pub fn dialog_answered(app: &mut App, answer: DialogAnswer) {
     match answer.reply {
-        // Before the queued actions: the user chose the path for the work as it was when the dialog opened.
+        // Before the queued actions: the user chose the path for the work as it was when the dialog
+        // opened.
         Ok(path) => drop(app.actions.splice(..0, path.map(|path| command_for(&answer.request, path)))),
         Err(DialogUnavailable) => app.toasts.error(unavailable_text(&answer.request)),
     }

@@ -1,6 +1,7 @@
 //! Lessons begin, go on and end.
 //!
-//! Settings file and autosave hold the user's own workspace beside that of the lesson, so that a crash in a lesson loses nothing of it.
+//! Settings file and autosave hold the user's own workspace beside that of the lesson, so that a
+//! crash in a lesson loses nothing of it.
 
 use crate::app::shell::app::App;
 use crate::app::shell::docking::Dock;
@@ -28,7 +29,8 @@ pub fn show_step(app: &mut App, lesson: usize, step: usize) -> Result<(), String
     Ok(())
 }
 
-/// Keeps the user's own work, and goes on with the same panes and no fit; data and sliders are then the lesson's.
+/// Keeps the user's own work, and goes on with the same panes and no fit; data and sliders are then
+/// the lesson's.
 fn begin(app: &mut App, lesson: usize) {
     if app.jobs.fits.fit.is_running() || app.jobs.fits.compare.is_running() || app.jobs.fits.is_scanning() {
         app.toasts.error(tr!("What was being fitted was stopped for the lesson."));
@@ -40,8 +42,8 @@ fn begin(app: &mut App, lesson: usize) {
     app.lessons.session = Some(Box::new(LessonSession { lesson, step: 0, saved }));
 }
 
-/// Sets up the last of these steps, whichever way the user came to it: its data and settings, and its panes as they lie at the lesson's
-/// beginning.
+/// Sets up the last of these steps, whichever way the user came to it: its data and settings, and
+/// its panes as they lie at the lesson's beginning.
 fn set_up_step(app: &mut App, steps: &[Step], begins: bool) {
     app.jobs.fits.abandon();
     let open = app.work.active().number;
@@ -61,7 +63,8 @@ fn set_up_step(app: &mut App, steps: &[Step], begins: bool) {
     }
 }
 
-/// Whether nothing is on its way that belongs to what is shown now: a file would meet the other work.
+/// Whether nothing is on its way that belongs to what is shown now: a file would meet the other
+/// work.
 fn is_free_for_lessons(app: &App) -> Result<(), String> {
     if app.jobs.files.reading_fraction().is_some() || app.jobs.files.session.is_running() {
         return Err(tr!("A file is still being read: begin the lesson when it is there."));
@@ -69,7 +72,8 @@ fn is_free_for_lessons(app: &App) -> Result<(), String> {
     awaits_no_answer(app)
 }
 
-/// Whether no question about a file is open and none is being written: the answer would meet the other work.
+/// Whether no question about a file is open and none is being written: the answer would meet the
+/// other work.
 fn awaits_no_answer(app: &App) -> Result<(), String> {
     let (files, dialogs) = (&app.jobs.files, &app.dialogs);
     if files.dialog.is_running() || files.export.is_running() || dialogs.import.is_some() || dialogs.overwrite.is_some() {
@@ -78,7 +82,8 @@ fn awaits_no_answer(app: &App) -> Result<(), String> {
     Ok(())
 }
 
-/// Closes the lesson, if no answer is awaited that belongs to it; what is being read for it is not wanted any more.
+/// Closes the lesson, if no answer is awaited that belongs to it; what is being read for it is not
+/// wanted any more.
 pub fn end_lesson(app: &mut App) -> Result<(), String> {
     awaits_no_answer(app)?;
     close_lesson(app);

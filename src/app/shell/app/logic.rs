@@ -1,4 +1,5 @@
-//! What happens before each frame: results of jobs, dropped files, actions, what is derived, what is kept.
+//! What happens before each frame: results of jobs, dropped files, actions, what is derived, what
+//! is kept.
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{autosave_when_rested, save_when_rested};

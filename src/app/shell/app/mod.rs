@@ -90,7 +90,8 @@ impl App {
         self.lessons.session.as_ref().map_or(&self.work, |session| &session.saved)
     }
 
-    /// The parameters that a fit would change: those that the data can speak of, less the locked ones.
+    /// The parameters that a fit would change: those that the data can speak of, less the locked
+    /// ones.
     pub fn free(&self) -> ParameterSet {
         free(self.work.surface(), self.work.active().measurement.has_brdf())
     }

@@ -1,4 +1,5 @@
-//! Measurements open: at the start, from files, and through the dialog that asks about foreign ones.
+//! Measurements open: at the start, from files, and through the dialog that asks about foreign
+//! ones.
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::lesson::close_lesson;
@@ -17,7 +18,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tr::tr;
 
-/// Opens the first example, and then the file if there is one: if that cannot be read, the example stays.
+/// Opens the first example, and then the file if there is one: if that cannot be read, the example
+/// stays.
 pub fn begin(app: &mut App, file: Option<PathBuf>) {
     // Tests read no folders of the user.
     let own = app.persistence.settings_path.as_ref().and_then(|_| own_folder());

@@ -46,7 +46,8 @@ pub fn session_read(app: &mut App, path: &Path, result: Result<Box<OpenedSession
     }
 }
 
-/// It takes the place of a lesson, and of what that would give back; a lesson that was open goes on.
+/// It takes the place of a lesson, and of what that would give back; a lesson that was open goes
+/// on.
 fn show_session(app: &mut App, mut opened: OpenedSession, file: Option<PathBuf>) {
     app.lessons.session = None;
     let lesson = opened.lesson.take();

@@ -1,7 +1,8 @@
 //! The messages of the core and of the program in the language of the window.
 //!
-//! Errors, verdicts and notes are values. The file of their module here has a sentence for each by an exhaustive match:
-//! a variant without a sentence does not compile. That is why enums of messages are not `#[non_exhaustive]`.
+//! Errors, verdicts and notes are values. The file of their module here has a sentence for each by
+//! an exhaustive match: a variant without a sentence does not compile. That is why enums of
+//! messages are not `#[non_exhaustive]`.
 
 mod files;
 mod fit;

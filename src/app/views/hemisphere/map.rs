@@ -58,8 +58,8 @@ pub fn values(map: &HemisphereMap, quantity: HemisphereQuantity) -> &[f64] {
     }
 }
 
-/// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound; of the BRDF, which is coloured by its decades,
-/// their logarithms.
+/// The ends of what is finite and not at the horizon, where a Minnaert lobe has no bound; of the
+/// BRDF, which is coloured by its decades, their logarithms.
 fn extremes(map: &HemisphereMap, quantity: HemisphereQuantity) -> (f64, f64) {
     let is_log = quantity == HemisphereQuantity::Brdf;
     let (low, high) = ends(values(map, quantity), if is_log { f64::MIN_POSITIVE } else { f64::NEG_INFINITY });
@@ -68,7 +68,8 @@ fn extremes(map: &HemisphereMap, quantity: HemisphereQuantity) -> (f64, f64) {
 
 /// The smallest and the largest finite value from `least` on, the horizon left out.
 fn ends(values: &[f64], least: f64) -> (f64, f64) {
-    // Of the disc of radius 1 that has the horizon at its rim; a square of the radius needs no angle.
+    // Of the disc of radius 1 that has the horizon at its rim; a square of the radius needs no
+    // angle.
     let rim = (SETS_AXES / 90.0) * (SETS_AXES / 90.0);
     let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
     for (row, values) in values.chunks(SIZE).enumerate() {
@@ -112,7 +113,8 @@ pub fn index(coordinate: f64) -> Option<usize> {
     (-1.0..1.0).contains(&coordinate).then_some(place as usize)
 }
 
-/// Where a direction lies on the disc, in degrees of θr from the middle: x to the right and y upwards.
+/// Where a direction lies on the disc, in degrees of θr from the middle: x to the right and y
+/// upwards.
 pub fn place(theta_r: f64, dphi: f64) -> [f64; 2] {
     let (sin, cos) = Degrees(dphi - 180.0).sin_cos();
     [theta_r * cos, theta_r * sin]

@@ -1,6 +1,8 @@
-//! Hemisphere map: DoLP, angle of polarisation, BRDF or specular share over all directions of view at the sliders' θi.
+//! Hemisphere map: DoLP, angle of polarisation, BRDF or specular share over all directions of view
+//! at the sliders' θi.
 //!
-//! The disc is that of [`pbrdf::model::Hemisphere`]: light from the left, forward side to the right, θr = 90° at the rim.
+//! The disc is that of [`pbrdf::model::Hemisphere`]: light from the left, forward side to the
+//! right, θr = 90° at the rim.
 
 mod map;
 
@@ -40,7 +42,8 @@ pub struct HemisphereView {
     plot: FigurePlot<FigureKey>,
 }
 
-/// The map by its inputs, what it shows, the range of its colours, the measured directions by their stamp, the language.
+/// The map by its inputs, what it shows, the range of its colours, the measured directions by their
+/// stamp, the language.
 type FigureKey = (MapKey, HemisphereQuantity, Option<Range>, u64, Language);
 
 impl HemisphereQuantity {
@@ -108,7 +111,8 @@ impl HemisphereView {
         self.job.key()
     }
 
-    /// The map with what lies on it, over degrees of θr from the middle outwards, so that axes can tell them.
+    /// The map with what lies on it, over degrees of θr from the middle outwards, so that axes can
+    /// tell them.
     fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), title: String) -> Figure {
         let theta_i = made.theta_i;
         let mut series = vec![Series::heat_map(made.heat_map(quantity, range, quantity.axis()))];
@@ -157,7 +161,8 @@ impl View for HemisphereView {
         let (settings, surface) = (cx.work.settings(), cx.work.surface());
         let (parameters, model, theta_i) = (surface.parameters, surface.model, settings.theta_i);
         let Ok(surface) = Pbrdf::new(model, parameters) else {
-            // Values that are not numbers differ from themselves: a job would follow a job for ever.
+            // Values that are not numbers differ from themselves: a job would follow a job for
+            // ever.
             self.job = AsyncMemo::default();
             return;
         };

@@ -1,10 +1,12 @@
-//! The axes of the landscape: where values lie on them, what of them is seen first, and their marks.
+//! The axes of the landscape: where values lie on them, what of them is seen first, and their
+//! marks.
 
 use crate::app::plots::Range;
 use pbrdf::fit::LandscapeAxis;
 use pbrdf::model::Parameter;
 
-/// The coordinate of a value on an axis: its logarithm where the parameter is best walked by factors.
+/// The coordinate of a value on an axis: its logarithm where the parameter is best walked by
+/// factors.
 pub fn coordinate(parameter: Parameter, value: f64) -> f64 {
     if parameter.is_logarithmic() { libm::log10(value) } else { value }
 }

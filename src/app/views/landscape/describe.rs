@@ -72,7 +72,8 @@ fn pointed(name: String, places: Vec<[f64; 2]>, symbol: Symbol, color: Rgb) -> S
     Series::measured(name, places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect(), symbol).colored(color)
 }
 
-/// Names that do not stand on an earlier one, each with so much room in the coordinates of the plot.
+/// Names that do not stand on an earlier one, each with so much room in the coordinates of the
+/// plot.
 fn free(names: &[([f64; 2], &'static str)], room: [f64; 2]) -> Vec<([f64; 2], &'static str)> {
     let mut free: Vec<([f64; 2], &str)> = Vec::new();
     for (point, name) in names {

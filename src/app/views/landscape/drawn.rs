@@ -33,8 +33,8 @@ const DECADES: f64 = 6.0;
 const LINES: usize = 12;
 
 impl LandscapeImage {
-    /// Of the measurement with the model and the choices of the key, in the bounds of the surface; none where there is no problem or no
-    /// node has a value.
+    /// Of the measurement with the model and the choices of the key, in the bounds of the surface;
+    /// none where there is no problem or no node has a value.
     pub fn new(mut surface: Surface, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
         let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
         // Where its own two sliders stand is no matter, not even if that is nowhere.
@@ -81,7 +81,8 @@ fn title(problem: &Problem) -> &'static str {
     }
 }
 
-/// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the plot.
+/// Lines at 1, 2 and 5 times powers of ten, or at powers of ten alone, in the coordinates of the
+/// plot.
 fn contours(heights: &[f64], key: &LandscapeKey, Range { low, high }: Range) -> Vec<Contour> {
     let levels = |factors: &[f64]| -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, reason = "a few decades")]

@@ -17,8 +17,9 @@ pub struct LandscapeKey {
 }
 
 impl LandscapeKey {
-    /// Whether the landscape of these inputs is worth waiting for while other ones are wanted: under a moving slider each coarse one
-    /// is a picture on the way. A fine one, or one of other data, is not.
+    /// Whether the landscape of these inputs is worth waiting for while other ones are wanted:
+    /// under a moving slider each coarse one is a picture on the way. A fine one, or one of other
+    /// data, is not.
     pub fn is_of_use(&self, wanted: &Self, coarse: &Self) -> bool {
         let subject = |key: &Self| (key.generation, key.model, key.fit_options, key.across.parameter, key.up.parameter, key.across.count);
         self == wanted || subject(self) == subject(coarse)

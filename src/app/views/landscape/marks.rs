@@ -1,4 +1,5 @@
-//! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated metals, the sliders.
+//! What lies on the landscape: the ways of the last fits, the minima of the shown one, tabulated
+//! metals, the sliders.
 
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
@@ -15,8 +16,8 @@ const WAYS: usize = 3;
 /// Minima that are drawn, the lowest ones.
 const MOST_MINIMA: usize = 24;
 
-/// What the marks depend on: the axes, how many fits there were, the one shown, the measurement, the wavelength in nm, the language of
-/// what a pointer reads.
+/// What the marks depend on: the axes, how many fits there were, the one shown, the measurement,
+/// the wavelength in nm, the language of what a pointer reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarksKey {
     axes: (Parameter, Parameter),
@@ -141,7 +142,8 @@ pub fn way_name(age: usize) -> String {
     if age == 0 { tr!("way of the last fit") } else { tr!("way {} fits before", age) }
 }
 
-/// The name of a metal on the map: chemical symbols are the same in all languages, names of alloys are not.
+/// The name of a metal on the map: chemical symbols are the same in all languages, names of alloys
+/// are not.
 pub fn metal_name(name: &str) -> String {
     if name.len() > 2 { translated(name) } else { name.to_owned() }
 }

@@ -20,5 +20,6 @@ pub struct LandscapeView {
     pub plot: FigurePlot<FigureKey>,
 }
 
-/// The landscape by its inputs, what is shown of it, the marks by their stamp, the bits of the sliders' place, the language.
+/// The landscape by its inputs, what is shown of it, the marks by their stamp, the bits of the
+/// sliders' place, the language.
 pub type FigureKey = (LandscapeKey, LandscapeAxes, u64, [u64; 2], Language);
