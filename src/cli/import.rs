@@ -4,7 +4,7 @@ use crate::cli::arguments::ImportArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::foreign::{LabTable, OtherFormat, TableOptions, is_workbook};
-use pbrdf::measurement::formats::{Format, ImportError, ImportNote, ImportOptions, Imported, recognise};
+use pbrdf::measurement::formats::{ForeignFile, Format, ImportError, ImportNote, ImportOptions, Imported, Question, recognise};
 use pbrdf::measurement::{Measurement, ReadErrorKind, write_measurements};
 use std::path::Path;
 use std::process::ExitCode;
@@ -103,19 +103,48 @@ fn table(task: &ImportArguments, bytes: Vec<u8>) -> Result<Imported, Failure> {
 fn recognised(task: &ImportArguments, format: &dyn Format, bytes: Vec<u8>) -> Result<Imported, Failure> {
     let file = format.open(bytes, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
     notice_all(task, &file.notes());
+    let questions = file.questions();
+    let has_slices = questions.iter().any(|question| matches!(question, Question::Directions));
+    let offered = || if has_slices { ImportOptions::offered_theta_i() } else { Vec::new() };
     let options = ImportOptions {
         wavelength_nm: task.wavelength,
-        theta_i: task.theta_i.as_ref().map_or_else(ImportOptions::offered_theta_i, |grid| grid.0.clone()),
+        theta_i: task.theta_i.as_ref().map_or_else(offered, |grid| grid.0.clone()),
         theta_r: task.theta_r.0.clone(),
         dphi: task.dphi,
         ..ImportOptions::default()
     };
+    let wavelengths = questions.iter().find_map(|question| match question {
+        Question::Wavelength { available_nm } if task.auto && task.wavelength.is_none() => Some(available_nm),
+        _ => None,
+    });
+    if let Some(available_nm) = wavelengths {
+        return every_wavelength(task, &*file, &options, available_nm);
+    }
     file.import(&options, &mut input::while_reading()).map_err(|error| {
         if let ImportError::NoValue { notes } = &error {
             notice_all(task, notes);
         }
         failure(task, &error)
     })
+}
+
+/// With --auto and without --wavelength: a measurement for each wavelength.
+fn every_wavelength(
+    task: &ImportArguments,
+    file: &dyn ForeignFile,
+    options: &ImportOptions,
+    available_nm: &[f64],
+) -> Result<Imported, Failure> {
+    let mut all = Imported::default();
+    for &wavelength_nm in available_nm {
+        let options = ImportOptions { wavelength_nm: Some(wavelength_nm), ..options.clone() };
+        let imported = file.import(&options, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
+        for mut measurement in imported.measurements {
+            measurement.name = format!("{wavelength_nm} nm");
+            all.measurements.push(measurement);
+        }
+    }
+    Ok(all)
 }
 
 fn notice_all(task: &ImportArguments, notes: &[ImportNote]) {

@@ -182,9 +182,19 @@ impl Field {
     }
 }
 
+/// A percentage as a fraction: the decimal number moved by two digits, without a rounding error.
+pub(crate) fn hundredth(percent: f64) -> f64 {
+    format!("{percent}e-2").parse().unwrap_or(percent / 100.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::Field;
+
+    #[test]
+    fn a_percentage_is_its_decimal_number() {
+        assert_eq!([2.34, 0.4, 11.79, 100.0].map(super::hundredth), [0.0234, 0.004, 0.1179, 1.0]);
+    }
 
     #[test]
     fn every_field_has_a_key_of_its_own() {

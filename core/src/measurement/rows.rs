@@ -1,5 +1,6 @@
 //! Turns the records of a table into rows of a measurement.
 
+use crate::measurement::field::hundredth;
 use crate::measurement::foreign::field_of;
 use crate::measurement::note::{ImportNote, LineList};
 use crate::measurement::{
@@ -228,7 +229,7 @@ impl QuantitySource {
                 return Err(record.out_of_range(column, Expected::Sigma));
             }
         }
-        let sigma = sigma.map(|sigma| sigma / self.sigma_per_unit).filter(|&sigma| sigma > 0.0);
-        Ok(Some(Quantity { value: value / self.per_unit, sigma }))
+        let sigma = sigma.map(|sigma| if self.sigma_per_unit == 1.0 { sigma } else { hundredth(sigma) }).filter(|&sigma| sigma > 0.0);
+        Ok(Some(Quantity { value: if self.per_unit == 1.0 { value } else { hundredth(value) }, sigma }))
     }
 }

@@ -69,6 +69,7 @@ fn questions_ui(import: &mut ImportDialog, ui: &mut Ui) {
     for question in &*questions {
         match question {
             Question::Wavelength { available_nm } => wavelength_ui(options, available_nm, ui),
+            Question::ThetaI => theta_i_ui(options, ui),
             Question::Directions => slices_ui(slices, options, ui),
             Question::Columns(sample) => columns_ui(&mut options.columns, sample, ui),
         }
@@ -100,6 +101,17 @@ fn wavelength_ui(options: &mut ImportOptions, available_nm: &[f64], ui: &mut Ui)
                 *wavelength_nm = nearest.unwrap_or(wanted);
             }
             ui.weak(tr!("{0} of them, {1} to {2} nm", available_nm.len(), short(first), short(last)));
+        }
+    });
+}
+
+/// One angle of incidence for the whole file.
+fn theta_i_ui(options: &mut ImportOptions, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let label = ui.label(tr!("Angle of incidence"));
+        let mut degrees = options.theta_i.first().copied().unwrap_or(OFFERED_THETA_I);
+        if ui.add(DragValue::new(&mut degrees).range(0.0..=89.9).speed(0.5).max_decimals(3).suffix("°")).labelled_by(label.id).changed() {
+            options.theta_i = vec![degrees];
         }
     });
 }

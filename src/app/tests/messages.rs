@@ -195,6 +195,7 @@ fn errors_of_tensors_and_wavelengths_are_said_in_chinese() {
     let columns = vec![(1, "a".to_owned()), (2, "b".to_owned())];
     assert_localized([
         ImportError::NoValue { notes: Vec::new() },
+        ImportError::NoThetaI,
         ImportError::OtherFormat(OtherFormat { name: "an XML document", advice: "save it", options: None }),
         ImportError::Workbook { reason: "it is damaged".to_owned() },
         ImportError::NoSheet { wanted: String::new(), names: names() },

@@ -92,14 +92,29 @@ fn stated_separator(text: &str) -> Option<Separator> {
 
 fn best(text: &str, dialects: &[Dialect]) -> Dialect {
     let lines = sample(text);
-    let mut best = (f64::NEG_INFINITY, dialects[0]);
+    let mut best = (0.0, dialects[0]);
     for &dialect in dialects {
         let score = score(&lines, dialect);
-        if score > best.0 {
+        // A later one has to be clearly better.
+        if score > 1.05 * best.0 {
             best = (score, dialect);
         }
     }
-    best.1
+    // Columns parted by two blanks or more may hold names of several words.
+    let wide = Dialect { separator: Separator::Blanks { least: 2 }, ..best.1 };
+    if best.1.separator == (Separator::Blanks { least: 1 }) && dialects.contains(&wide) && is_even(&lines, wide) { wide } else { best.1 }
+}
+
+/// Whether all rows of numbers have three cells or more, and the same number of them.
+fn is_even(lines: &[&str], dialect: Dialect) -> bool {
+    let mut cells = Vec::new();
+    let mut lengths = lines.iter().filter_map(|line| {
+        cells.clear();
+        split(line, dialect.separator, &mut cells);
+        let numbers = cells.iter().filter(|cell| Cell::new(cell, dialect).is_number()).count();
+        (numbers >= 2).then_some(cells.len())
+    });
+    lengths.next().is_some_and(|first| first >= 3 && lengths.all(|length| length == first))
 }
 
 /// The first lines, and lines spread over the rest.

@@ -78,8 +78,12 @@ impl Heading {
         if let Some(corner) = corner(cell) {
             return corner;
         }
-        let (rest, measure) = without_measure(&normalised(cell));
+        let whole = normalised(cell);
+        let (rest, measure) = without_measure(&whole);
         let mut heading = Self { measure, ..Self::NONE };
+        if let Some((row, column, is_sigma)) = mueller(&words(&whole)) {
+            return Self { meaning: Meaning::Mueller { row, column, is_sigma }, score: 9, ..Self::NONE };
+        }
         let with_digits = split_glued(words(&rest));
         let says_brdf =
             |words: &[String]| measure == Some(Measure::PerSteradian) || words.iter().any(|word| meanings(word).contains(&Word::Brdf));
@@ -98,6 +102,22 @@ impl Heading {
         heading = Self { meaning, score, brdf_is, ..heading };
         if let Some((number, unit)) = at_number {
             heading.add_place(number, unit);
+            // `AOI 30 DoLP`: the words of the place tell where, the others what.
+            let is_place = |word: &&String| {
+                meanings(word)
+                    .iter()
+                    .any(|of| matches!(of, Word::Incidence | Word::View | Word::ViewAngle | Word::Angle | Word::Wavelength))
+                    && *word != "s"
+            };
+            let (places, others): (Vec<String>, Vec<String>) = all.into_iter().partition(|word| is_place(&word));
+            if !places.is_empty() && !others.is_empty() {
+                let mut place = Self { meaning: meaning_of(&places).0, ..Self::NONE };
+                place.add_place(number, unit);
+                let (meaning, score, brdf_is) = meaning_of(&others);
+                if meaning != Meaning::Unknown {
+                    heading = Self { meaning, score, brdf_is, at: place.at, ..heading };
+                }
+            }
         }
         heading
     }
@@ -175,7 +195,7 @@ fn without_measure(text: &str) -> (String, Option<Measure>) {
             && before.contains(char::is_alphanumeric)
             && after != "ang"
         {
-            let before = before.trim_end().strip_suffix(" in").unwrap_or(before);
+            let before = before.trim_end().trim_end_matches("_in").trim_end_matches(" in");
             return (before.to_owned(), Some(unit));
         }
     }
@@ -230,7 +250,7 @@ fn split_glued(words: Vec<String>) -> Vec<String> {
     let mut out = Vec::new();
     for word in words {
         let front = ["theta", "dolp", "brdf", "psi"].iter().find(|front| word.len() > front.len() && word.starts_with(**front));
-        let back = ["dolp", "brdf", "phi"].iter().find(|back| word.len() > back.len() && word.ends_with(**back));
+        let back = ["dolp", "brdf", "phi", "angle"].iter().find(|back| word.len() > back.len() && word.ends_with(**back));
         if let Some((before, error)) = before_error(&word) {
             out.extend([before.to_owned(), error.to_owned()]);
         } else if let Some(front) = front {

@@ -9,7 +9,7 @@ use super::heading::{Heading, Meaning};
 use super::number::Cell;
 use super::title::{Title, strip_mark};
 use super::vocabulary::measure;
-use crate::measurement::{Progress, ReadError, ReadErrorKind};
+use crate::measurement::{Progress, ReadError, ReadErrorKind, is_not_measured};
 use std::ops::Range;
 
 /// What a row is.
@@ -108,7 +108,10 @@ impl Layout {
             if self.kinds[row] == RowKind::Data {
                 grid.cells(row, &mut cells);
                 let cell = cells.get(first).map_or(Cell::Missing, |cell| Cell::new(cell, grid.dialect()));
-                if !cell.is_number() && !(self.fills_down && cell == Cell::Missing) && !is_damaged(cell, &cells, self.width) {
+                // A value that was not measured may stand first, a mean alone does not.
+                let numbers = || cells.iter().filter(|cell| Cell::new(cell, grid.dialect()).is_number()).count();
+                let is_data = cell.is_number() || cell == Cell::Missing && numbers() >= 2;
+                if !is_data && !is_damaged(cell, &cells, self.width) {
                     self.kinds[row] = RowKind::Skipped;
                 }
             }
@@ -237,7 +240,8 @@ fn first_kind(grid: &Grid, row: usize, cells: &[&str], columns: &mut Vec<ColumnC
         return RowKind::Blank;
     }
     let text = grid.text(row);
-    if strip_mark(text).len() < text.trim_start().len() && !(text.trim_start().starts_with(';') && is_semicolon(grid)) {
+    let is_marked = strip_mark(text).len() < text.trim().len() && !is_not_measured(cells[0]);
+    if is_marked && !(text.trim_start().starts_with(';') && is_semicolon(grid)) {
         return RowKind::Remark;
     }
     let (mut numbers, mut texts) = (0, 0);
@@ -271,7 +275,7 @@ fn header_of(grid: &Grid, gap: Range<usize>, width: usize, kinds: &[RowKind]) ->
     let mut best: Option<(usize, usize, Vec<String>)> = None;
     for row in gap.clone().rev().filter(|&row| kinds[row] != RowKind::Blank).take(HEADER_REACH) {
         for names in names_of(grid, row, width) {
-            let score = header_score(&names, width);
+            let score = header_score(&names, width, grid.dialect().separator);
             if score > 0 && best.as_ref().is_none_or(|(most, ..)| score > *most) {
                 best = Some((score, row, names));
             }
@@ -337,14 +341,16 @@ fn joined(words: &[String], width: usize) -> Option<Vec<String>> {
 }
 
 /// How well cells name that many columns; 0 where they do not.
-fn header_score(names: &[String], width: usize) -> usize {
+fn header_score(names: &[String], width: usize, separator: Separator) -> usize {
     let headings: Vec<Heading> = names.iter().map(|name| Heading::new(name)).collect();
     let known = headings.iter().filter(|heading| heading.meaning != Meaning::Unknown).count();
     let placed = headings.iter().filter(|heading| heading.meaning == Meaning::Unknown && !heading.at.is_anywhere()).count();
     // `AOI; 30` and `Date: 3 May` are a key and a value.
     let is_pair = names.len() == 2 && (placed == 1 && known <= 1 || names[0].ends_with(':'));
+    // Words that blanks part are no names where there are more of them than columns.
+    let most = if matches!(separator, Separator::Blanks { .. }) { width } else { width + 2 };
     let is_long = names.iter().any(|name| name.len() > 60);
-    if known + placed == 0 || names.len() < 2 || is_pair || is_long || names.len() > width + 2 {
+    if known + placed == 0 || names.len() < 2 || is_pair || is_long || names.len() > most {
         return 0;
     }
     let fits = names.len() == width;

@@ -24,6 +24,10 @@ impl<'a> Cell<'a> {
         if is_not_measured(cell) {
             return Self::Missing;
         }
+        // `1/sr` is a unit.
+        if measure(cell).is_some() {
+            return Self::Text(cell);
+        }
         // A number begins with a digit, a sign or a mark.
         if !cell.starts_with(|first: char| first.is_ascii_digit() || "+-−.,".contains(first)) {
             return Self::Text(cell);

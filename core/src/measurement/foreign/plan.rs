@@ -482,10 +482,10 @@ impl Plan {
     /// Adds the doubts that are left.
     fn doubt(&mut self, brdf_is: Option<BrdfMeaning>, section: &Section) {
         let names: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
-        let is_wide = |of: fn(&Group) -> Option<f64>| !self.groups.is_empty() && self.groups.iter().all(|group| of(group).is_some());
-        let has_theta_i = self.column(Field::ThetaI).is_some() || self.theta_i.is_some() || is_wide(|group| group.theta_i);
+        let is_wide = |of: fn(&PlannedColumn) -> Option<f64>| self.columns.iter().any(|column| of(column).is_some());
+        let has_theta_i = self.column(Field::ThetaI).is_some() || self.theta_i.is_some() || is_wide(|column| column.theta_i);
         let is_specular = self.groups.iter().any(|group| group.polarimeter.as_ref().is_some_and(|(of, _)| of.is_specular()));
-        let has_theta_r = self.column(Field::ThetaR).is_some() || is_wide(|group| group.theta_r) || is_specular;
+        let has_theta_r = self.column(Field::ThetaR).is_some() || is_wide(|column| column.theta_r) || is_specular;
         let is_known =
             |doubts: &[Doubt], field: Field| doubts.iter().any(|doubt| matches!(doubt, Doubt::Several { field: of, .. } if *of == field));
         if section.header.is_empty() && self.groups.is_empty() {

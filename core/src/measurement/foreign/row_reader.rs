@@ -5,6 +5,7 @@ use super::grid::Grid;
 use super::number::{Cell, has_fortran_exponent};
 use super::plan::{Group, Plan};
 use super::vocabulary::Measure;
+use crate::measurement::field::hundredth;
 use crate::measurement::{ColumnPlace, Expected, Field, Polarimeter, Quantity, ReadError, ReadErrorKind, Unit, quote};
 use crate::optics::Degrees;
 
@@ -119,7 +120,7 @@ impl<'a> RowReader<'a> {
         let new = &mut rows[first..];
         if new.len() >= SHADED_FROM && new.iter().all(|raw| raw.dolp.is_none() && raw.brdf.is_some_and(|brdf| brdf.value == 0.0)) {
             for raw in new {
-                (raw.brdf, raw.lacks_value) = (None, true);
+                (raw.brdf, raw.lacks_value, raw.masked) = (None, true, true);
             }
         }
         Ok(())
@@ -283,7 +284,7 @@ impl<'a> RowReader<'a> {
                 };
                 Ok(Some(match unit.filter(|unit| *unit != Measure::Other).or(by_column) {
                     Some(Measure::Radians) => number.to_degrees(),
-                    Some(Measure::Percent) => number / 100.0,
+                    Some(Measure::Percent) => hundredth(number),
                     Some(Measure::Micrometers) => number * 1000.0,
                     Some(Measure::Angstroms) => number * 0.1,
                     _ => number,

@@ -24,11 +24,9 @@ const MARKS: [&str; 7] = ["#", "%", "//", "!", ";", "*", "'"];
 
 /// A line without the mark of a remark and white space around it.
 pub(crate) fn strip_mark(line: &str) -> &str {
-    let mut text = line.trim();
-    while let Some(rest) = MARKS.iter().find_map(|mark| text.strip_prefix(mark)) {
-        text = rest.trim_start();
-    }
-    text
+    let text = line.trim();
+    let Some(mark) = MARKS.iter().find(|mark| text.starts_with(**mark)) else { return text };
+    text.trim_start_matches(*mark).trim_start()
 }
 
 /// Key and value of a line `key: value` or `key = value`, or of a line of two cells.

@@ -216,6 +216,24 @@ const BEGINNINGS: &[(Word, &[&str])] = &[
         ],
     ),
     (
+        Word::Error,
+        &[
+            "error",
+            "err",
+            "std",
+            "stdev",
+            "stddev",
+            "standardabw",
+            "stabw",
+            "uncert",
+            "unsicher",
+            "fehler",
+            "messunsich",
+            "messfehler",
+            "deviat",
+        ],
+    ),
+    (
         Word::ViewAngle,
         &[
             "detect",
@@ -244,10 +262,6 @@ const BEGINNINGS: &[(Word, &[&str])] = &[
     (Word::Polarisation, &["polari", "dolp", "linpol"]),
     (Word::Angle, &["angle", "winkel", "theta", "zenit", "polar", "zenith"]),
     (Word::Brdf, &["brdf", "bsdf", "bidirectional", "bidirektional"]),
-    (
-        Word::Error,
-        &["error", "err", "std", "stdev", "stddev", "standardabw", "stabw", "uncert", "unsicher", "fehler", "messunsich", "deviat"],
-    ),
     (Word::Factor, &["factor", "faktor", "coefficient"]),
     (Word::Cosine, &["cos"]),
     (Word::Wavelength, &["wavel", "wellenl", "lambda"]),
@@ -260,7 +274,7 @@ const WORDS: &[(Word, &[&str])] = &[
     (Word::Incidence, &["aoi", "inc", "in", "i", "ein", "source", "lamp", "quelle", "licht", "sun", "sza", "vonlicht", "e", "aoin"]),
     (Word::View, &["view", "viewing", "vza", "vz", "va", "aov", "aor", "obs", "det", "detector", "reception"]),
     (Word::ViewAngle, &["r", "v", "s", "o", "out", "refl", "rec", "aus", "re", "detector", "reflected", "reflection", "exitance"]),
-    (Word::Angle, &["th", "ang", "t", "a", "tilt"]),
+    (Word::Angle, &["th", "ang", "tilt"]),
     (Word::Azimuth, &["az", "raa"]),
     (Word::Difference, &["delta", "d", "rel", "relative", "relativer", "relativ", "diff", "difference", "differenz"]),
     (Word::Polarisation, &["dolp", "dlp", "dop", "pol", "polarisationsgrad", "polarisierungsgrad", "p", "plin", "lpd"]),
@@ -274,7 +288,7 @@ const WORDS: &[(Word, &[&str])] = &[
     (Word::Factor, &["brf", "hdrf", "reflexionsfaktor", "reflektanzfaktor", "remissionsfaktor", "strahldichtefaktor"]),
     (
         Word::Error,
-        &["sigma", "sd", "unc", "se", "sem", "rms", "pm", "u", "stdabw", "delta", "e", "s", "dev", "sigm", "streuung", "abweichung"],
+        &["sigma", "sd", "unc", "se", "sem", "rms", "pm", "u", "stdabw", "abw", "delta", "e", "s", "dev", "sigm", "streuung", "abweichung"],
     ),
     (Word::Wavelength, &["wl", "wave", "nm", "wvl", "wln"]),
     (Word::Sample, &["sample", "set", "name", "target", "surface", "piece", "oberflache", "specimen"]),
@@ -375,6 +389,8 @@ pub(crate) fn meanings(word: &str) -> Vec<Word> {
     // A German compound ends with what it is.
     if word.len() > 6 && word.ends_with("winkel") {
         found.push(Word::Angle);
+        let inside = BEGINNINGS.iter().find(|(_, beginnings)| beginnings.iter().any(|beginning| word.contains(beginning)));
+        found.extend(inside.map(|(meaning, _)| *meaning));
     }
     if word.ends_with("azimut") || word.ends_with("azimutwinkel") {
         found = vec![Word::Azimuth];

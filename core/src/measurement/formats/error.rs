@@ -21,6 +21,9 @@ pub enum ImportError {
     /// An angle asked for is outside its range.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+    /// The angle of incidence is not in the file, and one angle was not given.
+    #[error("the file does not state the angle of incidence; give it with --theta-i")]
+    NoThetaI,
     /// A form that is not read.
     #[error("{0}")]
     OtherFormat(OtherFormat),

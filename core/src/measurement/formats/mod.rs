@@ -4,16 +4,21 @@
 //! is a [`Question`], what it has to say an [`ImportNote`]; the command line and the window know
 //! these alone.
 
+mod ellipsometer_table;
 mod error;
+mod film_sense;
 mod format;
 mod native;
 mod pbsdf;
 mod pgii;
 mod question;
 mod recognition;
+mod spectraray;
 mod table;
 mod text_line;
+mod wavelength_unit;
 mod woollam;
+mod zemax;
 
 pub use crate::measurement::note::{ImportNote, LineList};
 pub use error::ImportError;

@@ -12,6 +12,8 @@ pub enum Question {
         /// The wavelengths of the file in nm, ascending.
         available_nm: Vec<f64>,
     },
+    /// At which angle of incidence?
+    ThetaI,
     /// At which angles?
     Directions,
     /// Which column holds what?
@@ -50,6 +52,8 @@ pub struct ImportOptions {
     pub table: TableOptions,
 }
 
+/// The angle of incidence in degrees that is offered first: what many ellipsometers stand at.
+const OFFERED_THETA_I: f64 = 65.0;
 /// The wavelength in nm that is offered first: red, as of most lasers.
 const OFFERED_NM: f64 = 650.0;
 
@@ -70,6 +74,7 @@ impl ImportOptions {
                     let distance = |wavelength: f64| (wavelength - OFFERED_NM).abs();
                     options.wavelength_nm = available_nm.iter().copied().min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
                 }
+                Question::ThetaI => options.theta_i = vec![OFFERED_THETA_I],
                 Question::Directions => options.dphi = Some(180.0),
                 Question::Columns(sample) => options.columns = sample.guess.clone(),
             }

@@ -1,16 +1,20 @@
 //! The table of forms, and which of them a file has.
 
+use super::ellipsometer_table::EllipsometerTable;
 use super::error::ImportError;
+use super::film_sense::FilmSense;
 use super::format::{ForeignFile, Format};
 use super::pbsdf::Pbsdf;
 use super::pgii::PabPgii;
+use super::spectraray::SpectraRay;
 use super::table::ForeignTable;
 use super::woollam::Woollam;
+use super::zemax::Zemax;
 use crate::measurement::foreign::{OtherFormat, is_workbook};
 use crate::measurement::{Field, Measurement, Progress, ReadError, ReadErrorKind};
 
 /// The forms that are recognised by content, in the order in which they are tried.
-pub static FORMATS: &[&dyn Format] = &[&Woollam, &Pbsdf, &PabPgii];
+pub static FORMATS: &[&dyn Format] = &[&Woollam, &EllipsometerTable, &SpectraRay, &FilmSense, &Pbsdf, &PabPgii, &Zemax];
 
 /// Usual endings of the names of files of this project and of tables.
 const TABLE_EXTENSIONS: [&str; 6] = ["csv", "tsv", "txt", "xlsx", "xls", "ods"];

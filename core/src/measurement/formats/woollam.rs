@@ -12,51 +12,44 @@ use super::error::ImportError;
 use super::format::{ForeignFile, Format, Imported};
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
+use super::wavelength_unit::WavelengthUnit;
 use crate::measurement::note::ImportNote;
 use crate::measurement::{Depolarisation, Ellipsometry, Expected, Progress, PsiDelta, ReadError, ReadErrorKind, SpecularDolp, unwatched};
 use std::io::Read;
 
 /// More lines than any known head has.
 const HEAD_LINES: u64 = 20;
-/// nm times eV: h c/e in the SI since 2019.
-const NM_EV: f64 = 1_239.841_984_332_002_6;
-
-/// The unit of the wavelengths of a file.
-#[derive(Debug, Clone, Copy)]
-enum WavelengthUnit {
-    Nm(f64),
-    Ev,
-    PerCm,
-}
-
-impl WavelengthUnit {
-    fn from_word(word: &str) -> Option<Self> {
-        match word.to_ascii_lowercase().as_str() {
-            "nm" | "nanometers" => Some(Self::Nm(1.0)),
-            "angstroms" | "angstrom" => Some(Self::Nm(0.1)),
-            "um" | "microns" | "micrometers" => Some(Self::Nm(1000.0)),
-            "ev" => Some(Self::Ev),
-            "1/cm" | "cm-1" => Some(Self::PerCm),
-            _ => None,
-        }
-    }
-
-    fn nm(self, value: f64) -> f64 {
-        match self {
-            Self::Nm(factor) => value * factor,
-            Self::Ev => NM_EV / value,
-            Self::PerCm => 1e7 / value,
-        }
-    }
-}
-
 /// Whether bytes look like Woollam's text: a line with a unit among the first lines.
 #[must_use]
 pub fn is_woollam(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(4096)];
     let text = String::from_utf8_lossy(start);
     let mut head = text.lines().take(5);
-    head.any(|line| line.starts_with("VASEmethod[") || unit_of(line).is_some())
+    head.any(|line| line.starts_with("VASEmethod[") || unit_of(line).is_some()) || is_bare(&text, bytes.len() <= start.len())
+}
+
+/// Rows at least of a table without a head that are taken for Woollam's.
+const BARE_ROWS: usize = 3;
+
+/// Whether a text is rows of wavelength in nm, angle of incidence, ψ and Δ, without a head: values
+/// that are no angles, ascending at one angle, decide.
+fn is_bare(text: &str, is_whole: bool) -> bool {
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    let lines = &lines[..lines.len() - usize::from(!is_whole && !lines.is_empty())];
+    let rows: Option<Vec<[f64; 4]>> = lines
+        .iter()
+        .map(|line| {
+            let numbers: Option<Vec<f64>> = line.split_whitespace().map(|cell| cell.parse().ok()).collect();
+            numbers.and_then(|numbers| numbers.try_into().ok())
+        })
+        .collect();
+    let is_row = |[nm, aoi, psi, delta]: &[f64; 4]| {
+        (150.0..5000.0).contains(nm) && (15.0..90.0).contains(aoi) && (0.0..=90.0).contains(psi) && (-180.0..=360.0).contains(delta)
+    };
+    rows.is_some_and(|rows| {
+        let ascends = rows.windows(2).all(|pair| pair[0][1] != pair[1][1] || pair[0][0] < pair[1][0]);
+        rows.len() >= BARE_ROWS && rows.iter().all(is_row) && ascends && text.contains('\t')
+    })
 }
 
 /// The unit, if this is the unit line: the unit alone, or before the names of the short form.
@@ -116,6 +109,12 @@ impl Ellipsometry {
             add("method", method);
         } else if let Some(original) = bracketed("Original") {
             add("original", original);
+        } else if line.number == 1 && line.cells.len() == 4 && line.cells.iter().all(|cell| cell.parse::<f64>().is_ok()) {
+            // Without a head the wavelength is in nm.
+            let unit = WavelengthUnit::Nm(1.0);
+            add("note", "no head: columns taken as wavelength in nm, angle, psi, delta");
+            self.add_row(line, unit)?;
+            return Ok(Some(unit));
         } else if line.number == 1 {
             add("sample", line.text);
         } else if line.number > HEAD_LINES || line.cells.iter().take(3).all(|cell| cell.parse::<f64>().is_ok()) {
@@ -218,7 +217,7 @@ with dolp_sigma where the file states sigma_psi. Depolarisation rows are named i
 
 impl ForeignFile for Ellipsometry {
     fn summary(&self) -> &'static str {
-        "Woollam ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."
+        "Ellipsometry: ψ at each angle becomes the specular DoLP |cos 2ψ| at θr = θi."
     }
 
     fn questions(&self) -> Vec<Question> {

@@ -227,6 +227,7 @@ impl Localized for ImportError {
             Self::Wavelength(error) => error.localized(),
             Self::Geometry(error) => error.localized(),
             Self::NoValue { .. } => tr!("none of the geometries has a value"),
+            Self::NoThetaI => tr!("the file does not state the angle of incidence"),
             Self::OtherFormat(other) => tr!("this is {0}, which is not read as it is; {1}", other.name, other.advice),
             Self::Workbook { reason } => tr!("the workbook cannot be read: {}", reason),
             Self::NoSheet { wanted, names } if wanted.is_empty() => {
