@@ -1,7 +1,7 @@
 //! The arguments of the command line.
 
 use crate::cli::values;
-use crate::cli::values::{Assignment, Grid, Interval, Priors};
+use crate::cli::values::{Assignment, Criterion, Grid, Interval, Priors};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit::{BrdfResiduals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
@@ -185,8 +185,15 @@ pub struct PosteriorArguments {
 pub struct PlanArguments {
     #[command(flatten)]
     pub surface: SurfaceArguments,
-    #[command(flatten)]
-    pub angles: AngleArguments,
+    /// Angles of incidence in degrees: a list 30,40,50 or a range 10:80:10.
+    #[arg(long, value_parser = values::grid)]
+    pub theta_i: Grid,
+    /// Angles of view in degrees, the same way; negative is the backscatter side.
+    #[arg(long, allow_hyphen_values = true, value_parser = values::grid)]
+    pub theta_r: Grid,
+    /// Relative azimuths in degrees, the same way; 180 is the forward side.
+    #[arg(long, default_value = "180", allow_hyphen_values = true, value_parser = values::grid)]
+    pub dphi: Grid,
     /// Standard deviation of the noise in DoLP, absolute.
     #[arg(long, default_value_t = 0.005, value_parser = values::positive)]
     pub noise: f64,
@@ -202,6 +209,24 @@ pub struct PlanArguments {
     /// Parameters to free that would be fixed, such as ks.
     #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
     pub free: Vec<Parameter>,
+    /// Choose so many of the angles.
+    #[arg(long, value_name = "N", value_parser = values::count)]
+    pub choose: Option<usize>,
+    /// What they are to be good for: d (all free parameters), c:n,k (these), tell:cauchy,gauss (telling the first model from the second).
+    #[arg(long, default_value = "d", value_parser = values::criterion, requires = "choose")]
+    pub criterion: Criterion,
+    /// Allow the same angles more than once.
+    #[arg(long, requires = "choose")]
+    pub repeats: bool,
+    /// What is measured already: it counts, and the chosen angles come on top.
+    #[arg(long, value_name = "DATA.csv")]
+    pub given: Option<PathBuf>,
+    /// Parameter sets to average over, as `posterior -o` writes them; without, those of --set.
+    #[arg(long, value_name = "DRAWS.csv", requires = "choose")]
+    pub over: Option<PathBuf>,
+    /// File for the chosen angles as an empty measurement table.
+    #[arg(short, long, requires = "choose")]
+    pub output: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

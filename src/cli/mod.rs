@@ -5,6 +5,7 @@
 
 mod arguments;
 mod compare;
+mod draws;
 mod evaluate;
 mod failure;
 mod fit;

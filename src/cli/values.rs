@@ -13,6 +13,17 @@ pub type Assignment = (Parameter, f64);
 /// `n=0.1..5`.
 pub type Interval = (Parameter, f64, f64);
 
+/// What chosen angles are to be good for.
+#[derive(Debug, Clone)]
+pub enum Criterion {
+    /// All free parameters.
+    Determinant,
+    /// These.
+    Variances(Vec<Parameter>),
+    /// Telling the first model from the second.
+    Tell(&'static Preset, &'static Preset),
+}
+
 /// Priors of parameters.
 #[derive(Debug, Clone)]
 pub struct Priors(pub Vec<(Parameter, Prior)>);
@@ -83,6 +94,20 @@ pub fn columns() -> impl TypedValueParser<Value = Columns> {
 /// A preset by its name.
 pub fn preset(text: &str) -> Result<&'static Preset, String> {
     Preset::from_key(text).ok_or_else(|| format!("expected one of {}", PRESETS.map(|preset| preset.key).join(", ")))
+}
+
+/// `d`, `c:n,k` or `tell:cauchy,gauss`.
+pub fn criterion(text: &str) -> Result<Criterion, String> {
+    let expected = || format!("expected d, c:n,k or tell:cauchy,gauss, found {text:?}");
+    match text.trim().split_once(':') {
+        None if text.trim() == "d" => Ok(Criterion::Determinant),
+        Some(("c", names)) => names.split(',').map(parameter).collect::<Result<_, _>>().map(Criterion::Variances),
+        Some(("tell", models)) => {
+            let (one, other) = models.split_once(',').ok_or_else(expected)?;
+            Ok(Criterion::Tell(preset(one.trim())?, preset(other.trim())?))
+        }
+        _ => Err(expected()),
+    }
 }
 
 /// A parameter by its name.

@@ -56,7 +56,10 @@ mod stop_reason;
 pub use analysis::analyse;
 pub use bounds::{Bounds, BoundsError};
 pub use builder::{Fit, FitError};
-pub use design::{Design, DesignError, DesignPrediction, NoiseModel};
+pub use design::{
+    AngleChoice, AngleChoiceError, CandidateError, CandidateGrid, ChosenAngles, Design, DesignCriterion, DesignError, DesignPrediction,
+    NoiseModel, choose,
+};
 pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
 pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols};
 pub use free_parameters::{fittable, free_by_default};

@@ -47,7 +47,8 @@ impl PredictedErrors {
         if geometries.is_empty() {
             return Err(tr!("There is no angle: add one of incidence and one of view."));
         }
-        let plan = Design { model: surface.model, parameters: surface.parameters, geometries, noise: design.noise(), free };
+        let plan =
+            Design { model: surface.model, parameters: surface.parameters, geometries, noise: design.noise(), free, given: Vec::new() };
         let DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
         Ok(Self { errors, open: undetermined })
     }

@@ -13,6 +13,9 @@ use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use crate::optics::{Facet, Geometry};
 
+/// Size below which an error is compared with this size.
+pub(crate) const SMALLEST_SIZE: f64 = 0.1;
+
 /// What is to be measured, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseModel {
@@ -35,6 +38,8 @@ pub struct Design {
     pub noise: NoiseModel,
     /// The parameters that the fit is to find.
     pub free: ParameterSet,
+    /// What is measured already, with its standard deviations; those that are not stated are as the noise of the plan.
+    pub given: Vec<Row>,
 }
 
 /// What a plan would determine.
@@ -42,6 +47,8 @@ pub struct Design {
 pub struct DesignPrediction {
     /// Standard error of each free parameter in its own unit; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
+    /// The parameters whose error is at most half of max(|value|, 0.1) and half of their range.
+    pub determined: ParameterSet,
     /// What would stay open.
     pub undetermined: Vec<UndeterminedDirection>,
     /// Number of directions that would be determined.
@@ -63,11 +70,29 @@ pub enum DesignError {
     Problem(#[from] ProblemError),
 }
 
+impl NoiseModel {
+    /// How many quantities are measured.
+    pub(crate) fn quantities(self) -> usize {
+        usize::from(self.dolp.is_some()) + usize::from(self.brdf.is_some())
+    }
+
+    /// The standard deviation that information is counted in units of: of DoLP, or of a BRDF that alone is measured.
+    pub(crate) fn unit(self) -> f64 {
+        self.dolp.or(self.brdf).unwrap_or(1.0)
+    }
+
+    /// What a derivative of the BRDF is multiplied by for those units; 0 where a BRDF of 0 has no standard deviation.
+    pub(crate) fn brdf_weight(self, brdf: f64) -> f64 {
+        let weight = self.unit() / (self.brdf.unwrap_or(f64::INFINITY) * brdf);
+        if weight.is_finite() { weight } else { 0.0 }
+    }
+}
+
 impl Design {
     /// With the parameters free that a fit of such data frees by default.
     #[must_use]
     pub fn new(model: Model, parameters: Parameters, geometries: Vec<Geometry>, noise: NoiseModel) -> Self {
-        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY };
+        let mut plan = Self { model, parameters, geometries, noise, free: ParameterSet::EMPTY, given: Vec::new() };
         plan.free = Pbrdf::new(model, parameters)
             .map_or(ParameterSet::EMPTY, |surface| free_by_default(model, &plan.measurement(&surface), &FitOptions::default()));
         plan
@@ -88,8 +113,16 @@ impl Design {
         let problem = Problem::new(&self.measurement(&surface), self.model, self.parameters, self.free, bounds, choices);
         let problem = problem?;
         let uncertainty = Uncertainty::at(&problem, &self.parameters, 0.0, ParameterSet::EMPTY);
+        let errors: Vec<(Parameter, Option<f64>)> =
+            problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect();
+        let is_determined = |&(parameter, error): &(Parameter, Option<f64>)| {
+            let (low, high) = bounds.of(parameter);
+            let largest = 0.5 * self.parameters[parameter].abs().max(SMALLEST_SIZE).min(high - low);
+            error.is_some_and(|error| error <= largest).then_some(parameter)
+        };
         Ok(DesignPrediction {
-            errors: problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect(),
+            determined: errors.iter().filter_map(is_determined).collect(),
+            errors,
             undetermined: uncertainty.undetermined.clone(),
             rank: uncertainty.rank,
             condition: uncertainty.condition,
@@ -109,6 +142,15 @@ impl Design {
                 masked: false,
             }
         });
-        Measurement { rows: rows.collect(), ..Measurement::default() }
+        let relative = |brdf: Quantity| self.noise.brdf.map(|relative| relative * brdf.value).filter(|&sigma| sigma > 0.0);
+        let stated = |quantity: Option<Quantity>, otherwise: &dyn Fn(Quantity) -> Option<f64>| {
+            quantity.and_then(|quantity| Some(Quantity { sigma: Some(quantity.sigma.or_else(|| otherwise(quantity))?), ..quantity }))
+        };
+        let given = self.given.iter().map(|row| Row {
+            dolp: stated(row.dolp, &|_| self.noise.dolp),
+            brdf: stated(row.brdf, &relative),
+            ..row.clone()
+        });
+        Measurement { rows: rows.chain(given).collect(), ..Measurement::default() }
     }
 }
