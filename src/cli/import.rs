@@ -78,6 +78,10 @@ fn table(task: &ImportArguments, bytes: Vec<u8>) -> Result<Imported, Failure> {
         let mut notes: Vec<ImportNote> = measurements.iter().flat_map(|measurement| measurement.notes.clone()).collect();
         let ignored = measurements[0].ignored_columns.clone();
         notes.extend((!ignored.is_empty()).then_some(ImportNote::IgnoredColumns { names: ignored }));
+        let signed = || measurements.iter().flat_map(|measurement| &measurement.rows).map(|row| row.geometry.signed_theta_r().0);
+        if signed().any(|theta_r| theta_r < 0.0) && signed().all(|theta_r| theta_r <= 0.0) {
+            notes.push(ImportNote::AllBackscatter);
+        }
         return Ok(Imported { measurements, notes });
     }
     let table = LabTable::open(bytes, &options, &mut input::while_reading()).map_err(|error| failure(task, &error))?;

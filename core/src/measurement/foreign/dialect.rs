@@ -56,11 +56,12 @@ impl std::fmt::Display for Dialect {
 }
 
 /// The separators that are tried; the first of equal ones wins.
-const SEPARATORS: [Separator; 6] = [
+const SEPARATORS: [Separator; 7] = [
     Separator::Character('\t'),
     Separator::Character(';'),
     Separator::Character(','),
     Separator::Character('|'),
+    Separator::Character('，'),
     Separator::Blanks { least: 2 },
     Separator::Blanks { least: 1 },
 ];

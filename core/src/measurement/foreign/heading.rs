@@ -229,7 +229,8 @@ fn without_number(text: &str) -> (String, Option<(f64, Option<Measure>)>) {
         let unit = measure(&after[..unit_length]).filter(|unit| *unit != Measure::Other);
         // `S_0` and `S 1` are names too.
         let word = text[..begin].trim_end_matches(|letter: char| !letter.is_alphanumeric());
-        let is_index = digits.len() == 1 && word.chars().rev().take_while(|letter| letter.is_alphanumeric()).count() == 1;
+        let last = word.len() - word.chars().rev().take_while(|letter| letter.is_alphanumeric()).map(char::len_utf8).sum::<usize>();
+        let is_index = digits.len() == 1 && (word.chars().count() > 0 && word[last..].chars().count() == 1 || &word[last..] == "theta");
         if is_index && unit.is_none() {
             continue;
         }
@@ -400,6 +401,23 @@ fn value_of(words: &[&String]) -> (Meaning, u8, Option<BrdfMeaning>) {
     let unknown = all.iter().filter(|meanings| meanings.is_empty()).count();
     let (field, plain) = (|field, score| (Meaning::Field(field), score, None), words.iter().map(|word| word.as_str()).collect::<Vec<_>>());
     let certain = |score: u8| if unknown == 0 { score } else { score.saturating_sub(3) };
+    // `DoLP R` may be one of three colours.
+    let belongs = |meanings: &Vec<Word>| {
+        let of_quantity = [
+            Word::Polarisation,
+            Word::Degree,
+            Word::Linear,
+            Word::Brdf,
+            Word::Reflectance,
+            Word::Factor,
+            Word::Cosine,
+            Word::Filler,
+            Word::Value,
+            Word::Angle,
+        ];
+        meanings.iter().any(|of| of_quantity.contains(of))
+    };
+    let of_quantity = |score: u8| if all.iter().all(belongs) { score } else { score.saturating_sub(3) };
     let (inc, view) = (has(Word::Incidence), has(Word::View) || has(Word::ViewAngle));
     let is_long_polarisation = all.iter().zip(&plain).any(|(meanings, word)| meanings.contains(&Word::Polarisation) && *word != "p");
     if has(Word::Foreign)
@@ -419,7 +437,7 @@ fn value_of(words: &[&String]) -> (Meaning, u8, Option<BrdfMeaning>) {
     if is_long_polarisation || plain == ["p"] {
         return field(
             Field::Dolp,
-            certain(if plain == ["p"] {
+            of_quantity(if plain == ["p"] {
                 5
             } else if has(Word::Linear) || plain.contains(&"dolp") {
                 9
@@ -439,13 +457,13 @@ fn value_of(words: &[&String]) -> (Meaning, u8, Option<BrdfMeaning>) {
         } else {
             BrdfMeaning::Brdf
         };
-        return (Meaning::Field(Field::Brdf), certain(9), Some(is));
+        return (Meaning::Field(Field::Brdf), of_quantity(9), Some(is));
     }
     if has(Word::Factor) && (has(Word::Reflectance) || has(Word::ViewAngle) || words.len() == 1) {
-        return (Meaning::Field(Field::Brdf), certain(8), Some(BrdfMeaning::Factor));
+        return (Meaning::Field(Field::Brdf), of_quantity(8), Some(BrdfMeaning::Factor));
     }
     if has(Word::Reflectance) && !has(Word::Angle) && !(inc && words.len() == 1) {
-        return (Meaning::Field(Field::Brdf), certain(5), None);
+        return (Meaning::Field(Field::Brdf), of_quantity(5), None);
     }
     angle_of(&plain, &all, unknown).unwrap_or_else(|| {
         if has(Word::Sample) && !has(Word::Value) {
@@ -470,6 +488,9 @@ fn angle_of(words: &[&str], all: &[Vec<Word>], unknown: usize) -> Option<(Meanin
     let score = if unknown > 0 { 5 } else { 8 };
     let known = unknown == 0 || is_angle;
     match (inc, view) {
+        // Names that mean an angle beside the other one alone.
+        _ if matches!(words, ["in" | "alpha"] | ["theta", "1"]) => Some((Meaning::Field(Field::ThetaI), 3, None)),
+        _ if matches!(words, ["out" | "beta"] | ["theta", "2"]) => Some((Meaning::Field(Field::ThetaR), 3, None)),
         _ if matches!(words, ["ti"]) => Some((Meaning::Field(Field::ThetaI), 6, None)),
         _ if matches!(words, ["tr" | "tv" | "to"]) => Some((Meaning::Field(Field::ThetaR), 6, None)),
         (true, false) if known => Some((Meaning::Field(Field::ThetaI), score, None)),

@@ -103,14 +103,17 @@ impl Layout {
         let Some(first) = columns.iter().position(|count| is_numeric(&count)) else { return };
         // Cells of a spreadsheet that were merged: the angle stands in the first row of its group.
         self.fills_down = columns[first].missing > columns[first].numbers && columns.get(first + 1).is_some_and(|next| is_numeric(&next));
-        let mut cells = Vec::new();
+        let (mut cells, mut has_data) = (Vec::new(), false);
         for row in 0..grid.len() {
             if self.kinds[row] == RowKind::Data {
                 grid.cells(row, &mut cells);
                 let cell = cells.get(first).map_or(Cell::Missing, |cell| Cell::new(cell, grid.dialect()));
                 // A value that was not measured may stand first, a mean alone does not.
                 let numbers = || cells.iter().filter(|cell| Cell::new(cell, grid.dialect()).is_number()).count();
-                let is_data = cell.is_number() || cell == Cell::Missing && numbers() >= 2;
+                // The corner of a wide table is often empty.
+                let is_corner = cell == Cell::Missing && !has_data;
+                let is_data = cell.is_number() || cell == Cell::Missing && numbers() >= 2 && !is_corner;
+                has_data |= is_data;
                 if !is_data && !is_damaged(cell, &cells, self.width) {
                     self.kinds[row] = RowKind::Skipped;
                 }
@@ -350,6 +353,11 @@ fn header_score(names: &[String], width: usize, separator: Separator) -> usize {
     // Words that blanks part are no names where there are more of them than columns.
     let most = if matches!(separator, Separator::Blanks { .. }) { width } else { width + 2 };
     let is_long = names.iter().any(|name| name.len() > 60);
+    let are_words = names.len() == width && names.iter().all(|name| name.starts_with(char::is_alphabetic) && name.len() <= 40);
+    if known + placed == 0 && are_words && width > 2 {
+        // Names that mean nothing here are names.
+        return 1;
+    }
     if known + placed == 0 || names.len() < 2 || is_pair || is_long || names.len() > most {
         return 0;
     }

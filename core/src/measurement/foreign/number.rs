@@ -21,7 +21,7 @@ impl<'a> Cell<'a> {
         if let Some(number) = number(cell, dialect) {
             return Self::Number(number, None);
         }
-        if is_not_measured(cell) {
+        if is_not_measured(cell) || is_other_word(cell) {
             return Self::Missing;
         }
         // `1/sr` is a unit.
@@ -51,6 +51,16 @@ impl<'a> Cell<'a> {
     pub(crate) fn is_number(self) -> bool {
         matches!(self, Self::Number(..))
     }
+}
+
+/// Further words for "not measured": errors of spreadsheets in English and German, and abbreviations.
+const OTHER_WORDS: [&str; 20] = [
+    "#nv", "#wert!", "#value!", "#bezug!", "#ref!", "#num!", "#zahl!", "#name?", "#null!", "n.d.", "nd", "n.m.", "k.a.", "k. a.", "n. a.",
+    "missing", "fehlt", "---", "未测", "无",
+];
+
+fn is_other_word(cell: &str) -> bool {
+    cell.len() <= 8 && OTHER_WORDS.contains(&cell.to_lowercase().as_str())
 }
 
 /// A finite number in that notation.
@@ -130,7 +140,7 @@ mod tests {
             assert_eq!(Cell::new(cell, dialect), Cell::Text(cell));
         }
         assert_eq!(Cell::new("12,34.5", with(Decimal::Point, Some(','))), Cell::Text("12,34.5"));
-        for missing in ["", "-", "n.a.", "NaN", "#DIV/0!"] {
+        for missing in ["", "-", "n.a.", "NaN", "#DIV/0!", "#NV", "k.A.", "未测"] {
             assert_eq!(Cell::new(missing, point), Cell::Missing);
         }
         assert!(

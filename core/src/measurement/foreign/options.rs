@@ -5,7 +5,7 @@ use crate::measurement::{BrdfMeaning, Field, Mapping};
 /// What a foreign table is told; what is absent is guessed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TableOptions {
-    /// The columns that are used, and no others.
+    /// The columns that are used; besides them the angles alone are guessed.
     pub columns: Option<Mapping>,
     /// The sheet of a workbook; the first without.
     pub sheet: Option<String>,

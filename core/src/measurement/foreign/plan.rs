@@ -67,6 +67,7 @@ impl Plan {
         let mut planner = Planner::new(section, width, options);
         if let Some(mapping) = &options.columns {
             planner.apply(mapping, section)?;
+            planner.settle_repeats();
         } else {
             planner.resolve_letters();
             planner.resolve_mueller();
@@ -126,9 +127,12 @@ impl<'a> Planner<'a> {
         self.columns.iter().any(|column| column.field == Some(field))
     }
 
-    /// Uses the columns that a mapping names, and no others.
+    /// Uses the columns that a mapping names, and of others those of the angles alone.
     fn apply(&mut self, mapping: &crate::measurement::Mapping, section: &Section) -> Result<(), ReadError> {
-        self.columns.iter_mut().for_each(|column| column.field = None);
+        let named = |field: Field| mapping.find(field).is_some();
+        for column in &mut self.columns {
+            column.field = column.field.filter(|field| matches!(field, Field::ThetaI | Field::ThetaR) && !named(*field));
+        }
         for mapped in &mapping.columns {
             let by_name = |name: &str| self.columns.iter().position(|column| column.name == name);
             if let ColumnChoice::Name(name) = &mapped.column {
@@ -230,6 +234,9 @@ impl<'a> Planner<'a> {
                 Some(Field::Wavelength) => column.wavelength_nm = value,
                 _ => {}
             }
+        }
+        if kind == Some(Field::ThetaI) && !self.has(Field::ThetaR) && self.columns[0].field.is_none() && self.columns[0].name.is_empty() {
+            self.columns[0].field = Some(Field::ThetaR);
         }
         self.name_wide_columns();
     }

@@ -98,6 +98,7 @@ pub(crate) fn measure(text: &str) -> Option<Measure> {
 pub(crate) fn normalised(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 8);
     let mut before = ' ';
+    let text = text.replace("+/-", "±").replace("+-", "±");
     let mut letters = text.chars().peekable();
     while let Some(letter) = letters.next() {
         let begins_word = letter.is_ascii_uppercase()
@@ -114,6 +115,8 @@ pub(crate) fn normalised(text: &str) -> String {
             'Δ' | '∆' | 'δ' => out.push_str(" delta "),
             'σ' | 'Σ' => out.push_str(" sigma "),
             'λ' | 'Λ' => out.push_str(" lambda "),
+            'α' => out.push_str(" alpha "),
+            'β' => out.push_str(" beta "),
             '±' => out.push_str(" pm "),
             'ä' | 'Ä' => out.push('a'),
             'ö' | 'Ö' => out.push('o'),
@@ -272,12 +275,12 @@ const BEGINNINGS: &[(Word, &[&str])] = &[
 /// Whole words.
 const WORDS: &[(Word, &[&str])] = &[
     (Word::Incidence, &["aoi", "inc", "in", "i", "ein", "source", "lamp", "quelle", "licht", "sun", "sza", "vonlicht", "e", "aoin"]),
-    (Word::View, &["view", "viewing", "vza", "vz", "va", "aov", "aor", "obs", "det", "detector", "reception"]),
+    (Word::View, &["view", "viewing", "vza", "vz", "va", "aov", "aor", "obs", "det", "detector", "detektor", "reception"]),
     (Word::ViewAngle, &["r", "v", "s", "o", "out", "refl", "rec", "aus", "re", "detector", "reflected", "reflection", "exitance"]),
     (Word::Angle, &["th", "ang", "tilt"]),
     (Word::Azimuth, &["az", "raa"]),
     (Word::Difference, &["delta", "d", "rel", "relative", "relativer", "relativ", "diff", "difference", "differenz"]),
-    (Word::Polarisation, &["dolp", "dlp", "dop", "pol", "polarisationsgrad", "polarisierungsgrad", "p", "plin", "lpd"]),
+    (Word::Polarisation, &["dolp", "dlp", "dop", "pol", "polarisationsgrad", "polarisierungsgrad", "p", "plin", "lpd", "pg"]),
     (Word::Degree, &["degree", "deg", "grad", "fraction", "anteil", "amount"]),
     (Word::Linear, &["linear", "lin", "linearer", "lineare", "linearen"]),
     (Word::Brdf, &["fr", "rbrdf"]),
