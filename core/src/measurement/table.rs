@@ -30,6 +30,9 @@ pub struct Record<'a> {
 /// U+FEFF in UTF-8, which some programs write first.
 pub(crate) const BYTE_ORDER_MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
 
+/// Bytes of a cell; a longer one is no cell of a measurement.
+pub(crate) const LONGEST_CELL: usize = 1 << 16;
+
 /// Rows between two reports of progress.
 const ROWS_PER_REPORT: u64 = 4096;
 
@@ -84,6 +87,13 @@ impl Table {
                 let column = (!is_comment).then(|| ColumnPlace { number: before + 1, name: String::new() });
                 Err(ReadError { line: Some(number), column, kind })
             };
+            if line.len() > LONGEST_CELL
+                && !is_comment
+                && let Some((index, cell)) = line.split(|byte| byte == delimiter).enumerate().find(|(_, cell)| cell.len() > LONGEST_CELL)
+            {
+                let column = Some(ColumnPlace { number: index + 1, name: String::new() });
+                return Err(ReadError { line: Some(number), column, kind: ReadErrorKind::LongCell { bytes: cell.len() } });
+            }
             if let Some(position) = line.iter().position(|&byte| byte == 0) {
                 return at(position, ReadErrorKind::Nul);
             }

@@ -1,7 +1,7 @@
 //! What lies over the window: command palette, help, questions about files; and the paths typed by
 //! hand.
 
-use crate::app::shell::import_dialog::ImportDialog;
+use crate::app::shell::import_dialog::{ImportDialog, ImportMemory};
 use crate::app::shell::path_entry::PathEntry;
 use crate::app::text::help::Help;
 use crate::app::views::action::Action;
@@ -15,6 +15,8 @@ pub struct Dialogs {
     pub help: Option<Help>,
     /// A foreign file that waits for answers.
     pub import: Option<ImportDialog>,
+    /// The answers that the last foreign files were opened with.
+    pub import_memory: ImportMemory,
     /// A file that is asked about before it is replaced.
     pub overwrite: Option<OverwritePrompt>,
     pub path_entry: PathEntry,

@@ -27,7 +27,44 @@ pub struct ImportDialog {
     pub error: Option<ImportError>,
 }
 
+/// Answers of tables by the names of their columns: a file of the same shape is offered the same.
+#[derive(Default)]
+pub struct ImportMemory {
+    /// The last one last.
+    kept: Vec<(Vec<String>, ImportOptions)>,
+}
+
+/// Shapes that are remembered.
+const REMEMBERED: usize = 20;
+
+impl ImportMemory {
+    /// Keeps the answers of a table that was opened.
+    pub fn keep(&mut self, import: &ImportDialog) {
+        let Some(shape) = import.shape() else { return };
+        self.kept.retain(|(other, _)| other != shape);
+        self.kept.push((shape.to_vec(), import.options.clone()));
+        if self.kept.len() > REMEMBERED {
+            self.kept.remove(0);
+        }
+    }
+
+    /// Offers the answers that a table of the same shape was opened with.
+    pub fn recall(&self, import: &mut ImportDialog) {
+        if let Some((_, options)) = import.shape().and_then(|shape| self.kept.iter().find(|(kept, _)| kept == shape)) {
+            import.options = options.clone();
+        }
+    }
+}
+
 impl ImportDialog {
+    /// The names of the columns, of a table.
+    fn shape(&self) -> Option<&[String]> {
+        self.questions.iter().find_map(|question| match question {
+            Question::Columns(sample) => Some(&sample.header[..]),
+            _ => None,
+        })
+    }
+
     pub fn new(origin: Origin, file: Arc<dyn ForeignFile>) -> Self {
         let questions = file.questions();
         let options = ImportOptions::offered(&questions);

@@ -4,6 +4,7 @@ use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::import_dialog::{ImportDialog, Slices};
+use crate::app::shell::import_table_ui::{OFFERED_THETA_I, columns_ui};
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::advised;
@@ -11,14 +12,12 @@ use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::work::design::AngleRange;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::measurement::formats::{ImportOptions, Imported, Question, TableSample};
-use pbrdf::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Unit};
+use pbrdf::measurement::formats::{ImportOptions, Imported, Question};
 use tr::tr;
 
 /// Width of the dialog, and heights of its scroll areas: place and size of the dialog don't depend
 /// on the options.
-const WIDTH: f32 = 640.0;
-const COLUMNS_HEIGHT: f32 = 220.0;
+const WIDTH: f32 = 860.0;
 const ANSWER_HEIGHT: f32 = 176.0;
 /// Rows of the measurement that are shown.
 const SHOWN: usize = 5;
@@ -71,7 +70,7 @@ fn questions_ui(import: &mut ImportDialog, ui: &mut Ui) {
             Question::Wavelength { available_nm } => wavelength_ui(options, available_nm, ui),
             Question::ThetaI => theta_i_ui(options, ui),
             Question::Directions => slices_ui(slices, options, ui),
-            Question::Columns(sample) => columns_ui(&mut options.columns, sample, ui),
+            Question::Columns(sample) => columns_ui(options, sample, ui),
         }
     }
 }
@@ -146,134 +145,6 @@ fn span_ui(span: &mut AngleRange, name: &str, least: f64, ui: &mut Ui) {
     field(ui, &mut span.to, span.from..=89.9, tr!("to"));
     field(ui, &mut span.step, 0.5..=90.0, tr!("step"));
     ui.end_row();
-}
-
-/// What each field is called.
-fn field_text(field: Option<Field>) -> String {
-    match field {
-        None => tr!("not used"),
-        Some(Field::ThetaI) => tr!("θi, angle of incidence"),
-        Some(Field::ThetaR) => tr!("θr, angle of view"),
-        Some(Field::Dphi) => tr!("Δφ, relative azimuth"),
-        Some(Field::Dolp) => "DoLP".to_owned(),
-        Some(Field::DolpSigma) => tr!("standard deviation of DoLP"),
-        Some(Field::Brdf) => tr!("BRDF in 1/sr"),
-        Some(Field::BrdfSigma) => tr!("standard deviation of BRDF"),
-        Some(Field::Masked) => tr!("mask, 0 or 1"),
-        Some(Field::Set) => tr!("name of the measurement"),
-        Some(Field::Wavelength) => tr!("wavelength"),
-        Some(Field::PhiI) => tr!("φi, azimuth of incidence"),
-        Some(Field::PhiR) => tr!("φr, azimuth of view"),
-        Some(Field::Channel(channel)) => Field::Channel(channel).key().to_owned(),
-        Some(Field::ChannelSigma(channel)) => tr!("standard deviation of {}", Field::Channel(channel).key()),
-    }
-}
-
-fn unit_text(field: Field, unit: Unit) -> String {
-    match (unit, field) {
-        (Unit::Radians, _) => tr!("radians"),
-        (Unit::Percent, _) => tr!("percent"),
-        (Unit::Micrometers, _) => "µm".to_owned(),
-        (Unit::Angstroms, _) => "Å".to_owned(),
-        (Unit::Native, Field::Wavelength) => "nm".to_owned(),
-        (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi | Field::PhiI | Field::PhiR) => tr!("degrees"),
-        (Unit::Native, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
-        (Unit::Native, _) => String::new(),
-    }
-}
-
-/// Every column with its first cells, its meaning and its unit.
-fn columns_ui(mapping: &mut Mapping, table: &TableSample, ui: &mut Ui) {
-    let angles = [Field::ThetaI, Field::ThetaR].iter().all(|angle| mapping.find(*angle).is_some() || mapping.constant(*angle).is_some());
-    let text = if angles && mapping.has_quantity() {
-        tr!("The columns are taken as follows: change what is not so.")
-    } else {
-        tr!("Which column is what? Not all that is needed was found in the header.")
-    };
-    // Both texts take the same height.
-    let lines = 2.0 * ui.text_style_height(&egui::TextStyle::Body) + 4.0;
-    let height = ui.add(Label::new(text).wrap()).rect.height();
-    ui.add_space((lines - height).max(0.0));
-    ScrollArea::both().id_salt("columns").max_height(COLUMNS_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
-        Grid::new("columns").num_columns(4).striped(true).spacing([12.0, 4.0]).show(ui, |ui| {
-            for heading in [tr!("Column"), tr!("First rows"), tr!("Meaning"), tr!("Unit")] {
-                ui.strong(heading);
-            }
-            ui.end_row();
-            for (index, name) in table.header.iter().enumerate() {
-                column_ui(mapping, table, index, name, ui);
-                ui.end_row();
-            }
-        });
-    });
-    constants_ui(mapping, ui);
-}
-
-/// The angle of incidence that is offered where nothing is stated.
-const OFFERED_THETA_I: f64 = 45.0;
-
-/// Angles that no column holds.
-fn constants_ui(mapping: &mut Mapping, ui: &mut Ui) {
-    let is_free = |mapping: &Mapping, field| mapping.find(field).is_none();
-    let (theta_i_is_free, dphi_is_free) = (is_free(mapping, Field::ThetaI), is_free(mapping, Field::Dphi));
-    ui.horizontal(|ui| {
-        ui.label(tr!("The same in every row:")).on_hover_text(tr!("For an angle that no column holds"));
-        ui.add_enabled_ui(theta_i_is_free, |ui| {
-            let mut is_constant = theta_i_is_free && mapping.theta_i.is_some();
-            let tick = ui.checkbox(&mut is_constant, "θi").on_hover_text(tr!("The file was measured at a single angle of incidence"));
-            if tick.changed() {
-                mapping.theta_i = is_constant.then_some(OFFERED_THETA_I);
-            }
-            let mut degrees = mapping.theta_i.unwrap_or(OFFERED_THETA_I);
-            let value = DragValue::new(&mut degrees).range(0.0..=89.9).speed(0.5).max_decimals(3).suffix("°");
-            if ui.add_enabled(is_constant, value).labelled_by(tick.id).changed() {
-                mapping.theta_i = Some(degrees);
-            }
-        });
-        ui.add_space(12.0);
-        ui.add_enabled_ui(dphi_is_free, |ui| {
-            let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
-            let mut degrees = mapping.dphi.unwrap_or(180.0);
-            let value = DragValue::new(&mut degrees).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°");
-            if ui.add(value).labelled_by(label.id).changed() {
-                mapping.dphi = Some(degrees);
-            }
-        });
-    });
-}
-
-fn column_ui(mapping: &mut Mapping, table: &TableSample, index: usize, name: &str, ui: &mut Ui) {
-    let title = if name.is_empty() { tr!("column {}", index + 1) } else { name.to_owned() };
-    let label = ui.label(&title);
-    let cells: Vec<&str> = table.rows.iter().filter_map(|row| row.get(index)).map(String::as_str).collect();
-    let cells: String = cells.join(" · ").chars().take(48).collect();
-    ui.label(RichText::new(cells).weak());
-    let number = ColumnChoice::Number(index + 1);
-    let place = mapping.columns.iter().position(|column| column.column == number);
-    let before = place.map(|place| mapping.columns[place].field);
-    let mut chosen = before;
-    let combo = ComboBox::from_id_salt(("meaning", index)).width(190.0).height(320.0).selected_text(field_text(before)).show_ui(ui, |ui| {
-        for field in std::iter::once(None).chain(Field::all().map(Some)) {
-            ui.selectable_value(&mut chosen, field, field_text(field));
-        }
-    });
-    combo.response.labelled_by(label.id);
-    if chosen != before {
-        // A field is in one column, and a column is one field.
-        mapping.columns.retain(|column| column.column != number && Some(column.field) != chosen);
-        mapping.columns.extend(chosen.map(|field| MappedColumn { field, column: number, unit: Unit::Native }));
-        return;
-    }
-    let Some(column) = place.map(|place| &mut mapping.columns[place]).filter(|column| !column.field.unit_names().is_empty()) else {
-        return;
-    };
-    let field = column.field;
-    let combo = ComboBox::from_id_salt(("unit", index)).selected_text(unit_text(field, column.unit)).show_ui(ui, |ui| {
-        for &(_, unit) in field.unit_names() {
-            ui.selectable_value(&mut column.unit, unit, unit_text(field, unit));
-        }
-    });
-    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("Unit of {}", title)));
 }
 
 /// The first rows of the measurement, or why there is none; returns whether there is one.

@@ -1,12 +1,11 @@
 //! Stage 2 of a foreign table: text to rows of cells, each with its line.
 
 use super::dialect::{Dialect, Separator};
+use crate::measurement::table::LONGEST_CELL;
 use crate::measurement::{ColumnPlace, ReadError, ReadErrorKind};
 
 /// Lines that a quoted cell may go on over.
 const QUOTED_LINES: usize = 20;
-/// Bytes of a cell; a longer one is no cell of a measurement.
-const LONGEST_CELL: usize = 1 << 16;
 
 /// Rows of cells that keep their places in the file.
 #[derive(Debug, Clone)]

@@ -49,7 +49,8 @@ impl ForeignTable {
 
     /// The options of the table: the columns of the guess are left to it.
     fn options(&self, options: &ImportOptions) -> TableOptions {
-        let columns = Some(&options.columns).filter(|columns| **columns != self.sample.guess && !columns.columns.is_empty());
+        let is_guess = options.columns.columns == self.sample.guess.columns || options.columns.columns.is_empty();
+        let columns = Some(&options.columns).filter(|_| !is_guess);
         TableOptions { columns: columns.cloned(), theta_i: options.columns.theta_i, dphi: options.columns.dphi, ..options.table.clone() }
     }
 }

@@ -60,7 +60,9 @@ pub fn file_loaded(app: &mut App, LoadedFile { origin, result }: LoadedFile) {
         Ok(Loaded::Measurement(imported)) => loaded(app, origin, *imported),
         Ok(Loaded::Foreign(file)) => {
             origin.path.iter().for_each(|path| app.dialogs.path_entry.clear_if(path));
-            app.dialogs.import = Some(ImportDialog::new(origin, file));
+            let mut import = ImportDialog::new(origin, file);
+            app.dialogs.import_memory.recall(&mut import);
+            app.dialogs.import = Some(import);
         }
         Err(sentence) => {
             origin.path.iter().for_each(|path| app.window.forget(path));
@@ -87,6 +89,7 @@ pub fn cancel_import(app: &mut App) {
 pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
     match (result, app.dialogs.import.take()) {
         (Ok(mut imported), Some(import)) => {
+            app.dialogs.import_memory.keep(&import);
             let name = import.origin.name.replace(char::is_control, " ");
             let source = ("imported_from".to_owned(), name);
             imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
@@ -115,8 +118,11 @@ fn loaded(app: &mut App, origin: Origin, imported: Imported) {
     if !about.is_empty() {
         app.toasts.error(format!("{name}: {about}"));
     }
-    if let Some(measurement) = imported.measurements.into_iter().next() {
-        open(app, OpenMeasurement::new(name, measurement).of_file(sha256));
+    let is_single = imported.measurements.len() == 1;
+    // The first is opened last, and so is the active one.
+    for measurement in imported.measurements.into_iter().rev() {
+        let own = if is_single || measurement.name.is_empty() { name.clone() } else { format!("{name} – {}", measurement.name) };
+        open(app, OpenMeasurement::new(own, measurement).of_file(sha256.clone()));
     }
     app.work.apply(Edit::SetSessionFile(None));
 }
