@@ -5,7 +5,7 @@
 //! choices goes through the problem node by node. Masked rows play no part in either.
 
 use crate::fit::objective::Problem;
-use crate::model::{Batch, Parameter, Parameters, Pbrdf, Radiances};
+use crate::model::{Parameter, Parameters};
 
 /// One side of a landscape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,24 +60,24 @@ impl Landscape {
     /// ΔE of a problem around its start; none if it is cancelled. The rows are shared among threads.
     #[must_use]
     pub fn new(problem: &Problem, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        Self::of(&Field::new(problem, Height::DeltaE), across, up, cancelled)
+        Self::of(problem, Height::DeltaE, across, up, cancelled)
     }
 
     /// The same of what the problem minimises, [`Problem::sum_of_squares`].
     #[must_use]
     pub fn minimised(problem: &Problem, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        Self::of(&Field::new(problem, Height::Minimised), across, up, cancelled)
+        Self::of(problem, Height::Minimised, across, up, cancelled)
     }
 
-    fn of(field: &Field<'_>, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    fn of(problem: &Problem, height: Height, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let columns = across.values();
         let row = |value: f64| {
             if cancelled() {
                 return None;
             }
-            let mut parameters = *field.problem.start();
+            let mut parameters = *problem.start();
             parameters[up.parameter] = value;
-            Some(field.row(parameters, across.parameter, &columns))
+            Some(height.row(problem, parameters, across.parameter, &columns))
         };
         let rows = map_rows(&up.values(), &row).into_iter().collect::<Option<Vec<_>>>()?;
         Some(Self { across, up, objective: rows.concat() })
@@ -98,41 +98,17 @@ enum Height {
     Minimised,
 }
 
-/// A problem, prepared for many surfaces.
-struct Field<'a> {
-    problem: &'a Problem,
-    /// Where the number is what is minimised.
-    batch: Option<Batch>,
-}
-
-impl<'a> Field<'a> {
-    fn new(problem: &'a Problem, height: Height) -> Self {
-        let is_minimised = height == Height::Minimised || problem.minimises_delta_e();
-        let batch = is_minimised.then(|| Batch::from_set(problem.geometries().clone()).single_threaded());
-        Self { problem, batch }
-    }
-
-    fn row(&self, mut parameters: Parameters, across: Parameter, columns: &[f64]) -> Vec<f64> {
-        let mut radiances = Radiances::default();
+impl Height {
+    fn row(self, problem: &Problem, mut parameters: Parameters, across: Parameter, columns: &[f64]) -> Vec<f64> {
         let mut node = |value: f64| {
             parameters[across] = value;
-            let objective = match &self.batch {
-                Some(batch) => self.by_batch(batch, parameters, &mut radiances),
-                None => self.problem.delta_e(&parameters),
+            let objective = match self {
+                Self::Minimised => problem.sum_of_squares(&parameters),
+                Self::DeltaE => problem.delta_e(&parameters),
             };
             objective.filter(|objective| objective.is_finite()).unwrap_or(f64::NAN)
         };
         columns.iter().map(|&value| node(value)).collect()
-    }
-
-    fn by_batch(&self, batch: &Batch, parameters: Parameters, radiances: &mut Radiances) -> Option<f64> {
-        let surface = Pbrdf::new(self.problem.model(), parameters).ok()?;
-        if self.problem.predicts_brdf() {
-            batch.radiances(&surface, radiances);
-        } else {
-            batch.dolp(&surface, &mut radiances.dolp);
-        }
-        self.problem.sum_of_squares_of(&radiances.dolp, &radiances.brdf)
     }
 }
 

@@ -7,9 +7,9 @@ use crate::fit::loss::robust_scale;
 use crate::fit::observations::{Datum, Kind, Observations, UnstatedSigma};
 use crate::fit::options::{BrdfResiduals, FitOptions, Loss, Weights};
 use crate::measurement::Measurement;
-use crate::model::{DolpFormula, GeometrySet, Gradient, GradientRequest, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
-use crate::optics::RefractiveIndex;
+use crate::model::{DolpFormula, GeometrySet, Model, Parameter, ParameterSet, Parameters, Pbrdf, PerParameter, Radiances};
 use nalgebra::{DMatrix, DVector};
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Why data, model and options make no problem.
@@ -69,13 +69,32 @@ pub struct Problem {
     bounds: Bounds,
     options: FitOptions,
     observations: Arc<Observations>,
-    /// The geometries, with their Fresnel reflection where n and k are held.
-    geometries: Arc<GeometrySet>,
-    /// The index that the Fresnel reflection is prepared for.
-    held_index: Option<RefractiveIndex>,
-    request: GradientRequest,
     /// Scale of the loss for DoLP and BRDF, in units of the residual as Eq. (18) scales it.
     loss_scales: [f64; 2],
+    /// What residuals of DoLP and BRDF are multiplied by in the end: 1, or one over their own standard deviations.
+    block_weights: [f64; 2],
+}
+
+/// Columns of predictions, used again from evaluation to evaluation on the same thread.
+#[derive(Default)]
+struct Columns {
+    radiances: Radiances,
+    /// Derivatives by the free parameters, of one quantity at a time.
+    slopes: PerParameter<Vec<f64>>,
+    factors: Vec<f64>,
+}
+
+thread_local! {
+    static COLUMNS: Cell<Columns> = Cell::default();
+}
+
+/// Lends the columns of this thread. Where the batch kernel works on several threads, this one may turn to another evaluation while
+/// it waits; that one finds empty columns.
+fn with_columns<T>(use_columns: impl FnOnce(&mut Columns) -> T) -> T {
+    let mut columns = COLUMNS.take();
+    let value = use_columns(&mut columns);
+    COLUMNS.set(columns);
+    value
 }
 
 impl Problem {
@@ -103,37 +122,22 @@ impl Problem {
             return Err(ProblemError::NothingToPredict);
         }
         let observations = Observations::new(measurement, &options)?;
-        let problem = Self {
+        Ok(Self {
             model,
             free: free.intersection(model.parameters()).iter().collect(),
             start,
             bounds,
             options,
-            geometries: observations.geometries().clone(),
-            held_index: None,
-            request: GradientRequest { by: free, brdf: observations.has_brdf(), dolp: observations.has_dolp() },
             loss_scales: observations.scales().map(|scale| options.loss_scale.unwrap_or(1.0) * scale),
+            block_weights: [1.0; 2],
             observations: Arc::new(observations),
-        };
-        Ok(problem.prepared())
-    }
-
-    /// With the Fresnel reflection prepared where n and k are held.
-    fn prepared(mut self) -> Self {
-        let is_held = !self.free.contains(&Parameter::N) && !self.free.contains(&Parameter::K);
-        let index = RefractiveIndex::new(self.start.n, self.start.k).ok().filter(|_| is_held);
-        if index != self.held_index {
-            let shared = self.observations.geometries();
-            self.geometries = index.map_or_else(|| shared.clone(), |index| Arc::new(GeometrySet::clone(shared).with_index(index)));
-            self.held_index = index;
-        }
-        self
+        })
     }
 
     /// The same problem from another start.
     #[must_use]
     pub fn with_start(&self, start: Parameters) -> Self {
-        Self { start, ..self.clone() }.prepared()
+        Self { start, ..self.clone() }
     }
 
     /// The same problem in another box, which its start must lie in.
@@ -145,12 +149,7 @@ impl Problem {
     /// The same problem with other parameters free.
     #[must_use]
     pub fn with_free(&self, free: ParameterSet) -> Self {
-        Self {
-            free: free.intersection(self.model.parameters()).iter().collect(),
-            request: GradientRequest { by: free, ..self.request },
-            ..self.clone()
-        }
-        .prepared()
+        Self { free: free.intersection(self.model.parameters()).iter().collect(), ..self.clone() }
     }
 
     /// The same problem with every residual counted by its square.
@@ -245,65 +244,92 @@ impl Problem {
 
     /// The prepared geometries of the rows that are not masked.
     pub(crate) fn geometries(&self) -> &GeometrySet {
-        &self.geometries
+        self.observations.batch().geometries()
     }
 
     /// Whether the BRDF is needed.
     pub(crate) fn predicts_brdf(&self) -> bool {
-        self.request.brdf
+        self.observations.has_brdf()
     }
 
     /// Whether k_s, k_d and k_v enter by their ratios alone: DoLP is all there is, by the consistent formula.
     #[must_use]
     pub fn knows_only_ratios(&self) -> bool {
-        !self.request.brdf && self.model.dolp_formula == DolpFormula::Consistent
+        !self.predicts_brdf() && self.model.dolp_formula == DolpFormula::Consistent
     }
 
     /// Writes the residuals; false where the parameters are no surface or a residual is not finite.
     pub fn residuals(&self, parameters: &Parameters, out: &mut DVector<f64>) -> bool {
         let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
-        let mut point = usize::MAX;
-        let mut reflection = Reflection::default();
-        let mut finite = true;
-        for (slot, datum) in out.iter_mut().zip(self.observations.data()) {
-            if datum.point != point {
-                point = datum.point;
-                reflection = if self.request.brdf {
-                    self.geometries.reflection(&surface, point)
-                } else {
-                    Reflection { dolp: self.geometries.dolp(&surface, point), ..reflection }
-                };
+        with_columns(|columns| {
+            self.predict(&surface, &mut columns.radiances);
+            let mut finite = true;
+            for (slot, datum) in out.iter_mut().zip(self.observations.data()) {
+                let (dolp, brdf) = (&columns.radiances.dolp, &columns.radiances.brdf);
+                let predicted = if datum.kind == Kind::Dolp { dolp[datum.point] } else { brdf[datum.point] };
+                let block = datum.kind.block();
+                *slot = self.block_weights[block] * self.options.loss.apply(datum.residual(predicted), self.loss_scales[block]).0;
+                finite &= slot.is_finite();
             }
-            *slot = self.counted(datum, &reflection).0;
-            finite &= slot.is_finite();
+            finite
+        })
+    }
+
+    /// Writes DoLP and BRDF of each geometry, those that are measured.
+    fn predict(&self, surface: &Pbrdf, out: &mut Radiances) {
+        let batch = self.observations.batch();
+        match (self.observations.has_dolp(), self.observations.has_brdf()) {
+            (true, true) => batch.radiances(surface, out),
+            (false, true) => batch.brdf(surface, &mut out.brdf),
+            _ => batch.dolp(surface, &mut out.dolp),
         }
-        finite
     }
 
     /// Writes the Jacobian of the residuals by the free parameters; false where an element is not finite.
     pub fn jacobian(&self, parameters: &Parameters, out: &mut DMatrix<f64>) -> bool {
         let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
-        let mut point = usize::MAX;
-        let mut at = (Reflection::default(), Gradient::default());
-        let mut finite = true;
-        for (i, datum) in self.observations.data().iter().enumerate() {
-            if datum.point != point {
-                point = datum.point;
-                at = self.geometries.reflection_and_gradient(&surface, point, self.request);
+        with_columns(|columns| {
+            let mut finite = true;
+            for (block, is_measured) in [self.observations.has_dolp(), self.observations.has_brdf()].into_iter().enumerate() {
+                if is_measured {
+                    finite &= self.jacobian_of_block(&surface, block, columns, out);
+                }
             }
-            let slope = self.counted(datum, &at.0).1;
-            for (j, &parameter) in self.free.iter().enumerate() {
-                let derivative = slope * datum.weight * datum.kind.derivative(parameter, &at);
-                out[(i, j)] = derivative;
-                finite &= derivative.is_finite();
+            finite
+        })
+    }
+
+    /// Writes the rows of DoLP (0) or BRDF (1).
+    fn jacobian_of_block(&self, surface: &Pbrdf, block: usize, columns: &mut Columns, out: &mut DMatrix<f64>) -> bool {
+        let Columns { radiances, slopes, factors } = columns;
+        let batch = self.observations.batch();
+        let value = if block == 0 { &mut radiances.dolp } else { &mut radiances.brdf };
+        value.resize(batch.len(), 0.0);
+        for parameter in Parameter::ALL {
+            slopes[parameter].resize(if self.free.contains(&parameter) { batch.len() } else { 0 }, 0.0);
+        }
+        let by = PerParameter(slopes.0.each_mut().map(Vec::as_mut_slice));
+        if block == 0 {
+            batch.dolp_gradient_columns(surface, value, by);
+        } else {
+            batch.brdf_gradient_columns(surface, value, by);
+        }
+        let members = || self.observations.data().iter().enumerate().filter(|(_, datum)| datum.kind.block() == block);
+        let factor = |(_, datum): (usize, &Datum)| {
+            let slope = self.options.loss.apply(datum.residual(value[datum.point]), self.loss_scales[block]).1;
+            self.block_weights[block] * slope * datum.slope(value[datum.point])
+        };
+        factors.clear();
+        factors.extend(members().map(factor));
+        let mut finite = true;
+        for (j, &parameter) in self.free.iter().enumerate() {
+            let (mut column, slopes) = (out.column_mut(j), &slopes[parameter]);
+            for ((i, datum), factor) in members().zip(factors.iter()) {
+                column[i] = factor * slopes[datum.point];
+                finite &= column[i].is_finite();
             }
         }
         finite
-    }
-
-    /// A residual as the loss counts it, and the derivative of that by the residual.
-    fn counted(&self, datum: &Datum, reflection: &Reflection) -> (f64, f64) {
-        self.options.loss.apply(datum.residual(reflection), self.loss_scales[datum.kind.block()])
     }
 
     /// Residuals and Jacobian; none where an element of either is not finite.
@@ -322,23 +348,10 @@ impl Problem {
         (!self.is_empty() && self.residuals(parameters, &mut residuals)).then(|| residuals.norm_squared())
     }
 
-    /// The same of DoLP and BRDF evaluated elsewhere on [`Self::geometries`]. None without data.
-    pub(crate) fn sum_of_squares_of(&self, dolp: &[f64], brdf: &[f64]) -> Option<f64> {
-        let square = |datum: &Datum| {
-            let reflection = match datum.kind {
-                Kind::Dolp => Reflection { dolp: dolp[datum.point], ..Reflection::default() },
-                Kind::Brdf | Kind::LogBrdf => Reflection { brdf: brdf[datum.point], ..Reflection::default() },
-            };
-            let (residual, _) = self.counted(datum, &reflection);
-            residual * residual
-        };
-        (!self.is_empty()).then(|| self.observations.data().iter().map(square).sum())
-    }
-
     /// Whether the sum of squares is ΔE of Eq. (18).
     #[must_use]
     pub fn minimises_delta_e(&self) -> bool {
-        let absolute = !self.request.brdf || self.options.brdf_residuals == BrdfResiduals::Absolute;
+        let absolute = !self.predicts_brdf() || self.options.brdf_residuals == BrdfResiduals::Absolute;
         absolute && self.options.weights == Weights::None && self.options.loss == Loss::Squared
     }
 
@@ -352,7 +365,10 @@ impl Problem {
     #[must_use]
     pub fn delta_e(&self, parameters: &Parameters) -> Option<f64> {
         let surface = Pbrdf::new(self.model, *parameters).ok()?;
-        self.observations.delta_e(|point| self.geometries.reflection(&surface, point))
+        with_columns(|columns| {
+            self.predict(&surface, &mut columns.radiances);
+            self.observations.delta_e(&columns.radiances)
+        })
     }
 
     /// Residual sum of squares in the unit of the data: that of [`Self::sum_of_squares`], not divided by Σ Xm² of Eq. (18) or by the
@@ -364,7 +380,7 @@ impl Problem {
 
     /// What the sum of squares is multiplied by to give [`Self::rss`].
     pub(crate) fn rss_scale(&self) -> f64 {
-        match (self.options.weights, self.request.dolp, self.request.brdf) {
+        match (self.options.weights, self.observations.has_dolp(), self.observations.has_brdf()) {
             (Weights::None, true, false) => self.observations.square_sum(0).unwrap_or(1.0),
             (Weights::None, false, true) => {
                 if self.options.brdf_residuals == BrdfResiduals::Absolute {

@@ -7,7 +7,7 @@
 
 use crate::fit::options::{BrdfResiduals, FitOptions, Weights};
 use crate::measurement::{Measurement, Quantity};
-use crate::model::{GeometrySet, Gradient, Parameter, Reflection};
+use crate::model::{Batch, Radiances};
 use std::sync::Arc;
 
 /// A value whose standard deviation is needed and missing.
@@ -32,15 +32,6 @@ impl Kind {
     pub(crate) fn block(self) -> usize {
         usize::from(self != Self::Dolp)
     }
-
-    /// Derivative of the predicted value by a parameter.
-    pub(crate) fn derivative(self, parameter: Parameter, (reflection, gradient): &(Reflection, Gradient)) -> f64 {
-        match self {
-            Self::Dolp => gradient.dolp[parameter],
-            Self::Brdf => gradient.brdf[parameter],
-            Self::LogBrdf => gradient.brdf[parameter] / reflection.brdf,
-        }
-    }
 }
 
 /// One measured value.
@@ -56,23 +47,20 @@ pub(crate) struct Datum {
 }
 
 impl Datum {
-    /// The weighted difference of a prediction from the measured value.
-    pub(crate) fn residual(&self, reflection: &Reflection) -> f64 {
-        let predicted = match self.kind {
-            Kind::Dolp => reflection.dolp,
-            Kind::Brdf => reflection.brdf,
-            Kind::LogBrdf => libm::log(reflection.brdf),
-        };
+    /// The weighted difference of a predicted DoLP or BRDF from the measured value.
+    pub(crate) fn residual(&self, predicted: f64) -> f64 {
+        let predicted = if self.kind == Kind::LogBrdf { libm::log(predicted) } else { predicted };
         self.weight * (predicted - self.measured)
     }
 
+    /// The derivative of that by the prediction.
+    pub(crate) fn slope(&self, predicted: f64) -> f64 {
+        if self.kind == Kind::LogBrdf { self.weight / predicted } else { self.weight }
+    }
+
     /// The difference from the measured value, neither weighted nor of logarithms.
-    fn difference(&self, reflection: &Reflection) -> f64 {
-        match self.kind {
-            Kind::Dolp => reflection.dolp - self.measured,
-            Kind::Brdf => reflection.brdf - self.measured,
-            Kind::LogBrdf => reflection.brdf - libm::exp(self.measured),
-        }
+    fn difference(&self, predicted: f64) -> f64 {
+        predicted - if self.kind == Kind::LogBrdf { libm::exp(self.measured) } else { self.measured }
     }
 }
 
@@ -80,7 +68,9 @@ impl Datum {
 #[derive(Debug, Clone)]
 pub(crate) struct Observations {
     data: Vec<Datum>,
-    geometries: Arc<GeometrySet>,
+    batch: Arc<Batch>,
+    /// Whether any DoLP and any BRDF is compared.
+    has: [bool; 2],
     /// Σ Xm² of DoLP and of BRDF, where there are any.
     square_sums: [Option<f64>; 2],
     /// What the weight of DoLP and of BRDF residuals is multiplied by for Eq. (18); 1 where standard deviations weigh.
@@ -94,7 +84,8 @@ impl Observations {
         let rows = || measurement.rows.iter().enumerate().filter(|(_, row)| !row.masked);
         let mut observations = Self {
             data: Vec::new(),
-            geometries: Arc::new(GeometrySet::new(rows().map(|(_, row)| row.geometry))),
+            batch: Arc::new(Batch::new(rows().map(|(_, row)| row.geometry))),
+            has: [false; 2],
             square_sums: [None; 2],
             scales: [1.0; 2],
             left_out: 0,
@@ -134,6 +125,7 @@ impl Observations {
             (_, None) => (value, if relative { 1.0 / value } else { 1.0 }),
         };
         self.data.push(Datum { point, kind, measured, weight });
+        self.has[kind.block()] = true;
         Ok(())
     }
 
@@ -165,8 +157,8 @@ impl Observations {
     }
 
     /// The prepared geometries of the rows that are not masked.
-    pub(crate) fn geometries(&self) -> &Arc<GeometrySet> {
-        &self.geometries
+    pub(crate) fn batch(&self) -> &Batch {
+        &self.batch
     }
 
     /// What the residuals of DoLP and of BRDF are multiplied by for Eq. (18).
@@ -181,12 +173,12 @@ impl Observations {
 
     /// Whether any DoLP is compared.
     pub(crate) fn has_dolp(&self) -> bool {
-        self.data.iter().any(|datum| datum.kind == Kind::Dolp)
+        self.has[0]
     }
 
     /// Whether any BRDF is compared.
     pub(crate) fn has_brdf(&self) -> bool {
-        self.data.iter().any(|datum| datum.kind != Kind::Dolp)
+        self.has[1]
     }
 
     /// Σ Xm² of DoLP (0) or BRDF (1), where it is above 0.
@@ -194,11 +186,12 @@ impl Observations {
         self.square_sums[block].filter(|&sum| sum > 0.0)
     }
 
-    /// ΔE of Eq. (18), given the reflection at each geometry: of DoLP if measured, else of BRDF; with both, the sum.
-    pub(crate) fn delta_e(&self, reflection: impl Fn(usize) -> Reflection) -> Option<f64> {
+    /// ΔE of Eq. (18), given DoLP and BRDF at each geometry: of DoLP if measured, else of BRDF; with both, the sum.
+    pub(crate) fn delta_e(&self, predicted: &Radiances) -> Option<f64> {
         let mut sums = [0.0; 2];
         for datum in &self.data {
-            let difference = datum.difference(&reflection(datum.point));
+            let column = if datum.kind == Kind::Dolp { &predicted.dolp } else { &predicted.brdf };
+            let difference = datum.difference(column[datum.point]);
             sums[datum.kind.block()] += difference * difference;
         }
         let present = |block: usize| self.square_sum(block).map(|whole| sums[block] / whole);
@@ -235,6 +228,6 @@ impl Observations {
                 datum.measured += (residuals[i] + widen * drawn) / datum.weight;
             }
         }
-        Self { data, geometries: self.geometries.clone(), ..*self }
+        Self { data, batch: self.batch.clone(), ..*self }
     }
 }

@@ -9,8 +9,9 @@
 //! of Bates and Watts (Technometrics 23, 179 (1981)), which is free of units. λ follows Nielsen (IMM-REP-1999-05, DTU).
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::qr::{Buffers, Damped, Qr};
+use crate::fit::local::qr::{Buffers, Damped};
 use crate::fit::local::recorder::Recorder;
+use crate::fit::local::tall_qr::{TallQr, dot};
 use crate::fit::stop_reason::StopReason;
 use nalgebra::{DMatrix, DVector};
 
@@ -68,9 +69,10 @@ pub(crate) struct BoundedLm<'a, P: LeastSquares> {
     moving: Vec<usize>,
     /// D.
     scale: Vec<f64>,
-    qr: Qr,
-    /// Qᵀ r.
-    rotated: Vec<f64>,
+    /// R and Qᵀr.
+    qr: TallQr,
+    /// The second derivative of the residuals along a step.
+    second: Vec<f64>,
     /// The least and the largest step of each moving unknown.
     step_bounds: Vec<(f64, f64)>,
     step: Vec<f64>,
@@ -102,8 +104,8 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             jacobian: DMatrix::zeros(m, n),
             moving: Vec::with_capacity(n),
             scale: Vec::with_capacity(n),
-            qr: Qr::default(),
-            rotated: Vec::with_capacity(m.max(n)),
+            qr: TallQr::default(),
+            second: Vec::with_capacity(m),
             step_bounds: Vec::with_capacity(n),
             step: Vec::with_capacity(n),
             acceleration: Vec::with_capacity(n),
@@ -148,7 +150,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
 
     /// Writes Jacobian, moving unknowns and factorisation at the current point; false where a derivative is not finite.
     fn linearise(&mut self) -> bool {
-        let Self { problem, current, jacobian, moving, scale, qr, rotated, step_bounds, .. } = self;
+        let Self { problem, current, jacobian, moving, scale, qr, step_bounds, .. } = self;
         if !problem.jacobian_at(&current.x, jacobian) {
             return false;
         }
@@ -160,36 +162,29 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             if !at_low && !at_high {
                 return true;
             }
-            let slope = jacobian.column(j).dot(&current.residuals);
+            let slope = dot(jacobian.column(j).as_slice(), current.residuals.as_slice());
             !((at_low && slope >= 0.0) || (at_high && slope <= 0.0))
         }));
         problem.to_local(&current.x, moving, jacobian);
         let insensitive = INSENSITIVE * current.residuals.norm();
         moving.retain(|&j| {
             let (low, high) = problem.local_bounds(&current.x, j);
-            jacobian.column(j).norm() * (high - low) > insensitive
+            let column = jacobian.column(j);
+            dot(column.as_slice(), column.as_slice()).sqrt() * (high - low) > insensitive
         });
-        let m = jacobian.nrows();
-        qr.factorise(m, moving.len(), |a| {
-            let rows = m.max(moving.len());
-            for (column, &j) in a.chunks_exact_mut(rows).zip(moving.iter()) {
-                column[..m].copy_from_slice(&jacobian.as_slice()[j * m..(j + 1) * m]);
-            }
-        });
+        qr.reduce(jacobian, moving, &current.residuals);
+        // The norm of a column of R is that of the column of J.
+        let norm = |j: usize| (0..=j).map(|i| qr.r(i, j) * qr.r(i, j)).sum::<f64>().sqrt();
         scale.clear();
-        scale.extend(moving.iter().map(|&j| jacobian.column(j).norm().max(f64::MIN_POSITIVE)));
+        scale.extend((0..moving.len()).map(|j| norm(j).max(f64::MIN_POSITIVE)));
         step_bounds.clear();
         step_bounds.extend(moving.iter().map(|&j| problem.local_bounds(&current.x, j)));
-        rotated.clear();
-        rotated.extend_from_slice(current.residuals.as_slice());
-        rotated.resize(qr.rows(), 0.0);
-        qr.transposed_times(rotated);
         true
     }
 
     /// ‖Qᵀ r‖², the reduction that the undamped linear problem predicts: the relative offset, squared, times ‖r‖².
     fn offset(&self) -> f64 {
-        self.rotated[..self.moving.len()].iter().map(|c| c * c).sum()
+        self.qr.rotated().iter().map(|c| c * c).sum()
     }
 
     /// Takes a step that reduces the sum of squares, raising the damping until there is one.
@@ -225,36 +220,39 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
 
     /// Writes the damped step; returns the reduction that it predicts.
     fn damped_step(&mut self) -> f64 {
-        let Self { qr, scale, damping, rotated, step_bounds, step, buffers, moving, .. } = self;
+        let Self { qr, scale, damping, step_bounds, step, buffers, moving, .. } = self;
         step.clear();
         step.resize(moving.len(), 0.0);
         let damped = Damped { qr, scale, damping: *damping };
-        damped.solve_within(rotated, step_bounds, step, buffers);
-        damped.reduction(rotated, step)
+        damped.solve_within(qr.rotated(), step_bounds, step, buffers);
+        damped.reduction(qr.rotated(), step)
     }
 
     /// Adds the geodesic acceleration to the step; true if the step is too long for its curvature.
     fn geodesic_acceleration(&mut self, recorder: &mut Recorder<'_>) -> bool {
-        let Self { problem, current, trial, jacobian, moving, scale, qr, step, acceleration, buffers, damping, .. } = self;
+        let Self { problem, current, trial, jacobian, moving, scale, qr, step, acceleration, second, buffers, damping, .. } = self;
         acceleration.clear();
         acceleration.extend(step.iter().map(|d| DIFFERENCE_STEP * d));
         problem.retract(&current.x, moving, acceleration, &mut trial.x);
         confine(&self.bounds, &mut trial.x);
         recorder.evaluate(*problem, &trial.x, &mut trial.residuals);
-        let mut second: Vec<f64> = (0..current.residuals.len())
-            .map(|i| {
-                let along: f64 = moving.iter().zip(step.iter()).map(|(&j, d)| jacobian[(i, j)] * d).sum();
-                // Half of the second derivative.
-                ((trial.residuals[i] - current.residuals[i]) / DIFFERENCE_STEP - along) / DIFFERENCE_STEP
-            })
-            .collect();
-        if second.iter().any(|x| !x.is_finite()) {
+        // Half of the second derivative: ((r(x + h d) − r(x))/h − J d)/h.
+        second.clear();
+        let differences = trial.residuals.iter().zip(current.residuals.iter());
+        second.extend(differences.map(|(there, here)| (there - here) / (DIFFERENCE_STEP * DIFFERENCE_STEP)));
+        for (&j, d) in moving.iter().zip(step.iter()) {
+            let along = d / DIFFERENCE_STEP;
+            second.iter_mut().zip(jacobian.column(j).iter()).for_each(|(s, slope)| *s -= along * slope);
+        }
+        acceleration.clear();
+        acceleration.extend(moving.iter().map(|&j| dot(jacobian.column(j).as_slice(), second)));
+        if acceleration.iter().any(|x| !x.is_finite()) {
             return true;
         }
-        second.resize(qr.rows(), 0.0);
-        qr.transposed_times(&mut second);
+        qr.solve_transposed(acceleration);
         let damped = Damped { qr, scale, damping: *damping };
-        damped.resolve_with_rhs(&second, acceleration, buffers);
+        let right = acceleration.clone();
+        damped.resolve_with_rhs(&right, acceleration, buffers);
         let size = |d: &[f64]| d.iter().zip(scale.iter()).map(|(d, s)| (d * s) * (d * s)).sum::<f64>().sqrt();
         if 2.0 * size(acceleration) > MAX_ACCELERATION_RATIO * size(step) {
             return true;

@@ -8,3 +8,4 @@ pub(crate) mod reparametrisation;
 pub(crate) mod sin_squared;
 pub(crate) mod solution;
 pub(crate) mod solver;
+pub(crate) mod tall_qr;

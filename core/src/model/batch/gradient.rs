@@ -1,4 +1,4 @@
-//! The kernel for DoLP and its derivatives by the parameters, as `model::gradient` has them.
+//! The kernels for DoLP, for BRDF, and their derivatives by the parameters, as `model::gradient` has them.
 //!
 //! With `T = B W² Z` (so that r = H/(H + T) is the specular share of the radiance and 1 − r = T/(H + T)) and the reflectance
 //! `R = E H/(W² Z)`:
@@ -6,6 +6,9 @@
 //! - by n and k: `r ∂DoLP_s + DoLP_s r (1 − r) ∂ln R`
 //! - by σ, q, k_s: `DoLP_s r (1 − r)` times the logarithmic slope of the specular lobe
 //! - by k_d, k_v: `−DoLP T₁/(H + T)`, T₁ being T of the lobe of unit weight; by c and σ_v that times weight and logarithmic slope
+//!
+//! With the specular lobe S, `BRDF = S + k_d D + k_v V` has the derivatives `S ∂ln R` by n and k, S times the logarithmic slope by σ, q and
+//! k_s, and those of the other lobes term by term.
 //!
 //! DoLP [as printed](DolpFormula::AsPrinted) is 1/k_s times the consistent value, and so are its derivatives, but by k_s: `−DoLP r/k_s`.
 
@@ -19,10 +22,20 @@ use fearless_simd::prelude::*;
 /// Depolarised terms beyond this multiple of the specular one go the scalar way: their products near the end of f64.
 const DARKEST: f64 = 1e280;
 
-/// DoLP, then its derivatives in the order of [`Parameter::ALL`].
-pub(crate) struct DolpGradient<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool>(pub &'a Coefficients);
+/// A surface, and whether derivatives by n or k are wanted: they cost half of all.
+#[derive(Clone, Copy)]
+pub(crate) struct Slopewise<'a> {
+    pub of: &'a Coefficients,
+    pub by_index: bool,
+}
 
-/// Columns of the kernel: DoLP and a derivative by each parameter.
+/// DoLP, then its derivatives in the order of [`Parameter::ALL`].
+pub(crate) struct DolpGradient<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool>(pub Slopewise<'a>);
+
+/// BRDF, then its derivatives in the order of [`Parameter::ALL`].
+pub(crate) struct BrdfGradient<'a, const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool>(pub Slopewise<'a>);
+
+/// Columns of a kernel: the value and a derivative by each parameter.
 pub(crate) const COLUMNS: usize = 1 + Parameter::COUNT;
 
 /// Where the column of a parameter is.
@@ -33,7 +46,7 @@ const fn column(parameter: Parameter) -> usize {
 impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> for DolpGradient<'_, CAUCHY, DIFFUSE, VOLUME> {
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; COLUMNS], Mask<S>) {
-        let of = self.0;
+        let Slopewise { of, by_index } = self.0;
         let p = &of.parameters;
         let zero = number(simd, 0.0);
         let fresnel = FresnelLanes::new(simd, points, of);
@@ -60,20 +73,16 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
 
         let mut out = [zero; COLUMNS];
         out[0] = dolp;
-        let ([mean_n, mean_k], [limit_n, limit_k]) = index_slopes(simd, &fresnel, of);
-        out[column(Parameter::N)] = share.mul_add(limit_n, both * mean_n);
-        out[column(Parameter::K)] = share.mul_add(limit_k, both * mean_k);
+        if by_index {
+            let ([mean_n, mean_k], [limit_n, limit_k]) = index_slopes(simd, &fresnel, of);
+            out[column(Parameter::N)] = share.mul_add(limit_n, both * mean_n);
+            out[column(Parameter::K)] = share.mul_add(limit_k, both * mean_k);
+        }
         out[column(Parameter::Ks)] = match of.model.dolp_formula {
             DolpFormula::Consistent => both * (1.0 / p.ks),
             DolpFormula::AsPrinted => dolp * specular * (-1.0 / p.ks),
         };
-        if CAUCHY {
-            let slope = number(simd, p.q - 1.0).mul_sub(slopes.w, number(simd, 1.0)) / (slopes.w + 1.0);
-            out[column(Parameter::Sigma)] = both * slope * (2.0 / p.sigma);
-            out[column(Parameter::Q)] = both * (number(simd, 1.0 / (p.q - 1.0)) - slopes.ln);
-        } else {
-            out[column(Parameter::Sigma)] = both * (slopes.w - 1.0) * (2.0 / p.sigma);
-        }
+        [out[column(Parameter::Sigma)], out[column(Parameter::Q)]] = lobe_slopes::<CAUCHY, S>(simd, &slopes, of, both);
         let darkening = -(dolp * one_over);
         if DIFFUSE != NONE {
             let by_weight = darkening * diffuse;
@@ -90,6 +99,60 @@ impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> 
         }
         let needs_scalar = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero) | total.simd_gt(number(simd, DARKEST));
         (out, needs_scalar)
+    }
+}
+
+impl<const CAUCHY: bool, const DIFFUSE: u8, const VOLUME: bool> Kernel<COLUMNS> for BrdfGradient<'_, CAUCHY, DIFFUSE, VOLUME> {
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, points: &Points<'_, S>) -> ([V<S>; COLUMNS], Mask<S>) {
+        let Slopewise { of, by_index } = self.0;
+        let p = &of.parameters;
+        let zero = number(simd, 0.0);
+        let fresnel = FresnelLanes::new(simd, points, of);
+        let slopes = Slopes::new::<CAUCHY>(simd, points, of);
+        let mut steepest = slopes.exponent;
+        let specular = exp(simd, -slopes.exponent) * of.specular * fresnel.h / (over_geometric(points, of) * fresnel.w_sq_z());
+        let mut out = [zero; COLUMNS];
+        out[0] = specular;
+        if by_index {
+            let ([mean_n, mean_k], _) = index_slopes(simd, &fresnel, of);
+            out[column(Parameter::N)] = specular * mean_n;
+            out[column(Parameter::K)] = specular * mean_k;
+        }
+        out[column(Parameter::Ks)] = specular * (1.0 / p.ks);
+        [out[column(Parameter::Sigma)], out[column(Parameter::Q)]] = lobe_slopes::<CAUCHY, S>(simd, &slopes, of, specular);
+        if DIFFUSE != NONE {
+            let mut diffuse = number(simd, of.diffuse_height);
+            if DIFFUSE == MINNAERT {
+                let exponent = diffuse_exponent(points, of);
+                steepest = steepest.max(exponent);
+                diffuse = exp(simd, exponent) * of.diffuse_height;
+                out[column(Parameter::C)] = diffuse * p.kd * points.load(|block| &block.ln_cosines);
+            }
+            out[0] += diffuse * p.kd;
+            out[column(Parameter::Kd)] = diffuse;
+        }
+        if VOLUME {
+            let exponent = volume_exponent(points, of);
+            let volume = exp(simd, exponent) * of.volume_height;
+            out[0] += volume * p.kv;
+            out[column(Parameter::Kv)] = volume;
+            out[column(Parameter::SigmaV)] = volume * (exponent * 2.0 + 1.0) * (-p.kv / p.sigma_v);
+        }
+        let needs_scalar = steepest.simd_gt(number(simd, STEEPEST)) | fresnel.a_sq.simd_eq(zero);
+        (out, needs_scalar)
+    }
+}
+
+/// The derivatives by σ and q of what is proportional to the specular lobe, given that times its factor.
+#[inline(always)]
+fn lobe_slopes<const CAUCHY: bool, S: Simd>(simd: S, slopes: &Slopes<S>, of: &Coefficients, times: V<S>) -> [V<S>; 2] {
+    let p = &of.parameters;
+    if CAUCHY {
+        let slope = number(simd, p.q - 1.0).mul_sub(slopes.w, number(simd, 1.0)) / (slopes.w + 1.0);
+        [times * slope * (2.0 / p.sigma), times * (number(simd, 1.0 / (p.q - 1.0)) - slopes.ln)]
+    } else {
+        [times * (slopes.w - 1.0) * (2.0 / p.sigma), number(simd, 0.0)]
     }
 }
 

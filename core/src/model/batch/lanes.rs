@@ -96,6 +96,9 @@ impl<S: Simd> Points<'_, S> {
 /// Points to be evaluated: whole and broken blocks, where the results go, and the scalar form.
 pub(crate) struct KernelRun<'a, const OUT: usize> {
     pub blocks: &'a [PointBlock],
+    /// How many points.
+    pub count: usize,
+    /// A number for each point; a column that is not wanted is empty.
     pub columns: [&'a mut [f64]; OUT],
     /// Number of the first point.
     pub first: usize,
@@ -104,18 +107,13 @@ pub(crate) struct KernelRun<'a, const OUT: usize> {
 }
 
 impl<const OUT: usize> KernelRun<'_, OUT> {
-    /// How many points.
-    fn len(&self) -> usize {
-        self.columns.first().map_or(0, |column| column.len())
-    }
-
     /// Evaluates all points with those instructions, on several threads where that pays.
     #[cfg(feature = "threads")]
     pub(crate) fn run_parallel<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
-        if self.len() <= GRAIN {
+        if self.count <= GRAIN {
             return self.run(kernel, instructions);
         }
-        let middle = (self.len() / 2).next_multiple_of(LANES);
+        let middle = (self.count / 2).next_multiple_of(LANES);
         let (left, right) = self.split(middle);
         rayon::join(|| left.run_parallel(kernel, instructions), || right.run_parallel(kernel, instructions));
     }
@@ -132,15 +130,21 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
         let (left_blocks, right_blocks) = self.blocks.split_at(middle / LANES);
         let mut right_columns = Vec::with_capacity(OUT);
         let left_columns = self.columns.map(|column| {
-            let (left, right) = column.split_at_mut(middle);
+            let (left, right) = column.split_at_mut(middle.min(column.len()));
             right_columns.push(right);
             left
         });
         let mut right_columns = right_columns.into_iter();
         let right_columns = std::array::from_fn(|_| right_columns.next().unwrap_or_default());
         (
-            Self { blocks: left_blocks, columns: left_columns, ..self },
-            Self { blocks: right_blocks, columns: right_columns, first: self.first + middle, scalar: self.scalar },
+            Self { blocks: left_blocks, count: middle, columns: left_columns, ..self },
+            Self {
+                blocks: right_blocks,
+                count: self.count - middle,
+                columns: right_columns,
+                first: self.first + middle,
+                scalar: self.scalar,
+            },
         )
     }
 
@@ -178,13 +182,13 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
 
     #[inline(always)]
     fn run_on<S: Simd, K: Kernel<OUT>>(mut self, simd: S, kernel: &K) {
-        let count = self.len();
+        let count = self.count;
         let whole = count / LANES;
         for (i, block) in self.blocks.iter().enumerate().take(whole) {
             for first in (0..LANES).step_by(V::<S>::LEN) {
                 let (values, needs_scalar) = kernel.at(simd, &Points { simd, block, first });
                 let at = LANES * i + first;
-                for (column, value) in self.columns.iter_mut().zip(values) {
+                for (column, value) in self.columns.iter_mut().zip(values).filter(|(column, _)| !column.is_empty()) {
                     value.store_slice(&mut column[at..at + V::<S>::LEN]);
                 }
                 if needs_scalar.any_true() {
@@ -204,7 +208,7 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
             let (values, needs_scalar) = kernel.at(simd, &Points { simd, block, first });
             let at = wanted.start + first;
             let end = wanted.end.min(at + V::<S>::LEN);
-            for (column, value) in self.columns.iter_mut().zip(values) {
+            for (column, value) in self.columns.iter_mut().zip(values).filter(|(column, _)| !column.is_empty()) {
                 column[at..end].copy_from_slice(&value.as_slice()[..end - at]);
             }
             if needs_scalar.any_true() {
@@ -227,13 +231,14 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
     /// Evaluates all points by the scalar form.
     #[cold]
     pub(crate) fn run_scalar(mut self) {
-        for point in 0..self.len() {
+        for point in 0..self.count {
             self.put(point);
         }
     }
 
     fn put(&mut self, point: usize) {
-        for (column, value) in self.columns.iter_mut().zip((self.scalar)(self.first + point)) {
+        let values = (self.scalar)(self.first + point);
+        for (column, value) in self.columns.iter_mut().zip(values).filter(|(column, _)| !column.is_empty()) {
             column[point] = value;
         }
     }

@@ -15,10 +15,10 @@ mod kernels;
 mod lanes;
 mod prepared;
 
-use crate::model::{Diffuse, GeometrySet, GradientRequest, ParameterSet, Pbrdf, PerParameter};
+use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use coefficients::Coefficients;
-use gradient::{COLUMNS, DolpGradient};
+use gradient::{BrdfGradient, COLUMNS, DolpGradient, Slopewise};
 use kernels::{Both, Brdf, Dolp, LAMBERT, MINNAERT, NONE};
 pub use lanes::Instructions;
 use lanes::{Kernel, KernelRun};
@@ -58,8 +58,8 @@ pub struct DolpGradients {
 
 /// Runs a kernel with the terms that a model has: `$kernel::<CAUCHY, DIFFUSE, VOLUME>`.
 macro_rules! run_with_terms {
-    ($batch:expr, $run:expr, $kernel:ident, $of:expr) => {
-        match ($of.model.distribution == SlopeDistribution::Cauchy, $of.model.diffuse, $of.model.volume) {
+    ($batch:expr, $run:expr, $kernel:ident, $model:expr, $of:expr) => {
+        match ($model.distribution == SlopeDistribution::Cauchy, $model.diffuse, $model.volume) {
             (false, Diffuse::Absent, false) => $batch.run($run, &$kernel::<false, NONE, false>($of)),
             (false, Diffuse::Absent, true) => $batch.run($run, &$kernel::<false, NONE, true>($of)),
             (false, Diffuse::Lambert, false) => $batch.run($run, &$kernel::<false, LAMBERT, false>($of)),
@@ -120,6 +120,11 @@ impl Batch {
         self.set.is_empty()
     }
 
+    /// The geometries, for the scalar form.
+    pub(crate) fn geometries(&self) -> &GeometrySet {
+        &self.set
+    }
+
     /// The prepared geometries.
     #[must_use]
     pub fn facets(&self) -> &[Facet] {
@@ -131,7 +136,7 @@ impl Batch {
         let scalar = |point: usize| [self.set.dolp(surface, point)];
         let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, run, Dolp, &of),
+            Some(of) => run_with_terms!(self, run, Dolp, of.model, &of),
             None => run.run_scalar(),
         }
     }
@@ -141,7 +146,7 @@ impl Batch {
         let scalar = |point: usize| [self.set.reflection(surface, point).brdf];
         let run = self.kernel_run([self.resized(out)], &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, run, Brdf, &of),
+            Some(of) => run_with_terms!(self, run, Brdf, of.model, &of),
             None => run.run_scalar(),
         }
     }
@@ -155,25 +160,42 @@ impl Batch {
         let columns = [&mut out.dolp, &mut out.brdf, &mut out.specular].map(|column| self.resized(column));
         let run = self.kernel_run(columns, &scalar);
         match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-            Some(of) => run_with_terms!(self, run, Both, &of),
+            Some(of) => run_with_terms!(self, run, Both, of.model, &of),
             None => run.run_scalar(),
         }
     }
 
     /// DoLP of each point and its derivatives by the parameters, as [`Pbrdf::reflection_and_gradient`] has them.
     pub fn dolp_gradients(&self, surface: &Pbrdf, out: &mut DolpGradients) {
-        let wanted = GradientRequest { by: ParameterSet::ALL, brdf: false, dolp: true };
+        let dolp = self.resized(&mut out.dolp);
+        let columns = PerParameter(out.by.0.each_mut().map(|column| self.resized(column)));
+        self.dolp_gradient_columns(surface, dolp, columns);
+    }
+
+    /// The same into columns with a number for each point. What is not wanted has an empty column.
+    pub(crate) fn dolp_gradient_columns<'a>(&'a self, surface: &Pbrdf, dolp: &'a mut [f64], by: PerParameter<&'a mut [f64]>) {
+        let wanted = GradientRequest { by: wanted(&by), brdf: false, dolp: true };
         let scalar = |point: usize| {
             let (reflection, gradient) = self.set.reflection_and_gradient(surface, point, wanted);
-            let mut columns = [reflection.dolp; COLUMNS];
-            columns[1..].copy_from_slice(&gradient.dolp.0);
-            columns
+            value_and_slopes(reflection.dolp, &gradient.dolp)
         };
-        let mut columns = std::iter::once(&mut out.dolp).chain(&mut out.by.0).map(|column| self.resized(column));
-        let columns = std::array::from_fn(|_| columns.next().unwrap_or_default());
-        let run = self.kernel_run(columns, &scalar);
+        let run = self.kernel_run(value_and_columns(dolp, by), &scalar);
         match Coefficients::new(surface) {
-            Some(of) => run_with_terms!(self, run, DolpGradient, &of),
+            Some(of) => run_with_terms!(self, run, DolpGradient, of.model, Slopewise { of: &of, by_index: wants_index(wanted.by) }),
+            None => run.run_scalar(),
+        }
+    }
+
+    /// BRDF of each point in sr⁻¹ and its derivatives, as [`Self::dolp_gradient_columns`] has those of DoLP.
+    pub(crate) fn brdf_gradient_columns<'a>(&'a self, surface: &Pbrdf, brdf: &'a mut [f64], by: PerParameter<&'a mut [f64]>) {
+        let wanted = GradientRequest { by: wanted(&by), brdf: true, dolp: false };
+        let scalar = |point: usize| {
+            let (reflection, gradient) = self.set.reflection_and_gradient(surface, point, wanted);
+            value_and_slopes(reflection.brdf, &gradient.brdf)
+        };
+        let run = self.kernel_run(value_and_columns(brdf, by), &scalar);
+        match Coefficients::new(surface) {
+            Some(of) => run_with_terms!(self, run, BrdfGradient, of.model, Slopewise { of: &of, by_index: wants_index(wanted.by) }),
             None => run.run_scalar(),
         }
     }
@@ -190,7 +212,7 @@ impl Batch {
         columns: [&'a mut [f64]; OUT],
         scalar: &'a (dyn Fn(usize) -> [f64; OUT] + Sync),
     ) -> KernelRun<'a, OUT> {
-        KernelRun { blocks: &self.blocks, columns, first: 0, scalar }
+        KernelRun { blocks: &self.blocks, count: self.len(), columns, first: 0, scalar }
     }
 
     fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
@@ -200,4 +222,26 @@ impl Batch {
             run.run_parallel(kernel, self.instructions);
         }
     }
+}
+
+/// The parameters with a column.
+fn wanted(columns: &PerParameter<&mut [f64]>) -> ParameterSet {
+    Parameter::ALL.into_iter().filter(|&parameter| !columns[parameter].is_empty()).collect()
+}
+
+fn wants_index(by: ParameterSet) -> bool {
+    by.contains(Parameter::N) || by.contains(Parameter::K)
+}
+
+/// The columns of a gradient kernel.
+fn value_and_columns<'a>(value: &'a mut [f64], by: PerParameter<&'a mut [f64]>) -> [&'a mut [f64]; COLUMNS] {
+    let mut columns = std::iter::once(value).chain(by.0);
+    std::array::from_fn(|_| columns.next().unwrap_or_default())
+}
+
+/// The numbers of a gradient kernel.
+fn value_and_slopes(value: f64, slopes: &PerParameter<f64>) -> [f64; COLUMNS] {
+    let mut numbers = [value; COLUMNS];
+    numbers[1..].copy_from_slice(&slopes.0);
+    numbers
 }

@@ -1,0 +1,190 @@
+//! The triangular factor of a tall matrix, block by block (Golub and Van Loan, *Matrix Computations*, 2013, sec. 5.2).
+//!
+//! A block of rows is stacked under the triangle of the rows before it, and Householder reflections make the stack triangular again. A
+//! reflection touches one row of the triangle and the block. The residuals are one more column, so that Qᵀr comes out beside R, and Q
+//! is not kept. The working set is one block, whatever the number of rows.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Rows of a block: with nine columns it fits into the first-level cache.
+const BLOCK: usize = 256;
+/// Rows that are reduced together before chunks meet. The order of operations depends on it, not on the number of threads.
+const CHUNK: usize = 16_384;
+
+/// R of `A = Q R`, and Qᵀr.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TallQr {
+    columns: usize,
+    /// Column after column of the triangle with r as its last column, `columns` rows each.
+    r: Vec<f64>,
+    block: Vec<f64>,
+}
+
+impl TallQr {
+    /// Factorises those columns of a matrix with the residuals beside them.
+    pub(crate) fn reduce(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>) {
+        let rows = matrix.nrows();
+        self.clear(columns.len());
+        if rows <= CHUNK {
+            self.add_rows(matrix, columns, residuals, 0..rows);
+            return;
+        }
+        let chunk = |first: usize| {
+            let mut part = Self::default();
+            part.clear(columns.len());
+            part.add_rows(matrix, columns, residuals, first..rows.min(first + CHUNK));
+            part
+        };
+        for part in map_chunks(rows, &chunk) {
+            self.add_triangle(&part);
+        }
+    }
+
+    fn clear(&mut self, columns: usize) {
+        self.columns = columns;
+        self.r.clear();
+        self.r.resize(columns * (columns + 1), 0.0);
+    }
+
+    fn add_rows(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>, rows: std::ops::Range<usize>) {
+        let height = matrix.nrows();
+        for first in rows.clone().step_by(BLOCK) {
+            let end = rows.end.min(first + BLOCK);
+            self.block.clear();
+            for &j in columns {
+                self.block.extend_from_slice(&matrix.as_slice()[j * height + first..j * height + end]);
+            }
+            self.block.extend_from_slice(&residuals.as_slice()[first..end]);
+            self.eliminate(end - first);
+        }
+    }
+
+    /// Adds the rows of another triangle.
+    fn add_triangle(&mut self, other: &Self) {
+        self.block.clear();
+        self.block.extend_from_slice(&other.r);
+        self.eliminate(self.columns);
+    }
+
+    /// Reflects the block of that many rows into the triangle.
+    fn eliminate(&mut self, rows: usize) {
+        let Self { columns, r, block, .. } = self;
+        let n = *columns;
+        if rows == 0 {
+            return;
+        }
+        for j in 0..n {
+            let (head, tail) = block.split_at_mut((j + 1) * rows);
+            let v = &head[j * rows..];
+            let pivot = r[j * n + j];
+            let norm = (pivot * pivot + dot(v, v)).sqrt();
+            if norm == 0.0 {
+                continue;
+            }
+            let diagonal = if pivot > 0.0 { -norm } else { norm };
+            // The reflector is 1 − v vᵀ/β with v = (pivot − diagonal, block column) and β = ‖v‖²/2.
+            let first = pivot - diagonal;
+            let over_beta = 1.0 / (norm * (norm + pivot.abs()));
+            for (k, column) in (j + 1..).zip(tail.chunks_exact_mut(rows)) {
+                let above = &mut r[k * n + j];
+                let along = over_beta * (first * *above + dot(v, column));
+                *above -= along * first;
+                column.iter_mut().zip(v).for_each(|(c, v)| *c -= along * v);
+            }
+            r[j * n + j] = diagonal;
+        }
+    }
+
+    /// An element of R on or above the diagonal.
+    pub(crate) fn r(&self, i: usize, j: usize) -> f64 {
+        self.r[j * self.columns + i]
+    }
+
+    /// Qᵀr, as many numbers as there are columns.
+    pub(crate) fn rotated(&self) -> &[f64] {
+        &self.r[self.columns * self.columns..]
+    }
+
+    /// Solves Rᵀ y = b in place, which turns Aᵀs into Qᵀs; an unknown without a pivot is 0.
+    pub(crate) fn solve_transposed(&self, b: &mut [f64]) {
+        for j in 0..self.columns {
+            let (before, rest) = b.split_at_mut(j);
+            let sum: f64 = before.iter().zip(&self.r[j * self.columns..]).map(|(y, r)| y * r).sum();
+            let pivot = self.r(j, j);
+            rest[0] = if pivot == 0.0 { 0.0 } else { (rest[0] - sum) / pivot };
+        }
+    }
+}
+
+/// The sum of products, in four running sums that the processor forms side by side.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
+        for lane in 0..4 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// The chunks in their order, on all threads.
+fn map_chunks(rows: usize, chunk: &(dyn Fn(usize) -> TallQr + Sync)) -> Vec<TallQr> {
+    let firsts: Vec<usize> = (0..rows).step_by(CHUNK).collect();
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        firsts.par_iter().map(|&first| chunk(first)).collect()
+    }
+    #[cfg(not(feature = "threads"))]
+    firsts.iter().map(|&first| chunk(first)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BLOCK, CHUNK, TallQr};
+    use nalgebra::{DMatrix, DVector};
+
+    const COLUMNS: usize = 4;
+    /// Roundings of sums of as many products as there are rows, of numbers below 1.
+    const ROUNDING: f64 = 1e-11;
+
+    /// Numbers without structure, in −0.4 … 0.6.
+    fn numbers(ratio: f64) -> impl Iterator<Item = f64> {
+        (1..).map(move |i: u32| (ratio * f64::from(i)).fract() - 0.4)
+    }
+
+    #[test]
+    fn r_and_the_rotated_residuals_are_those_of_the_normal_equations() {
+        for rows in [2, COLUMNS, BLOCK - 1, BLOCK + 3, CHUNK + BLOCK + 7] {
+            let matrix = DMatrix::from_iterator(rows, COLUMNS, numbers(2.0_f64.sqrt()).take(rows * COLUMNS));
+            let residuals = DVector::from_iterator(rows, numbers(3.0_f64.sqrt()).take(rows));
+            let mut qr = TallQr::default();
+            // Columns in another order, one of them left out.
+            let columns = [2, 0, 1];
+            qr.reduce(&matrix, &columns, &residuals);
+            let r = DMatrix::from_fn(3, 3, |i, j| if i <= j { qr.r(i, j) } else { 0.0 });
+            let picked = DMatrix::from_fn(rows, 3, |i, j| matrix[(i, columns[j])]);
+            assert!((r.transpose() * &r - picked.transpose() * &picked).amax() < ROUNDING, "{rows}");
+            let along = picked.transpose() * &residuals;
+            assert!((r.transpose() * DVector::from_column_slice(qr.rotated()) - &along).amax() < ROUNDING, "{rows}");
+            if rows > COLUMNS {
+                let mut solved = along.as_slice().to_vec();
+                qr.solve_transposed(&mut solved);
+                assert!((DVector::from_vec(solved) - DVector::from_column_slice(qr.rotated())).amax() < ROUNDING, "{rows}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_column_of_zeros_leaves_no_pivot() {
+        let matrix = DMatrix::from_fn(6, 2, |i, j| if j == 0 { 0.0 } else { 1.0 + i as f64 });
+        let mut qr = TallQr::default();
+        qr.reduce(&matrix, &[0, 1], &DVector::repeat(6, 1.0));
+        assert_eq!(qr.r(0, 0), 0.0);
+        let mut b = [3.0, 1.0];
+        qr.solve_transposed(&mut b);
+        assert!(b[0] == 0.0 && b[1].is_finite());
+    }
+}
