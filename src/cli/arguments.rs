@@ -3,7 +3,7 @@
 use crate::cli::values;
 use crate::cli::values::{Assignment, Criterion, Grid, Interval, Priors};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use pbrdf::fit::{BrdfResiduals, Loss, Weights};
+use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
 use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
 use pbrdf::model::{DolpFormula, Parameter, Preset};
@@ -136,6 +136,9 @@ pub struct ProblemArguments {
     /// What divides the residuals.
     #[arg(long, default_value = "none", value_parser = values::weights())]
     pub weights: Weights,
+    /// How the uncertainty of the parameters is found.
+    #[arg(long, default_value = "profile", value_parser = values::intervals())]
+    pub intervals: Intervals,
     /// How BRDF residuals are formed.
     #[arg(long, default_value = "relative", value_parser = values::brdf_residuals())]
     pub brdf_residuals: BrdfResiduals,

@@ -2,11 +2,11 @@
 
 use crate::cli::arguments::CompareArguments;
 use crate::cli::failure::Failure;
-use crate::cli::problem::{NoProblem, problem, starts};
+use crate::cli::problem::{NoProblem, fitted, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::report::fit_json;
-use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, fit};
+use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, ends_text};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use serde_json::{Value, json};
@@ -33,7 +33,7 @@ pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
             Ok(problem) => {
                 let watched = Watched::new(preset.key);
                 let closures = watched.watch();
-                let report = fit(&problem, starts(&arguments.problem), arguments.problem.seed, closures.as_watch());
+                let report = fitted(&problem, &arguments.problem, closures.as_watch());
                 Ok((problem, report))
             }
             Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
@@ -104,17 +104,17 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
             }
         }
     }
-    let fitted: Vec<(&str, &FitResult)> =
+    let fits: Vec<(&str, &FitResult)> =
         results.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
     let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
     write!(out, "\n{:<9}", "")?;
-    for (key, _) in &fitted {
+    for (key, _) in &fits {
         write!(out, " {key:>22}")?;
     }
     writeln!(out, " {:>10}", if measurement.metadata("simulated") == Some("true") { "truth" } else { "" })?;
     for parameter in Parameter::ALL {
         write!(out, "{:<9}", parameter.key())?;
-        for (_, report) in &fitted {
+        for (_, report) in &fits {
             let cell = report.estimates.iter().find(|estimate| estimate.parameter == parameter).map_or_else(
                 || "-".to_owned(),
                 |estimate| match estimate.status() {
@@ -122,6 +122,7 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
                     EstimateStatus::AtBound(_) => format!("{:.5} at bound", estimate.value),
                     EstimateStatus::Determined(error) => format!("{:.5} ± {error:.1e}", estimate.value),
                     EstimateStatus::NoDegreesOfFreedom => format!("{:.5} no d.o.f.", estimate.value),
+                    EstimateStatus::Within(interval) => format!("{:.5} {}", estimate.value, ends_text(estimate.value, interval)),
                     EstimateStatus::Undetermined => format!("{:.5} open", estimate.value),
                 },
             );

@@ -2,13 +2,13 @@
 
 use crate::cli::arguments::FitArguments;
 use crate::cli::failure::Failure;
-use crate::cli::problem::{problem, starts};
+use crate::cli::problem::{fitted, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::files::export;
 use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, fit_json, fitted_cells};
 use pbrdf::fit::{
-    BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, fit, profile,
+    BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, ends_text, profile,
 };
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
@@ -33,7 +33,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     }
     let watched = Watched::new("fitting");
     let watch = watched.watch();
-    let report = fit(&problem, starts(&arguments.problem), arguments.problem.seed, watch.as_watch());
+    let report = fitted(&problem, &arguments.problem, watch.as_watch());
     let profiles: Vec<Profile> =
         arguments.profile.iter().map(|&parameter| profile(&problem, &report, parameter, watch.as_watch())).collect();
     let scatters =
@@ -112,7 +112,7 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
     if let Some(chi2) = report.statistics.chi2 {
         writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.statistics.dof)?;
     }
-    writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± std.err.", "start")?;
+    writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± (68 %)", "start")?;
     for estimate in &report.estimates {
         let error = match estimate.status() {
             EstimateStatus::Fixed => "fixed".to_owned(),
@@ -120,7 +120,8 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
             EstimateStatus::AtBound(Edge::Upper) => "at upper".to_owned(),
             EstimateStatus::Determined(error) => format!("{error:.3e}"),
             EstimateStatus::NoDegreesOfFreedom => "no d.o.f.".to_owned(),
-            EstimateStatus::Undetermined => "open".to_owned(),
+            EstimateStatus::Within(interval) => ends_text(estimate.value, interval),
+            EstimateStatus::Undetermined => "not determined".to_owned(),
         };
         let unit = estimate.parameter.unit();
         writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;

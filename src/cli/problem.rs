@@ -3,7 +3,7 @@
 use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use pbrdf::fit::{Fit, FitError, FitOptions, Problem, ProblemError, Starts};
+use pbrdf::fit::{Fit, FitError, FitOptions, FitResult, Intervals, Observer, Problem, ProblemError, Starts, fit, with_intervals};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Parameter, ParameterSet, Preset};
 use std::path::Path;
@@ -48,8 +48,18 @@ impl From<FitError> for NoProblem {
     }
 }
 
+/// The fit of a problem, with the uncertainties that are asked for.
+pub fn fitted(problem: &Problem, arguments: &ProblemArguments, observer: Observer<'_>) -> FitResult {
+    let result = fit(problem, starts(arguments), arguments.seed, observer);
+    match arguments.intervals {
+        Intervals::Profile => with_intervals(problem, result, observer),
+        Intervals::Linear => result,
+        Intervals::None => result.without_errors(),
+    }
+}
+
 /// How many starts are asked for.
-pub fn starts(arguments: &ProblemArguments) -> Starts {
+fn starts(arguments: &ProblemArguments) -> Starts {
     match arguments.starts {
         None => Starts::Automatic,
         Some(1) => Starts::One,

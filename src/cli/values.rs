@@ -3,7 +3,7 @@
 use crate::files::export;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::posterior::Prior;
-use pbrdf::fit::{BrdfResiduals, Loss, Weights};
+use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
 use pbrdf::model::{DolpFormula, PRESETS, Parameter, Preset, assignment_from_text};
 use std::path::PathBuf;
@@ -52,6 +52,16 @@ fn choice<T: Copy + Send + Sync + 'static>(choices: &'static [Choice<T>]) -> imp
 pub fn weights() -> impl TypedValueParser<Value = Weights> {
     const CHOICES: [Choice<Weights>; 2] =
         [("none", "Nothing: Eq. (18)", Weights::None), ("sigma", "The stated standard deviations: χ²", Weights::Sigma)];
+    choice(&CHOICES)
+}
+
+/// How the uncertainty of the parameters is found.
+pub fn intervals() -> impl TypedValueParser<Value = Intervals> {
+    const CHOICES: [Choice<Intervals>; 3] = [
+        ("profile", "Profile-likelihood intervals; standard errors where they agree", Intervals::Profile),
+        ("linear", "Standard errors from the slopes at the solution alone", Intervals::Linear),
+        ("none", "Not at all", Intervals::None),
+    ];
     choice(&CHOICES)
 }
 

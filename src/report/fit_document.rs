@@ -5,7 +5,7 @@ use crate::figure::{Figure, Panel};
 use crate::report::document::{DocumentPart, ReportDocument};
 use crate::report::fit_figures::FitFigures;
 use crate::report::language::ReportLanguage;
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights, ends_text};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
@@ -166,7 +166,8 @@ impl FitDocument<'_> {
                 EstimateStatus::AtBound(Edge::Upper) => self.text("at upper bound"),
                 EstimateStatus::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
                 EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
-                EstimateStatus::Undetermined => self.text("open"),
+                EstimateStatus::Within(interval) => ends_text(estimate.value, interval),
+                EstimateStatus::Undetermined => self.text("not determined"),
             };
             let (low, high) = self.problem.bounds().of(parameter);
             let bounds = if free { format!("{low} … {high}") } else { String::new() };

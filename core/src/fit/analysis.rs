@@ -16,8 +16,9 @@ use crate::model::{Parameter, ParameterSet, Parameters};
 const PRESSED: f64 = 1e-6;
 /// Relative rise of the sum of squares that is rounding.
 const ROUNDING: f64 = 1e-12;
-/// A parameter this near a bound, as a fraction of the box, rests on it: the sin² transform of MINPACK never quite reaches one.
-const AT_BOUND: f64 = 1e-9;
+/// A parameter's column of the Jacobian vanishes if it changes the residuals by no more than this fraction of their norm when it
+/// crosses its box: where DoLP is even in k, at k = 0, the effect is quadratic.
+const VANISHED: f64 = 1e-10;
 
 /// The result of a search, which may have been made before. The problem has the loss scales that the search had.
 #[must_use]
@@ -49,11 +50,11 @@ pub fn analyse(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> 
         objective: (!problem.is_empty()).then(|| problem.delta_e(&parameters)).flatten(),
         start_objective: problem.delta_e(problem.start()),
         stop_reason,
-        statistics: statistics(problem, sum_of_squares, uncertainty.rank),
+        statistics: statistics(problem, &parameters, sum_of_squares, uncertainty.rank),
         correlations: Correlations { parameters: uncertainty.determined.clone(), matrix: uncertainty.correlations() },
         undetermined: uncertainty.undetermined.clone(),
         band: PredictionBand::new(problem, &parameters, uncertainty),
-        course: Course { evaluations, elapsed_ms, minima, trace, path },
+        course: Course { evaluations, elapsed_ms, intervals_ms: 0.0, intervals_complete: None, minima, trace, path },
         parameters,
     }
 }
@@ -66,12 +67,14 @@ fn estimates(problem: &Problem, parameters: &Parameters, uncertainty: &Uncertain
         free: problem.free().contains(&parameter),
         std_error: uncertainty.standard_error(parameter),
         at_bound: problem.free().contains(&parameter).then(|| edge(problem, parameters, parameter)).flatten(),
+        interval68: None,
+        interval95: None,
         determined: uncertainty.determined.contains(&parameter),
     };
     problem.model().parameters().iter().map(estimate).collect()
 }
 
-fn statistics(problem: &Problem, sum_of_squares: f64, rank: usize) -> Statistics {
+fn statistics(problem: &Problem, parameters: &Parameters, sum_of_squares: f64, rank: usize) -> Statistics {
     let rss = sum_of_squares * problem.rss_scale();
     Statistics {
         rss: if problem.is_empty() { 0.0 } else { rss },
@@ -79,8 +82,9 @@ fn statistics(problem: &Problem, sum_of_squares: f64, rank: usize) -> Statistics
         minimises_delta_e: problem.minimises_delta_e(),
         chi2: (problem.options().weights == Weights::Sigma).then_some(sum_of_squares),
         dof: problem.len().saturating_sub(rank),
-        aicc: aicc(problem, rss),
+        aicc: aicc(problem, parameters, rss),
         loss_scales: problem.loss_scales(),
+        block_weights: problem.block_weights(),
     }
 }
 
@@ -97,7 +101,7 @@ fn without_idle_changes(problem: &Problem, parameters: Parameters, sum_of_square
     })
 }
 
-/// Those parameters on a bound that the data press against it. One that merely came to lie there, along a direction that the data
+/// Those parameters on a bound that the data press against it, or that have no slope there. Another one that merely came to lie there, along a direction that the data
 /// leave undetermined, takes part in the analysis of what they determine.
 fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -> ParameterSet {
     if at_bound.is_empty() {
@@ -107,32 +111,38 @@ fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -
     let Some((residuals, jacobian)) = part.linearised(parameters) else { return at_bound };
     let is_pressed = |j: usize| {
         let column = jacobian.column(j);
-        column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
+        let (low, high) = problem.bounds().of(part.free()[j]);
+        let has_vanished = column.norm() * (high - low) <= VANISHED * residuals.norm();
+        has_vanished || column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
     };
     part.free().iter().enumerate().filter(|(j, _)| is_pressed(*j)).map(|(_, &parameter)| parameter).collect()
 }
 
-/// The bound that a parameter rests on.
+/// The bound that a parameter rests on: the active set of the solver, which ends exactly there.
 fn edge(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> Option<Edge> {
     let (low, high) = problem.bounds().of(parameter);
-    let fraction = (parameters[parameter] - low) / (high - low);
-    if fraction <= AT_BOUND {
-        Some(Edge::Lower)
-    } else if fraction >= 1.0 - AT_BOUND {
-        Some(Edge::Upper)
-    } else {
-        None
+    match parameters[parameter] {
+        value if value <= low => Some(Edge::Lower),
+        value if value >= high => Some(Edge::Upper),
+        _ => None,
     }
 }
 
-/// Akaike's corrected criterion, `N ln(RSS/N) + 2K + 2K(K + 1)/(N − K − 1)` with K = free + 1; with stated standard deviations
-/// `χ² + …` with K = free (Burnham and Anderson, *Model Selection and Multimodel Inference*, 2002, sec. 2.4).
+/// Akaike's corrected criterion, `Σ N ln(RSS/N) + 2K + 2K(K + 1)/(N − K − 1)` with K the number of free parameters and unknown
+/// variances, one of DoLP and one of BRDF; with stated standard deviations `χ² + …` with K = free (Burnham and Anderson, *Model
+/// Selection and Multimodel Inference*, 2002, sec. 2.4).
 #[expect(clippy::cast_precision_loss, reason = "numbers of residuals and parameters")]
-fn aicc(problem: &Problem, rss: f64) -> Option<f64> {
+fn aicc(problem: &Problem, parameters: &Parameters, rss: f64) -> Option<f64> {
     let n = problem.len() as f64;
     let free = problem.free().len() as f64;
+    let term = |(sum, count): (f64, usize)| count as f64 * libm::log(sum / count as f64);
     let (misfit, k) = match problem.options().weights {
-        Weights::None => (n * libm::log(rss / n), free + 1.0),
+        Weights::None if problem.has_two_variances() => {
+            let sums = problem.block_sums(parameters);
+            let scales = problem.observations().scales();
+            ([0, 1].map(|block| term((sums[block].0 / (scales[block] * scales[block]), sums[block].1))).iter().sum(), free + 2.0)
+        }
+        Weights::None => (term((rss, problem.len())), free + 1.0),
         Weights::Sigma => (rss, free),
     };
     let left = n - k - 1.0;

@@ -2,10 +2,11 @@
 
 use crate::fit::bounds::{Bounds, BoundsError};
 use crate::fit::free_parameters::free_by_default;
+use crate::fit::intervals::profile::with_intervals;
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::{Problem, ProblemError};
 use crate::fit::observer::Observer;
-use crate::fit::options::{FitOptions, Loss, Weights};
+use crate::fit::options::{FitOptions, Intervals, Loss, Weights};
 use crate::fit::result::FitResult;
 use crate::fit::solve::fit;
 use crate::measurement::Measurement;
@@ -70,6 +71,7 @@ pub struct Fit<'a> {
     options: FitOptions,
     starts: Starts,
     seed: u64,
+    intervals: Intervals,
     observer: Observer<'a>,
 }
 
@@ -87,6 +89,7 @@ impl<'a> Fit<'a> {
             options: FitOptions::default(),
             starts: Starts::Automatic,
             seed: 1,
+            intervals: Intervals::Profile,
             observer: Observer::NONE,
         }
     }
@@ -148,6 +151,11 @@ impl<'a> Fit<'a> {
         Self { seed, ..self }
     }
 
+    /// How the uncertainty of the parameters is found; by default by their profiles.
+    pub fn intervals(self, intervals: Intervals) -> Self {
+        Self { intervals, ..self }
+    }
+
     /// Clock, cancel flag and progress callback; by default [`Observer::NONE`].
     pub fn observe(self, observer: Observer<'a>) -> Self {
         Self { observer, ..self }
@@ -182,6 +190,12 @@ impl<'a> Fit<'a> {
     /// [`FitError`] where a value, a bound, or what is measured does not allow the fit. A fit without data is a result, with
     /// [`crate::fit::StopReason::NoData`].
     pub fn run(self) -> Result<FitResult, FitError> {
-        Ok(fit(&self.problem()?, self.starts, self.seed, self.observer))
+        let problem = self.problem()?;
+        let result = fit(&problem, self.starts, self.seed, self.observer);
+        Ok(match self.intervals {
+            Intervals::Profile => with_intervals(&problem, result, self.observer),
+            Intervals::Linear => result,
+            Intervals::None => result.without_errors(),
+        })
     }
 }

@@ -1,7 +1,8 @@
 //! One parameter after a fit: its value, and how well the data determine it.
 
+use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
-use crate::fit::rounding::with_error;
+use crate::fit::rounding::{decimal_places, significant, with_error};
 use crate::model::Parameter;
 use serde::Serialize;
 use std::fmt;
@@ -18,7 +19,8 @@ pub enum Edge {
 
 /// One parameter of the model after a fit.
 ///
-/// `Display` rounds the value by its standard error: `2.071 ± 0.021`, `undetermined`, `at lower bound 0`, `1 (fixed)`.
+/// `Display` rounds the value by its standard error: `2.071 ± 0.021`, `2.05 +0.31 −0.24 (68 %)`,
+/// `> 1.2 (68 %)`, `not determined`, `at lower bound 0`, `1 (fixed)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
@@ -34,7 +36,12 @@ pub struct Estimate {
     pub std_error: Option<f64>,
     /// The bound it rests on.
     pub at_bound: Option<Edge>,
-    /// Whether the data determine it. Without degrees of freedom there is no standard error even so.
+    /// Its interval at 68.3 %; none where it is fixed or intervals were not asked for.
+    pub interval68: Option<Interval>,
+    /// Its interval at 95 %.
+    pub interval95: Option<Interval>,
+    /// Whether the data determine it: with intervals, whether that at 68.3 % is closed on a side. Without degrees of freedom there is
+    /// no standard error even so.
     pub determined: bool,
 }
 
@@ -43,10 +50,12 @@ pub struct Estimate {
 pub enum EstimateStatus {
     /// The fit did not change it.
     Fixed,
-    /// It rests on a bound, where there is no standard error.
+    /// It rests on a bound, where there is no standard error, and there is no interval.
     AtBound(Edge),
     /// The data determine it, with this standard error in its own unit.
     Determined(f64),
+    /// The data determine it to this interval at 68.3 %, closed on one side at least; a standard error would say something else.
+    Within(Interval),
     /// The data determine it, but no degree of freedom is left to estimate the noise from.
     NoDegreesOfFreedom,
     /// The data do not determine it.
@@ -54,15 +63,16 @@ pub enum EstimateStatus {
 }
 
 impl Estimate {
-    /// How well the data determine it. Of a free parameter on a bound, the bound is what is said.
+    /// How well the data determine it.
     #[must_use]
     pub fn status(&self) -> EstimateStatus {
-        match (self.free, self.at_bound, self.std_error) {
+        match (self.free, self.interval68, self.at_bound, self.std_error) {
             (false, ..) => EstimateStatus::Fixed,
-            (true, Some(edge), _) => EstimateStatus::AtBound(edge),
-            (true, None, Some(error)) => EstimateStatus::Determined(error),
-            (true, None, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
-            (true, None, None) => EstimateStatus::Undetermined,
+            (true, Some(interval), _, None) if !interval.is_open() => EstimateStatus::Within(interval),
+            (true, None, Some(edge), _) => EstimateStatus::AtBound(edge),
+            (true, _, _, Some(error)) => EstimateStatus::Determined(error),
+            (true, _, _, None) if self.determined => EstimateStatus::NoDegreesOfFreedom,
+            (true, _, _, None) => EstimateStatus::Undetermined,
         }
     }
 
@@ -84,8 +94,33 @@ impl fmt::Display for Estimate {
                 write!(f, "{value} ± {}", error.as_deref().unwrap_or("0"))
             }
             EstimateStatus::NoDegreesOfFreedom => write!(f, "{} (no degrees of freedom)", self.value),
-            EstimateStatus::Undetermined => f.write_str("undetermined"),
+            EstimateStatus::Within(interval) => f.write_str(&within(self.value, interval)),
+            EstimateStatus::Undetermined => f.write_str("not determined"),
         }
+    }
+}
+
+/// The distances of the ends of an interval from a value, `+0.31 −0.24`, rounded by the smaller one, or its only end, `> 1.20`.
+#[must_use]
+pub fn ends_text(value: f64, interval: Interval) -> String {
+    match (interval.low, interval.high) {
+        (Some(low), Some(high)) => {
+            let places = decimal_places((high - value).min(value - low));
+            format!("+{:.places$} −{:.places$}", high - value, value - low)
+        }
+        (Some(low), None) => format!("> {}", significant(low, 3)),
+        (None, Some(high)) => format!("< {}", significant(high, 3)),
+        (None, None) => "not determined".to_owned(),
+    }
+}
+
+/// A value in its interval at 68.3 %: `2.05 +0.31 −0.24 (68 %)`.
+fn within(value: f64, interval: Interval) -> String {
+    let ends = ends_text(value, interval);
+    match (interval.low, interval.high) {
+        (Some(low), Some(high)) => format!("{value:.*} {ends} (68 %)", decimal_places((high - value).min(value - low))),
+        (None, None) => ends,
+        _ => format!("{ends} (68 %)"),
     }
 }
 
@@ -142,6 +177,7 @@ pub fn symbols(parameters: &[Parameter]) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Edge, Estimate};
+    use crate::fit::Interval;
     use crate::model::Parameter;
 
     #[test]
@@ -153,13 +189,23 @@ mod tests {
             free: true,
             std_error: Some(0.021),
             at_bound: None,
+            interval68: None,
+            interval95: None,
             determined: true,
         };
+        let within = |low, high| Estimate { std_error: None, interval68: Some(Interval { low, high }), ..free }.to_string();
+        assert_eq!(within(Some(1.829), Some(2.382)), "2.07 +0.31 −0.24 (68 %)");
+        assert_eq!(within(Some(1.829), None), "> 1.83 (68 %)");
+        assert_eq!(within(None, Some(2.382)), "< 2.38 (68 %)");
+        assert_eq!(
+            Estimate { determined: false, ..Estimate { std_error: None, interval68: Some(Interval::OPEN), ..free } }.to_string(),
+            "not determined"
+        );
         assert_eq!(free.to_string(), "2.071 ± 0.021");
         assert_eq!(Estimate { std_error: Some(0.0), ..free }.to_string(), "2.0713 ± 0");
         assert_eq!(Estimate { free: false, value: 1.0, ..free }.to_string(), "1 (fixed)");
         assert_eq!(Estimate { at_bound: Some(Edge::Lower), value: 0.0, ..free }.to_string(), "at lower bound 0");
-        assert_eq!(Estimate { std_error: None, determined: false, ..free }.to_string(), "undetermined");
+        assert_eq!(Estimate { std_error: None, determined: false, ..free }.to_string(), "not determined");
         assert_eq!(Estimate { std_error: None, ..free }.to_string(), "2.0713 (no degrees of freedom)");
     }
 }

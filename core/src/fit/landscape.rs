@@ -69,7 +69,13 @@ impl Landscape {
         Self::of(problem, Height::Minimised, across, up, cancelled)
     }
 
-    fn of(problem: &Problem, height: Height, across: LandscapeAxis, up: LandscapeAxis, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    fn of(
+        problem: &Problem,
+        height: Height,
+        across: LandscapeAxis,
+        up: LandscapeAxis,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let columns = across.values();
         let row = |value: f64| {
             if cancelled() {

@@ -42,6 +42,16 @@ pub trait LeastSquares {
         (low - x[unknown], high - x[unknown])
     }
 
+    /// The coordinate of an unknown by itself in which steps are even, such as a logarithm; by default the unknown itself.
+    fn straight(&self, _unknown: usize, value: f64) -> f64 {
+        value
+    }
+
+    /// The value of an unknown, given its [`Self::straight`] coordinate.
+    fn from_straight(&self, _unknown: usize, coordinate: f64) -> f64 {
+        coordinate
+    }
+
     /// Writes the point that a step in the local coordinates leads to from x.
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);

@@ -30,6 +30,30 @@ impl Loss {
     }
 }
 
+impl Loss {
+    /// ψ, half of the derivative of the loss `s² ρ(r²/s²)` by the residual: how much a row pulls.
+    pub(crate) fn influence(self, residual: f64, scale: f64) -> f64 {
+        let r = residual / scale;
+        match self {
+            _ if scale <= 0.0 => residual,
+            Self::Squared => residual,
+            Self::Huber => residual.clamp(-scale, scale),
+            Self::SoftL1 => residual / (1.0 + r * r).sqrt(),
+        }
+    }
+
+    /// ψ′.
+    pub(crate) fn influence_slope(self, residual: f64, scale: f64) -> f64 {
+        let r = residual / scale;
+        match self {
+            _ if scale <= 0.0 => 1.0,
+            Self::Squared => 1.0,
+            Self::Huber => f64::from(u8::from(r.abs() <= 1.0)),
+            Self::SoftL1 => 1.0 / ((1.0 + r * r) * (1.0 + r * r).sqrt()),
+        }
+    }
+}
+
 /// The scale of a robust loss for those residuals: 1.345 × their median absolute deviation over 0.6745.
 pub(crate) fn robust_scale(residuals: Vec<f64>) -> f64 {
     HUBER_EFFICIENCY * median_absolute_deviation(residuals) / NORMAL_MAD

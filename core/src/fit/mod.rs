@@ -61,12 +61,13 @@ pub use design::{
     NoiseModel, choose,
 };
 pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
-pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, is_poorly_determined, relative_error_base, symbols};
+pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, ends_text, is_poorly_determined, relative_error_base, symbols};
 pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
+pub use intervals::interval::Interval;
 pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
-pub use intervals::profile::{Profile, ProfilePoint, profile};
+pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, with_intervals};
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
 #[cfg(feature = "selftest")]
@@ -77,7 +78,7 @@ pub use multistart::basin::{Basin, MultistartResult};
 pub use multistart::search::{Starts, multistart};
 pub use objective::{Problem, ProblemError};
 pub use observer::{Observer, TracePoint};
-pub use options::{BrdfResiduals, FitOptions, Loss, Weights};
+pub use options::{BrdfResiduals, FitOptions, Intervals, Loss, Weights};
 pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
 pub use solve::fit;
 pub use stop_reason::StopReason;

@@ -173,6 +173,30 @@ impl Problem {
         Self { loss_scales, ..self.clone() }
     }
 
+    /// The same problem with the residuals of DoLP and BRDF multiplied by those numbers: one over their standard deviations.
+    #[must_use]
+    pub fn with_block_weights(&self, block_weights: [f64; 2]) -> Self {
+        Self { block_weights, ..self.clone() }
+    }
+
+    /// Sum of squares and number of the residuals of DoLP and of BRDF, before these are weighted against each other.
+    pub(crate) fn block_sums(&self, parameters: &Parameters) -> [(f64, usize); 2] {
+        let mut residuals = DVector::zeros(self.len());
+        self.with_block_weights([1.0; 2]).residuals(parameters, &mut residuals);
+        self.observations.by_block(residuals.as_slice()).map(|block| (block.iter().map(|residual| residual * residual).sum(), block.len()))
+    }
+
+    /// Whether DoLP and BRDF are minimised together, each in units of its own unknown standard deviation.
+    pub(crate) fn has_two_variances(&self) -> bool {
+        self.observations.has_dolp() && self.observations.has_brdf() && self.options.weights == Weights::None
+    }
+
+    /// What residuals of DoLP and BRDF are multiplied by: 1, or one over their own standard deviations.
+    #[must_use]
+    pub fn block_weights(&self) -> [f64; 2] {
+        self.block_weights
+    }
+
     /// The same problem with other data: the values at its start plus residuals drawn from its own, within each quantity, by
     /// `pick` (an index below its argument), times a factor.
     #[must_use]
@@ -275,6 +299,22 @@ impl Problem {
         })
     }
 
+    /// The predicted DoLP or BRDF of each residual; none where the parameters are no surface or a value is not finite.
+    pub(crate) fn predictions(&self, parameters: &Parameters) -> Option<Vec<f64>> {
+        let surface = Pbrdf::new(self.model, *parameters).ok()?;
+        with_columns(|Columns { radiances, .. }| {
+            self.predict(&surface, radiances);
+            let value = |datum: &Datum| if datum.kind == Kind::Dolp { radiances.dolp[datum.point] } else { radiances.brdf[datum.point] };
+            let values: Vec<f64> = self.observations.data().iter().map(value).collect();
+            values.iter().all(|value| value.is_finite()).then_some(values)
+        })
+    }
+
+    /// The scale of the loss of each residual.
+    pub(crate) fn loss_scales_of_rows(&self) -> Vec<f64> {
+        self.observations.data().iter().map(|datum| self.loss_scales[datum.kind.block()]).collect()
+    }
+
     /// Writes DoLP and BRDF of each geometry, those that are measured.
     fn predict(&self, surface: &Pbrdf, out: &mut Radiances) {
         let batch = self.observations.batch();
@@ -352,7 +392,8 @@ impl Problem {
     #[must_use]
     pub fn minimises_delta_e(&self) -> bool {
         let absolute = !self.predicts_brdf() || self.options.brdf_residuals == BrdfResiduals::Absolute;
-        absolute && self.options.weights == Weights::None && self.options.loss == Loss::Squared
+        let is_plain = self.options.weights == Weights::None && self.options.loss == Loss::Squared;
+        absolute && is_plain && self.block_weights == [1.0; 2]
     }
 
     /// ΔE of Eq. (18), given the sum of squares: the same number wherever that is what is minimised.

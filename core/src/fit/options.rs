@@ -40,6 +40,19 @@ pub enum Loss {
     SoftL1,
 }
 
+/// How the uncertainty of the parameters is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Intervals {
+    /// By profile likelihood; linear standard errors only where they agree.
+    #[default]
+    Profile,
+    /// By the Jacobian at the solution.
+    Linear,
+    /// Not at all.
+    None,
+}
+
 /// The choices of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]

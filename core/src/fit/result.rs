@@ -2,7 +2,9 @@
 
 use crate::fit::estimate::{Edge, Estimate, Undetermined};
 use crate::fit::intervals::band::PredictionBand;
+use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
+use crate::fit::objective::Problem;
 use crate::fit::observer::TracePoint;
 use crate::fit::stop_reason::StopReason;
 use crate::model::{Model, Parameter, Parameters};
@@ -53,6 +55,8 @@ pub struct Statistics {
     pub aicc: Option<f64>,
     /// Scale of the robust loss for DoLP and BRDF, in units of the scaled residual.
     pub loss_scales: [f64; 2],
+    /// What residuals of DoLP and BRDF were multiplied by, [`crate::fit::Problem::block_weights`].
+    pub block_weights: [f64; 2],
 }
 
 /// Correlations of the determined parameters.
@@ -83,6 +87,10 @@ pub struct Course {
     pub evaluations: usize,
     /// Milliseconds from the first residual evaluation to the last, by the clock of the observer.
     pub elapsed_ms: f64,
+    /// Milliseconds that the intervals took; 0 without.
+    pub intervals_ms: f64,
+    /// Whether all intervals were followed to their ends; none without intervals.
+    pub intervals_complete: Option<bool>,
     /// The distinct minima, best first; empty where they are not known.
     pub minima: Vec<Minimum>,
     /// The improvements of the winning start, in their order.
@@ -122,6 +130,19 @@ pub struct FitResult {
 }
 
 impl FitResult {
+    /// The problem as it was minimised: with the scales of the loss and the weights of DoLP and BRDF that the fit found.
+    #[must_use]
+    pub fn fitted(&self, problem: &Problem) -> Problem {
+        problem.with_loss_scales(self.statistics.loss_scales).with_block_weights(self.statistics.block_weights)
+    }
+
+    /// Without standard errors of the parameters.
+    #[must_use]
+    pub fn without_errors(mut self) -> Self {
+        self.estimates.iter_mut().for_each(|estimate| estimate.std_error = None);
+        self
+    }
+
     /// The estimate of a parameter; none if the model does not have it.
     #[must_use]
     pub fn estimate(&self, parameter: Parameter) -> Option<&Estimate> {
@@ -170,6 +191,9 @@ struct JsonEstimate {
     free: bool,
     std_error: Option<f64>,
     at_bound: Option<Edge>,
+    interval68: Option<Interval>,
+    interval95: Option<Interval>,
+    determined: bool,
 }
 
 /// Estimates by the keys of their parameters.
@@ -178,8 +202,9 @@ struct ByKey<'a>(&'a [Estimate]);
 impl Serialize for ByKey<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for &Estimate { parameter, value, free, std_error, at_bound, .. } in self.0 {
-            map.serialize_entry(parameter.key(), &JsonEstimate { value, free, std_error, at_bound })?;
+        for &Estimate { parameter, value, free, std_error, at_bound, interval68, interval95, determined, .. } in self.0 {
+            let estimate = JsonEstimate { value, free, std_error, at_bound, interval68, interval95, determined };
+            map.serialize_entry(parameter.key(), &estimate)?;
         }
         map.end()
     }
@@ -188,7 +213,7 @@ impl Serialize for ByKey<'_> {
 impl Serialize for FitResult {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { statistics, course, .. } = self;
-        let mut result = serializer.serialize_struct("FitResult", 14)?;
+        let mut result = serializer.serialize_struct("FitResult", 15)?;
         result.serialize_field("distribution", self.model.distribution.key())?;
         result.serialize_field("objective", &self.objective)?;
         result.serialize_field("sum_of_squares", &statistics.rss)?;
@@ -198,6 +223,7 @@ impl Serialize for FitResult {
         result.serialize_field("stop_reason", &self.stop_reason)?;
         result.serialize_field("evaluations", &course.evaluations)?;
         result.serialize_field("elapsed_ms", &course.elapsed_ms)?;
+        result.serialize_field("intervals_ms", &course.intervals_ms)?;
         result.serialize_field("parameters", &ByKey(&self.estimates))?;
         result.serialize_field("undetermined", &self.undetermined)?;
         result.serialize_field("correlations", &self.correlations)?;

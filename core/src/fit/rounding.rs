@@ -44,6 +44,17 @@ pub fn with_error(value: f64, error: Option<f64>) -> (String, Option<String>) {
     (significant(value, digits), Some(significant(error, 2)))
 }
 
+/// Decimal places that show the second digit of an uncertainty; none from 10 on.
+#[must_use]
+pub fn decimal_places(uncertainty: f64) -> usize {
+    if !(uncertainty > 0.0 && uncertainty.is_finite()) {
+        return 6;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "an exponent of f64")]
+    let exponent = libm::log10(uncertainty).floor() as i32;
+    usize::try_from(1 - exponent).unwrap_or(0).min(17)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{significant, trimmed, with_error};

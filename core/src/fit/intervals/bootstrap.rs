@@ -38,7 +38,7 @@ pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed:
     let mut pick = |count: usize| (random.next_u64() % count as u64) as usize;
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
     let widen = (problem.len() as f64 / report.statistics.dof.max(1) as f64).sqrt();
-    let solution = problem.with_start(report.parameters);
+    let solution = report.fitted(problem).with_start(report.parameters);
     let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| fit_local(replicate, Effort::Thorough, watch).parameters);
     let mut fits = Vec::new();
     let mut left = replicates;

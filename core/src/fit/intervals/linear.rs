@@ -1,12 +1,15 @@
 //! What the data determine, and how well: standard errors and correlations from the Jacobian at the solution.
 //!
-//! J, its columns scaled by max(|p|, 1e-3) (q by its distance from 1), is U S Vᵀ. The rank is the number of singular values above 1e-8
-//! of the largest. The pseudo-inverse covariance `V S⁻² Vᵀ` is summed over those and multiplied by SS/(N − rank) or, where standard
-//! deviations were stated, by 1. A parameter with a share in the null space has no standard error; the null space is described
-//! instead.
+//! J, its columns scaled to length 1, is U S Vᵀ: no unit matters. The rank is the number of singular values above 1e-8 of the largest. The
+//! pseudo-inverse covariance `V S⁻² Vᵀ` is summed over those and multiplied by SS/(N − rank) or, where standard deviations were
+//! stated, by 1. A parameter with a share in the null space has no standard error; the null space is described instead. A
+//! parameter that changes nothing in its whole box is left out beforehand.
+//!
+//! Under a robust loss the covariance is the sandwich `A⁻¹ B A⁻¹` of M-estimation, A = Σ ψ′ JJᵀ and B = Σ ψ² JJᵀ (Huber, *Robust
+//! Statistics*, 1981, sec. 7.6).
 
 use crate::fit::objective::Problem;
-use crate::fit::options::Weights;
+use crate::fit::options::{Loss, Weights};
 use crate::model::{Parameter, ParameterSet, Parameters, PerParameter};
 use nalgebra::{DMatrix, DVector, SVD};
 use serde::ser::SerializeStruct as _;
@@ -15,8 +18,10 @@ use std::fmt;
 
 /// Singular values below this fraction of the largest count as 0.
 pub const RANK_THRESHOLD: f64 = 1e-8;
-/// Size below which a parameter is scaled as if it had this size.
-const SMALLEST_SCALE: f64 = 1e-3;
+/// Relative change of a value by which a parameter that crosses its whole box has an effect.
+const EFFECT: f64 = 1e-10;
+/// Size below which a change of a parameter is taken relative to this size.
+const SMALLEST_SIZE: f64 = 1e-3;
 /// Share in an undetermined direction from which a parameter is undetermined.
 const UNDETERMINED_SHARE: f64 = 1e-3;
 
@@ -111,8 +116,10 @@ pub struct Uncertainty {
     spread: DMatrix<f64>,
     /// The undetermined directions as orthonormal rows, in units of the scales.
     null_space: DMatrix<f64>,
-    /// The size that a change of each is measured by.
+    /// One over the length of each one's column of the Jacobian.
     scales: Vec<f64>,
+    /// Of each, the variance under a robust loss over the one that the loss alone suggests.
+    inflation: Vec<f64>,
 }
 
 impl Uncertainty {
@@ -121,26 +128,32 @@ impl Uncertainty {
     /// `sum_of_squares` is that of the problem's own residuals.
     #[must_use]
     pub fn at(problem: &Problem, parameters: &Parameters, sum_of_squares: f64, at_bound: ParameterSet) -> Self {
-        let inner: ParameterSet = problem.free().iter().copied().filter(|&parameter| !at_bound.contains(parameter)).collect();
-        let problem = problem.with_free(inner);
+        let inner = |parameter: &Parameter| !at_bound.contains(*parameter);
+        let (moving, idle): (Vec<Parameter>, Vec<Parameter>) =
+            problem.free().iter().copied().filter(inner).partition(|&parameter| has_effect(problem, parameters, parameter));
+        let problem = problem.with_free(moving.into_iter().collect());
+        let mut uncertainty = Self::of_moving(&problem, parameters, sum_of_squares);
+        uncertainty.undetermined.extend(idle.iter().map(|&parameter| UndeterminedDirection::new(vec![(parameter, 1.0)], false)));
+        uncertainty
+    }
+
+    /// Of free parameters that each have an effect.
+    fn of_moving(problem: &Problem, parameters: &Parameters, sum_of_squares: f64) -> Self {
         let free = problem.free();
         let (rows, columns) = (problem.len(), free.len());
-        let mut jacobian = DMatrix::zeros(rows.max(columns), columns);
-        let mut filled = DMatrix::zeros(rows, columns);
-        if columns == 0 || rows == 0 || !problem.jacobian(parameters, &mut filled) {
+        let Some((jacobian, meat)) = information(problem, parameters).filter(|_| columns > 0 && rows > 0) else {
             return Self::nothing(free);
-        }
-        let scales: Vec<f64> = free.iter().map(|&parameter| scale(parameter, parameters[parameter])).collect();
-        for (j, scale) in scales.iter().enumerate() {
-            filled.column_mut(j).scale_mut(*scale);
-        }
-        // The decomposition of a matrix that is not finite does not terminate.
-        if filled.iter().any(|element| !element.is_finite()) {
-            return Self::nothing(free);
-        }
+        };
+        let scales: Vec<f64> = jacobian.column_iter().map(|column| 1.0 / column.norm()).collect();
+        // A column without an effect in f64 stays one of zeros.
+        let scales: Vec<f64> = scales.into_iter().map(|scale| if scale.is_finite() { scale } else { 0.0 }).collect();
         // Rows of zeros make a wide matrix square, so that the thin decomposition has all of V.
-        jacobian.rows_mut(0, rows).copy_from(&filled);
-        let svd = SVD::new(jacobian, false, true);
+        let scaled = DMatrix::from_fn(rows.max(columns), columns, |i, j| if i < rows { jacobian[(i, j)] * scales[j] } else { 0.0 });
+        // The decomposition of a matrix that is not finite does not terminate.
+        if scaled.iter().any(|element| !element.is_finite()) {
+            return Self::nothing(free);
+        }
+        let svd = SVD::new(scaled, false, true);
         let Some(v_t) = svd.v_t else { return Self::nothing(free) };
         let largest = svd.singular_values.max();
         let counted: Vec<usize> = (0..columns).filter(|&i| svd.singular_values[i] > RANK_THRESHOLD * largest && largest > 0.0).collect();
@@ -148,21 +161,24 @@ impl Uncertainty {
 
         let share = |j: usize| left.iter().map(|&i| v_t[(i, j)] * v_t[(i, j)]).sum::<f64>().sqrt();
         let kept: Vec<usize> = (0..columns).filter(|&j| share(j) < UNDETERMINED_SHARE).collect();
-        let variance = variance_of_unit_weight(&problem, sum_of_squares, counted.len());
-        let spread = DMatrix::from_fn(columns, columns, |a, b| {
+        let inverse = DMatrix::from_fn(columns, columns, |a, b| {
             let sum: f64 = counted.iter().map(|&i| v_t[(i, a)] * v_t[(i, b)] / (svd.singular_values[i] * svd.singular_values[i])).sum();
-            variance * scales[a] * scales[b] * sum
+            scales[a] * scales[b] * sum
         });
+        let plain = &inverse * variance_of_unit_weight(problem, sum_of_squares, counted.len());
+        let spread = meat.map_or_else(|| plain.clone(), |meat| &inverse * (meat * small_sample(problem, counted.len())) * &inverse);
         let covariance = DMatrix::from_fn(kept.len(), kept.len(), |a, b| spread[(kept[a], kept[b])]);
         let smallest = counted.iter().map(|&i| svd.singular_values[i]).fold(f64::INFINITY, f64::min);
         let null_space = DMatrix::from_fn(left.len(), columns, |i, j| v_t[(left[i], j)]);
+        let by_parameter = DMatrix::from_fn(left.len(), columns, |i, j| null_space[(i, j)] * scales[j]);
         Self {
             rank: counted.len(),
             condition: (!counted.is_empty()).then(|| largest / smallest),
             determined: kept.iter().map(|&j| free[j]).collect(),
             covariance,
-            undetermined: describe(null_space.clone(), free, problem.knows_only_ratios()),
+            undetermined: describe(by_parameter, parameters, free, problem.knows_only_ratios()),
             analysed: free.to_vec(),
+            inflation: (0..columns).map(|j| spread[(j, j)] / plain[(j, j)]).collect(),
             spread,
             null_space,
             scales,
@@ -183,6 +199,7 @@ impl Uncertainty {
             spread: DMatrix::zeros(count, count),
             null_space: DMatrix::identity(count, count),
             scales: vec![1.0; count],
+            inflation: vec![1.0; count],
         }
     }
 
@@ -207,6 +224,13 @@ impl Uncertainty {
         Some(self.covariance[(j, j)].sqrt()).filter(|error| error.is_finite())
     }
 
+    /// The variance of a parameter under a robust loss over the one that the rise of the loss alone suggests; 1 for squares.
+    #[must_use]
+    pub(crate) fn inflation(&self, parameter: Parameter) -> f64 {
+        let j = self.analysed.iter().position(|&other| other == parameter);
+        j.map(|j| self.inflation[j]).filter(|ratio| ratio.is_finite() && *ratio > 0.0).unwrap_or(1.0)
+    }
+
     /// Correlations of the determined parameters; none where a variance is 0 or unknown.
     #[must_use]
     pub fn correlations(&self) -> DMatrix<f64> {
@@ -215,10 +239,47 @@ impl Uncertainty {
     }
 }
 
-/// The size that a change of a parameter is measured by: its own, or for q, which counts from 1, its distance from there.
-fn scale(parameter: Parameter, value: f64) -> f64 {
+/// Whether a parameter changes any value when it crosses its box.
+fn has_effect(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> bool {
+    let (low, high) = problem.bounds().of(parameter);
+    let values = |at: f64| {
+        let mut there = *parameters;
+        there[parameter] = at;
+        problem.predictions(&there)
+    };
+    let Some(here) = values(parameters[parameter]) else { return true };
+    [low, f64::midpoint(low, high), high].into_iter().any(|at| {
+        let changes = |there: Vec<f64>| there.iter().zip(&here).any(|(there, here)| (there - here).abs() > EFFECT * here.abs());
+        values(at).is_none_or(changes)
+    })
+}
+
+/// The Jacobian whose square is A, and B where it is not A times the variance.
+fn information(problem: &Problem, parameters: &Parameters) -> Option<(DMatrix<f64>, Option<DMatrix<f64>>)> {
+    let loss = problem.options().loss;
+    if loss == Loss::Squared {
+        return problem.linearised(parameters).map(|(_, jacobian)| (jacobian, None));
+    }
+    let (residuals, jacobian) = problem.with_squared_loss().linearised(parameters)?;
+    let scales = problem.loss_scales_of_rows();
+    let weighted = |weight: &dyn Fn(f64, f64) -> f64| {
+        DMatrix::from_fn(jacobian.nrows(), jacobian.ncols(), |i, j| jacobian[(i, j)] * weight(residuals[i], scales[i]))
+    };
+    let bread = weighted(&|residual, scale| loss.influence_slope(residual, scale).sqrt());
+    let meat = weighted(&|residual, scale| loss.influence(residual, scale));
+    Some((bread, Some(meat.transpose() * &meat)))
+}
+
+/// N/(N − rank): residuals of a fit are smaller than the noise.
+#[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
+fn small_sample(problem: &Problem, rank: usize) -> f64 {
+    if problem.len() > rank { problem.len() as f64 / (problem.len() - rank) as f64 } else { f64::NAN }
+}
+
+/// The size that a change of a parameter is relative to: its own, or for q, which counts from 1, its distance from there.
+fn size(parameter: Parameter, value: f64) -> f64 {
     let origin = if parameter == Parameter::Q { 1.0 } else { 0.0 };
-    (value - origin).abs().max(SMALLEST_SCALE)
+    (value - origin).abs().max(SMALLEST_SIZE)
 }
 
 /// SS/(N − rank), or 1 where the residuals are in units of their own standard deviation; not a number without a degree of freedom.
@@ -231,9 +292,17 @@ fn variance_of_unit_weight(problem: &Problem, sum_of_squares: f64, rank: usize) 
     }
 }
 
-/// The null space in its sparsest form: reduced by rows with pivots.
-fn describe(mut null_space: DMatrix<f64>, free: &[Parameter], knows_only_ratios: bool) -> Vec<UndeterminedDirection> {
+/// The null space in its sparsest form, of relative changes: reduced by rows with pivots.
+fn describe(
+    mut null_space: DMatrix<f64>,
+    parameters: &Parameters,
+    free: &[Parameter],
+    knows_only_ratios: bool,
+) -> Vec<UndeterminedDirection> {
     let (rows, columns) = null_space.shape();
+    for (j, &parameter) in free.iter().enumerate() {
+        null_space.column_mut(j).scale_mut(1.0 / size(parameter, parameters[parameter]));
+    }
     for i in 0..rows {
         let pivot =
             (i..rows).flat_map(|r| (0..columns).map(move |j| (r, j))).max_by(|a, b| null_space[*a].abs().total_cmp(&null_space[*b].abs()));

@@ -2,5 +2,10 @@
 
 pub(crate) mod band;
 pub(crate) mod bootstrap;
+pub(crate) mod confidence;
+pub(crate) mod held;
+pub(crate) mod interval;
 pub(crate) mod linear;
 pub(crate) mod profile;
+pub(crate) mod quantile;
+pub(crate) mod walk;

@@ -1,15 +1,38 @@
-//! Profile likelihood: one parameter held on a grid, the other free parameters fitted at each value.
+//! Profile-likelihood intervals of a fit, and the profile of one parameter as a curve.
 //!
-//! The interval holds the values at which the sum of squares S exceeds its minimum by no more than one standard error would:
-//! `S ≤ S_min (1 + 1/(N − rank))`, or χ²_min + 1 where standard deviations were stated (Bates and Watts, *Nonlinear Regression Analysis*, 1988, ch. 6).
+//! A parameter is held, all others are fitted again. The interval holds the values at which the sum of squares S stays below
+//! `S_min (1 + F_{1,dof}(level)/dof)` or, where standard deviations were stated, `χ²_min + χ²₁(level)` (Bates and Watts, *Nonlinear
+//! Regression Analysis*, 1988, ch. 6). Under a robust loss the rise is multiplied by the ratio of the plain to the sandwich
+//! variance of the parameter.
 
+use crate::fit::analysis::analyse;
+use crate::fit::estimate::Estimate;
+use crate::fit::intervals::confidence::{Profiles, profiles};
+use crate::fit::intervals::interval::Interval;
+use crate::fit::intervals::quantile::{chi_squared_quantile, f_quantile};
+use crate::fit::intervals::walk::{Landmarks, ProfileFit};
+use crate::fit::least_squares::LeastSquares;
+use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
+use crate::fit::multistart::basin::{Basin, MultistartResult};
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
 use crate::fit::result::FitResult;
-use crate::model::{Parameter, ParameterSet, Parameters};
+use crate::model::{Parameter, Parameters};
+use nalgebra::DVector;
 use serde::Serialize;
+
+/// The levels of the two intervals: that of one standard error, and the usual one.
+pub const LEVELS: [f64; 2] = [0.682_689_492_137_085_9, 0.95];
+/// A linear standard error is shown where both ends of the 68.3 % interval lie within this fraction of it.
+const AGREEMENT: f64 = 0.25;
+/// Sum of squares below which residuals are rounding, in the units of Eq. (18): a relative misfit of 1e-13.
+const ROUNDING: f64 = 1e-26;
+/// Times that a better minimum found by a profile becomes the result, at most.
+const MOST_MINIMA: usize = 5;
+/// Other minima that fits at a limit are started from, at most.
+const OTHER_MINIMA: usize = 8;
 
 /// The best fit with one parameter held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -28,70 +51,139 @@ pub struct ProfilePoint {
 pub struct Profile {
     /// Which parameter.
     pub parameter: Parameter,
-    /// The scan, in ascending values.
+    /// Held fits from one limit of 95 % to the other, or to the bound, in ascending values.
     pub points: Vec<ProfilePoint>,
-    /// Lower end of the interval; none where the data (within the scan) do not set one.
+    /// Lower end of the interval at 68.3 %; none where the bound comes first.
     pub low: Option<f64>,
     /// Upper end.
     pub high: Option<f64>,
+    /// Whether it was not cancelled on the way.
+    pub is_complete: bool,
 }
 
-/// Grid values on either side of the best one.
-const STEPS: i32 = 15;
-/// Standard errors that the grid covers on either side: a quadratic valley crosses the limit at one.
-const REACH: f64 = 3.0;
-
-/// Scans a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
+/// The result with the profile-likelihood intervals of all free parameters, and linear standard errors only where they agree with these.
+///
+/// Where a profile finds a minimum better than that of the search, the result is the better one. Cancelled, the intervals are as
+/// far as they came, and [`crate::fit::Course::intervals_complete`] says so.
 #[must_use]
-pub fn profile(problem: &Problem, report: &FitResult, parameter: Parameter, watch: Observer<'_>) -> Profile {
-    let best = report.parameters[parameter];
-    let (low, high) = problem.bounds().of(parameter);
-    let error = report.estimate(parameter).and_then(|estimate| estimate.std_error);
-    let reach = error.map_or(high - low, |error| REACH * error);
-    let end = |bound: f64| if bound < best { bound.max(best - reach) } else { bound.min(best + reach) };
-    let rest: ParameterSet = problem.free().iter().copied().filter(|&other| other != parameter).collect();
-    let held = problem.with_free(rest);
-
-    let mut scan = Vec::new();
-    let smallest = problem.sum_of_squares(&report.parameters).unwrap_or(f64::NAN);
-    for side in [end(low), end(high)] {
-        let mut from = report.parameters;
-        for step in 1..=STEPS {
-            if (watch.cancelled)() || side == best {
+pub fn with_intervals(problem: &Problem, mut result: FitResult, observer: Observer<'_>) -> FitResult {
+    let begin = (observer.clock)();
+    for _ in 0..MOST_MINIMA {
+        let fitted = result.fitted(problem);
+        if fitted.is_empty() || fitted.free().is_empty() {
+            break;
+        }
+        let found = profiles_of(&fitted, &result, fitted.free(), observer);
+        result.course.evaluations += found.evaluations;
+        match found.better.as_ref().filter(|_| !(observer.cancelled)()) {
+            Some(better) => result = with_better_minimum(problem, result, better, observer),
+            None => {
+                result.course.intervals_complete = Some(found.is_complete);
+                set_intervals(&fitted, &mut result, &found);
                 break;
             }
-            from[parameter] = best + (side - best) * f64::from(step) / f64::from(STEPS);
-            let descent = fit_local(&held.with_start(from), Effort::Thorough, watch);
-            from = descent.parameters;
-            scan.push((from[parameter], descent.sum_of_squares, from));
         }
     }
-    scan.push((best, smallest, report.parameters));
-    scan.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let limit = limit(problem, report, smallest);
-    let crossing = |side: &mut dyn Iterator<Item = &(f64, f64, Parameters)>| {
-        let mut inner = (best, smallest);
-        for &(value, sum, _) in side {
-            if sum > limit {
-                return Some(inner.0 + (value - inner.0) * (limit - inner.1) / (sum - inner.1));
-            }
-            inner = (value, sum);
-        }
-        None
-    };
-    let (low, high) =
-        (crossing(&mut scan.iter().rev().filter(|point| point.0 < best)), crossing(&mut scan.iter().filter(|point| point.0 > best)));
-    let points = scan
-        .iter()
-        .map(|(value, sum, at)| ProfilePoint { value: *value, objective: problem.objective(*sum, at), rss: sum * problem.rss_scale() })
-        .collect();
-    Profile { parameter, points, low, high }
+    result.course.intervals_ms = (observer.clock)() - begin;
+    result
 }
 
-fn limit(problem: &Problem, report: &FitResult, smallest: f64) -> f64 {
-    match problem.options().weights {
-        Weights::Sigma => smallest + 1.0,
-        #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-        Weights::None => smallest * (1.0 + 1.0 / report.statistics.dof.max(1) as f64),
+/// Follows the profile of a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
+#[must_use]
+pub fn profile(problem: &Problem, result: &FitResult, parameter: Parameter, observer: Observer<'_>) -> Profile {
+    let fitted = result.fitted(problem);
+    let found = profiles_of(&fitted, result, &[parameter], observer);
+    let Some(unknown) = fitted.free().iter().position(|&free| free == parameter) else {
+        return Profile { parameter, points: Vec::new(), low: None, high: None, is_complete: true };
+    };
+    let point = |fit: &ProfileFit| ProfilePoint {
+        value: fit.x[unknown],
+        objective: fitted.objective(fit.sum_of_squares, &fitted.parameters_at(&fit.x)),
+        rss: fit.sum_of_squares * fitted.rss_scale(),
+    };
+    let [low, high] = found.ends[unknown].map(|side| side[0]);
+    Profile { parameter, points: found.points[unknown].iter().map(point).collect(), low, high, is_complete: found.is_complete }
+}
+
+fn unknowns_at(problem: &Problem, parameters: &Parameters) -> DVector<f64> {
+    LeastSquares::start(&problem.with_start(*parameters))
+}
+
+fn profiles_of(problem: &Problem, result: &FitResult, of: &[Parameter], observer: Observer<'_>) -> Profiles {
+    let x = unknowns_at(problem, &result.parameters);
+    let sum_of_squares = problem.sum_of_squares(&result.parameters).unwrap_or(f64::NAN);
+    let others: Vec<DVector<f64>> =
+        result.course.minima.iter().skip(1).take(OTHER_MINIMA).map(|minimum| unknowns_at(problem, &minimum.parameters)).collect();
+    let landmarks = Landmarks { problem, minimum: &ProfileFit { x, sum_of_squares }, others: &others, observer };
+    let is_wanted = |parameter: Parameter| of.contains(&parameter) && !is_idle(result, parameter);
+    let unknowns: Vec<usize> = (0..problem.free().len()).filter(|&j| is_wanted(problem.free()[j])).collect();
+    let errors: Vec<Option<f64>> = problem.free().iter().map(|&parameter| result.band.uncertainty().standard_error(parameter)).collect();
+    let rises: Vec<[f64; 2]> = problem.free().iter().map(|&parameter| rises(problem, result, sum_of_squares, parameter)).collect();
+    if !sum_of_squares.is_finite() || rises.iter().flatten().any(|rise| !rise.is_finite()) {
+        // Without a degree of freedom there is no limit to cross.
+        return Profiles::open(problem.free().len());
     }
+    profiles(&landmarks, &unknowns, &errors, &rises)
+}
+
+/// Whether the parameter changes nothing.
+fn is_idle(result: &FitResult, parameter: Parameter) -> bool {
+    result.undetermined.iter().any(|undetermined| matches!(undetermined.direction[..], [(only, _)] if only == parameter))
+}
+
+/// The rises of the sum of squares at the limits of both levels.
+fn rises(problem: &Problem, result: &FitResult, sum_of_squares: f64, parameter: Parameter) -> [f64; 2] {
+    let inflation = result.band.uncertainty().inflation(parameter);
+    LEVELS.map(|level| {
+        let rise = match problem.options().weights {
+            Weights::Sigma => chi_squared_quantile(level),
+            #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
+            Weights::None => sum_of_squares.max(ROUNDING) * f_quantile(level, result.statistics.dof) / result.statistics.dof as f64,
+        };
+        inflation * rise
+    })
+}
+
+/// The same fit from the better point.
+fn with_better_minimum(problem: &Problem, result: FitResult, better: &ProfileFit, observer: Observer<'_>) -> FitResult {
+    let fitted = result.fitted(problem);
+    let further = fit_local(&fitted.with_start(fitted.parameters_at(&better.x)), Effort::Polish, observer);
+    let course = result.course;
+    let known = |parameters: Parameters| LocalFit {
+        parameters,
+        sum_of_squares: fitted.sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
+        stop_reason: result.stop_reason,
+        evaluations: 0,
+        trace: Vec::new(),
+        path: Vec::new(),
+    };
+    let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations + further.evaluations };
+    let mut best = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(result.parameters) };
+    best.append(further);
+    found.merge(Basin { local_fit: best, hits: 1 });
+    for minimum in course.minima {
+        found.merge(Basin { local_fit: known(minimum.parameters), hits: minimum.hits });
+    }
+    analyse(&fitted, found, course.elapsed_ms)
+}
+
+fn set_intervals(problem: &Problem, result: &mut FitResult, found: &Profiles) {
+    let dof = result.statistics.dof;
+    for estimate in result.estimates.iter_mut().filter(|estimate| estimate.free) {
+        let ends = problem.free().iter().position(|&free| free == estimate.parameter).map(|j| found.ends[j]);
+        let [interval68, interval95] =
+            [0, 1].map(|level| ends.map_or(Interval::OPEN, |[low, high]| Interval { low: low[level], high: high[level] }));
+        estimate.interval68 = Some(interval68);
+        estimate.interval95 = Some(interval95);
+        estimate.determined = !interval68.is_open() || (dof == 0 && estimate.determined);
+        estimate.std_error = estimate.std_error.filter(|&error| agrees(estimate, interval68, error, problem.options().weights, dof));
+    }
+}
+
+/// Whether both ends of the interval are where the linear error expects them.
+fn agrees(estimate: &Estimate, interval: Interval, error: f64, weights: Weights, dof: usize) -> bool {
+    // With few degrees of freedom the variance is uncertain as well, and Student's quantile is above 1.
+    let expected = error * if weights == Weights::None { f_quantile(LEVELS[0], dof).sqrt() } else { 1.0 };
+    let is_near = |distance: f64| (distance - expected).abs() <= AGREEMENT * expected;
+    interval.low.is_some_and(|low| is_near(estimate.value - low)) && interval.high.is_some_and(|high| is_near(high - estimate.value))
 }

@@ -16,7 +16,7 @@ use crate::fit::stop_reason::StopReason;
 use nalgebra::{DMatrix, DVector};
 
 /// Square of the relative offset at which the sum of squares is at its minimum to every digit that matters.
-const GRADIENT_TOLERANCE: f64 = 1e-12;
+pub(crate) const GRADIENT_TOLERANCE: f64 = 1e-12;
 /// Steps that refine the unknowns at the end, where the sum of squares is down to rounding.
 const REFINEMENT_STEPS: usize = 40;
 /// Each of them must multiply the square of the relative offset by no more than this.
@@ -48,6 +48,10 @@ pub(crate) struct Limits {
     pub evaluations: usize,
     /// Whether the unknowns are refined at the end.
     pub refine: bool,
+    /// Square of the relative offset at which the minimum is reached.
+    pub tolerance: f64,
+    /// Sum of squares that is low enough.
+    pub target: f64,
 }
 
 /// A point, its residuals and the sum of their squares.
@@ -129,11 +133,14 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             if self.current.sum_of_squares <= self.problem.negligible() {
                 return StopReason::ResidualsZero;
             }
+            if self.current.sum_of_squares <= limits.target {
+                return StopReason::Converged;
+            }
             if !self.linearise() {
                 return StopReason::Numerical;
             }
             let offset = self.offset();
-            if offset <= GRADIENT_TOLERANCE * self.current.sum_of_squares {
+            if offset <= limits.tolerance * self.current.sum_of_squares {
                 if limits.refine {
                     return self.refine(recorder);
                 }

@@ -14,6 +14,9 @@ use nalgebra::{DMatrix, DVector};
 /// Below this objective the relative misfit is 1e-13, which is rounding.
 const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
+/// The part of its upper bound that the origin of the logarithm of a weight lies below 0.
+const WEIGHT_ORIGIN: f64 = 1e-9;
+
 /// Origin of the logarithm of a parameter with logarithmic steps; none where steps are linear.
 fn origin(parameter: Parameter) -> Option<f64> {
     match parameter {
@@ -34,6 +37,16 @@ impl Problem {
             parameters[parameter] = parameter.domain().flush_to_zero(*value);
         }
         parameters
+    }
+
+    /// Origin of the logarithm in which a parameter by itself is followed; weights, which the height of the specular peak may make
+    /// small by many decades, have theirs below 0 by a part of their bound.
+    fn straight_origin(&self, unknown: usize) -> Option<f64> {
+        let parameter = self.free()[unknown];
+        match parameter {
+            Parameter::Ks | Parameter::Kd | Parameter::Kv => Some(-WEIGHT_ORIGIN * self.bounds().of(parameter).1),
+            _ => origin(parameter),
+        }
     }
 
     /// σ²/h, one over the peak height of the specular lobe.
@@ -112,6 +125,14 @@ impl LeastSquares for Problem {
             }
             None => (low - x[unknown], high - x[unknown]),
         }
+    }
+
+    fn straight(&self, unknown: usize, value: f64) -> f64 {
+        self.straight_origin(unknown).map_or(value, |origin| libm::log(value - origin))
+    }
+
+    fn from_straight(&self, unknown: usize, coordinate: f64) -> f64 {
+        self.straight_origin(unknown).map_or(coordinate, |origin| origin + libm::exp(coordinate))
     }
 
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {

@@ -40,6 +40,12 @@ pub struct LocalFit {
 }
 
 impl LocalFit {
+    /// This descent and a further one that began at its end.
+    pub(crate) fn followed_by(mut self, further: Self) -> Self {
+        self.append(further);
+        self
+    }
+
     /// Appends a further descent that began at the end of this one.
     pub(crate) fn append(&mut self, further: Self) {
         let so_far = self.evaluations;

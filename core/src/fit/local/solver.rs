@@ -6,7 +6,7 @@
 //!   passes by. It makes the first steps from each of many starts, and a second attempt where the bounded solver alone fails.
 
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::bounded_lm::{BoundedLm, Limits};
+use crate::fit::local::bounded_lm::{BoundedLm, GRADIENT_TOLERANCE, Limits};
 use crate::fit::local::minpack::minpack_sin2;
 use crate::fit::local::recorder::Recorder;
 use crate::fit::local::solution::{LocalFit, Solution};
@@ -41,6 +41,10 @@ const MINPACK_PATIENCE: usize = 30;
 /// The same for a probe: ten evaluations with nine unknowns, enough to rank starts.
 const PROBE_PATIENCE: usize = 1;
 
+/// To the minimum, not refined.
+pub(crate) const LIMITS: Limits =
+    Limits { steps: STEPS, evaluations: usize::MAX, refine: false, tolerance: GRADIENT_TOLERANCE, target: f64::NEG_INFINITY };
+
 /// Fits from the start of the problem.
 #[must_use]
 pub fn fit_local(problem: &Problem, effort: Effort, observer: Observer<'_>) -> LocalFit {
@@ -62,7 +66,7 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
         recorder.evaluate(problem, &start, &mut DVector::zeros(problem.residual_count()));
         return recorder.into_solution(StopReason::Converged);
     }
-    let thorough = Limits { steps: STEPS, evaluations: PATIENCE * (n + 1), refine: true };
+    let thorough = Limits { evaluations: PATIENCE * (n + 1), refine: true, ..LIMITS };
     let stop = match effort {
         Effort::Probe => minpack_sin2(problem, &start, PROBE_PATIENCE, &mut recorder).1,
         Effort::Coarse => coarse(problem, &start, &mut recorder),
@@ -78,7 +82,7 @@ fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, recorder: &mut Rec
     if stop == StopReason::Cancelled {
         return stop;
     }
-    let limits = Limits { steps: STEPS, evaluations: COARSE_PATIENCE * (start.len() + 1), refine: false };
+    let limits = Limits { evaluations: COARSE_PATIENCE * (start.len() + 1), ..LIMITS };
     BoundedLm::new(problem, &from).run(limits, recorder)
 }
 
