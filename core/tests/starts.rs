@@ -7,7 +7,7 @@ mod common;
 mod fit_problems;
 
 use fit_problems::{Case, cases};
-use pbrdf::fit::{Observer, Starts, fit};
+use pbrdf::fit::{Observer, Starts, fit, with_intervals};
 use std::path::Path;
 
 /// The set that the reference was made for: its seed, and surfaces for each layout, noise and distribution.
@@ -17,7 +17,8 @@ const FACTOR: f64 = 1.0 + 1e-6;
 const ABSOLUTE: f64 = 1e-20;
 
 fn objective_of_default_fit(case: &Case) -> f64 {
-    fit(&case.problem(), Starts::Automatic, 1, Observer::NONE).objective.expect("data with light")
+    let problem = case.problem();
+    with_intervals(&problem, fit(&problem, Starts::Automatic, 1, Observer::NONE), Observer::NONE).objective.expect("data with light")
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::fit::estimate::{Edge, Estimate};
 use crate::fit::intervals::band::PredictionBand;
-use crate::fit::intervals::linear::Uncertainty;
+use crate::fit::intervals::linear::{Uncertainty, has_effect};
 use crate::fit::local::solution::LocalFit;
 use crate::fit::multistart::basin::{Basin, MultistartResult};
 use crate::fit::objective::Problem;
@@ -113,7 +113,8 @@ fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -
         let column = jacobian.column(j);
         let (low, high) = problem.bounds().of(part.free()[j]);
         let has_vanished = column.norm() * (high - low) <= VANISHED * residuals.norm();
-        has_vanished || column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
+        (has_vanished && has_effect(problem, parameters, part.free()[j]))
+            || column.dot(&residuals).abs() > PRESSED * column.norm() * residuals.norm()
     };
     part.free().iter().enumerate().filter(|(j, _)| is_pressed(*j)).map(|(_, &parameter)| parameter).collect()
 }

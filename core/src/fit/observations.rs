@@ -201,11 +201,13 @@ impl Observations {
         }
     }
 
-    /// Indices of geometries with their measured DoLP, evenly picked where there are more than `most`, zeros too.
-    pub(crate) fn dolp_rows(&self, most: usize) -> Vec<(usize, f64)> {
-        let dolp = || self.data.iter().filter(|datum| datum.kind == Kind::Dolp);
-        let step = dolp().count().div_ceil(most).max(1);
-        dolp().step_by(step).map(|datum| (datum.point, datum.measured)).collect()
+    /// Indices of geometries with their measured DoLP (0) or BRDF (1), evenly picked where there are more than `most`; zeros of DoLP
+    /// too, but not of the BRDF, whose differences are relative.
+    pub(crate) fn rows(&self, block: usize, most: usize) -> Vec<(usize, f64)> {
+        let value = |datum: &Datum| if datum.kind == Kind::LogBrdf { libm::exp(datum.measured) } else { datum.measured };
+        let rows = || self.data.iter().filter(|datum| datum.kind.block() == block && (block == 0 || value(datum) > 0.0));
+        let step = rows().count().div_ceil(most).max(1);
+        rows().step_by(step).map(|datum| (datum.point, value(datum))).collect()
     }
 
     /// Those residuals by quantity: of DoLP, of BRDF.

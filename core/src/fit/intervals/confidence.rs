@@ -12,7 +12,7 @@ const ROUNDS: usize = 4;
 /// A point lies outside an interval if it does by more than this fraction of the distance of the end from the minimum.
 const OUTSIDE: f64 = 0.01;
 /// A point is better than the minimum if its sum of squares is smaller by this fraction of the first limit's rise.
-const BETTER: f64 = 1e-3;
+pub(crate) const BETTER: f64 = 1e-6;
 
 /// What the walks have found.
 pub(crate) struct Profiles {
@@ -20,8 +20,8 @@ pub(crate) struct Profiles {
     pub ends: Vec<[[Option<f64>; 2]; 2]>,
     /// Of each unknown, the points of its profile in ascending order.
     pub points: Vec<Vec<ProfileFit>>,
-    /// The best point, if it is better than the minimum.
-    pub better: Option<ProfileFit>,
+    /// The best point of each walk that came below the minimum, the lowest first.
+    pub better: Vec<ProfileFit>,
     pub evaluations: usize,
     /// Whether all walks came to their ends.
     pub is_complete: bool,
@@ -30,7 +30,7 @@ pub(crate) struct Profiles {
 impl Profiles {
     /// Nothing is known of so many unknowns.
     pub(crate) fn open(count: usize) -> Self {
-        Self { ends: vec![[[None; 2]; 2]; count], points: vec![Vec::new(); count], better: None, evaluations: 0, is_complete: true }
+        Self { ends: vec![[[None; 2]; 2]; count], points: vec![Vec::new(); count], better: Vec::new(), evaluations: 0, is_complete: true }
     }
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn profiles<P: LeastSquares + Sync>(
     let mut walks: Vec<Walk<'_, P>> = sides().map(|(unknown, upwards)| Walk::new(at, unknown, upwards, rises[unknown])).collect();
     for_each(&mut walks, &|walk| walk.run(0, None, errors[walk.unknown]));
     for _ in 0..ROUNDS {
-        if (at.observer.cancelled)() || better(at, &walks).is_some() {
+        if (at.observer.cancelled)() || !better(at, &walks).is_empty() {
             break;
         }
         let pool: Vec<ProfileFit> = walks.iter().flat_map(|walk| walk.points.iter().cloned()).collect();
@@ -64,11 +64,15 @@ pub(crate) fn profiles<P: LeastSquares + Sync>(
     collect(at, unknowns, walks)
 }
 
-/// The best point of all walks, if it is better than the minimum.
-fn better<P: LeastSquares>(at: &Landmarks<'_, P>, walks: &[Walk<'_, P>]) -> Option<ProfileFit> {
-    let points = walks.iter().flat_map(|walk| walk.points.iter().map(|point| (point, BETTER * walk.rises[0])));
-    let lower = points.filter(|(point, margin)| point.sum_of_squares < at.minimum.sum_of_squares - margin);
-    lower.map(|(point, _)| point).min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares)).cloned()
+/// The best point of each walk that is better than the minimum, the lowest first.
+fn better<P: LeastSquares>(at: &Landmarks<'_, P>, walks: &[Walk<'_, P>]) -> Vec<ProfileFit> {
+    let lowest = |walk: &Walk<'_, P>| {
+        let lowest = walk.points.iter().min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+        lowest.filter(|point| point.sum_of_squares < at.minimum.sum_of_squares - BETTER * walk.rises[0]).cloned()
+    };
+    let mut better: Vec<ProfileFit> = walks.iter().filter_map(lowest).collect();
+    better.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+    better
 }
 
 fn collect<P: LeastSquares>(at: &Landmarks<'_, P>, unknowns: &[usize], walks: Vec<Walk<'_, P>>) -> Profiles {

@@ -240,7 +240,7 @@ impl Uncertainty {
 }
 
 /// Whether a parameter changes any value when it crosses its box.
-fn has_effect(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> bool {
+pub(crate) fn has_effect(problem: &Problem, parameters: &Parameters, parameter: Parameter) -> bool {
     let (low, high) = problem.bounds().of(parameter);
     let values = |at: f64| {
         let mut there = *parameters;

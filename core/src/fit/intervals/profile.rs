@@ -30,7 +30,11 @@ const AGREEMENT: f64 = 0.25;
 /// Sum of squares below which residuals are rounding, in the units of Eq. (18): a relative misfit of 1e-13.
 const ROUNDING: f64 = 1e-26;
 /// Times that a better minimum found by a profile becomes the result, at most.
-const MOST_MINIMA: usize = 5;
+const MOST_MINIMA: usize = 4;
+/// Better points of a round that are followed to their minima.
+const POLISHED: usize = 6;
+/// Fall of the minimum, in units of the first limit's rise, that leaves intervals as they are.
+const SLIGHT: f64 = 1e-3;
 /// Other minima that fits at a limit are started from, at most.
 const OTHER_MINIMA: usize = 8;
 
@@ -68,20 +72,26 @@ pub struct Profile {
 #[must_use]
 pub fn with_intervals(problem: &Problem, mut result: FitResult, observer: Observer<'_>) -> FitResult {
     let begin = (observer.clock)();
-    for _ in 0..MOST_MINIMA {
+    for round in 1..=MOST_MINIMA {
         let fitted = result.fitted(problem);
         if fitted.is_empty() || fitted.free().is_empty() {
             break;
         }
         let found = profiles_of(&fitted, &result, fitted.free(), observer);
         result.course.evaluations += found.evaluations;
-        match found.better.as_ref().filter(|_| !(observer.cancelled)()) {
-            Some(better) => result = with_better_minimum(problem, result, better, observer),
-            None => {
-                result.course.intervals_complete = Some(found.is_complete);
-                set_intervals(&fitted, &mut result, &found);
-                break;
-            }
+        let mut is_settled = found.better.is_empty() || round == MOST_MINIMA || (observer.cancelled)();
+        if !found.better.is_empty() {
+            let before = result.course.minima.first().and_then(|best| fitted.sum_of_squares(&best.parameters));
+            result = with_better_minimum(problem, result, &found.better, observer);
+            let after = fitted.sum_of_squares(&result.parameters);
+            let fall = before.zip(after).map_or(0.0, |(before, after)| before - after);
+            // Limits that have hardly moved leave the intervals as they are.
+            is_settled |= found.is_complete && fall <= SLIGHT * rises(&fitted, &result, after.unwrap_or(0.0), fitted.free()[0])[0];
+        }
+        if is_settled {
+            result.course.intervals_complete = Some(found.is_complete);
+            set_intervals(&fitted, &mut result, &found);
+            break;
         }
     }
     result.course.intervals_ms = (observer.clock)() - begin;
@@ -144,10 +154,11 @@ fn rises(problem: &Problem, result: &FitResult, sum_of_squares: f64, parameter: 
     })
 }
 
-/// The same fit from the better point.
-fn with_better_minimum(problem: &Problem, result: FitResult, better: &ProfileFit, observer: Observer<'_>) -> FitResult {
+/// The same fit from the better points.
+fn with_better_minimum(problem: &Problem, result: FitResult, better: &[ProfileFit], observer: Observer<'_>) -> FitResult {
     let fitted = result.fitted(problem);
-    let further = fit_local(&fitted.with_start(fitted.parameters_at(&better.x)), Effort::Polish, observer);
+    let polished = |fit: &ProfileFit| fit_local(&fitted.with_start(fitted.parameters_at(&fit.x)), Effort::Polish, observer);
+    let followed: Vec<LocalFit> = better.iter().take(POLISHED).map(polished).collect();
     let course = result.course;
     let known = |parameters: Parameters| LocalFit {
         parameters,
@@ -157,10 +168,12 @@ fn with_better_minimum(problem: &Problem, result: FitResult, better: &ProfileFit
         trace: Vec::new(),
         path: Vec::new(),
     };
-    let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations + further.evaluations };
-    let mut best = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(result.parameters) };
-    best.append(further);
-    found.merge(Basin { local_fit: best, hits: 1 });
+    let evaluations = followed.iter().map(|further| further.evaluations).sum::<usize>();
+    let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations + evaluations };
+    let before = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(result.parameters) };
+    for further in followed {
+        found.merge(Basin { local_fit: before.clone().followed_by(further), hits: 1 });
+    }
     for minimum in course.minima {
         found.merge(Basin { local_fit: known(minimum.parameters), hits: minimum.hits });
     }

@@ -31,6 +31,8 @@ const ACCURACY: f64 = 1e-4;
 const PATIENCE: usize = 40;
 /// A challenger must stay below the limit by this fraction of the rise.
 const MARGIN: f64 = 0.01;
+/// A point that lies below the minimum by this fraction of the first limit's rise ends the walk.
+const LOWER: f64 = 0.05;
 /// Branches that a walk changes to at a limit, at most.
 const MOST_BRANCHES: usize = 12;
 
@@ -155,9 +157,14 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             let reaches = step.abs() >= 0.999 * (end - here).abs();
             let value = if reaches { self.bound } else { self.at.problem.from_straight(self.unknown, here + step) };
             let fit = self.held_fit(value, &self.predicted(value));
-            let is_above = self.rise(&fit) >= self.rises[level];
+            let rise = self.rise(&fit);
             self.points.push(fit);
-            if is_above {
+            if rise < -LOWER * self.rises[0] {
+                // The minimum is none: the walk is over.
+                self.is_incomplete = true;
+                return None;
+            }
+            if rise >= self.rises[level] {
                 return Some(self.points.len() - 1);
             }
         }

@@ -14,7 +14,7 @@ use std::cell::RefCell;
 /// First step bound, relative to the scaled start. MINPACK's default of 100 overshoots from far starts.
 const STEP_BOUND: f64 = 1.0;
 /// Relative reduction of the sum of squares in a step below which progress counts as slow.
-const TOLERANCE: f64 = 1e-5;
+const TOLERANCE: f64 = 1e-3;
 
 /// Minimises until progress is slow, for at most `patience` evaluations per unknown and one. Returns the best point, and why it
 /// ended.

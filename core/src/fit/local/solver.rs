@@ -36,6 +36,8 @@ const STEPS: usize = 2000;
 const PATIENCE: usize = 400;
 /// The same for one start among many; a good one of them is followed further by [`Effort::Polish`].
 const COARSE_PATIENCE: usize = 50;
+/// Square of the relative offset at which such a start has shown its minimum.
+const COARSE_TOLERANCE: f64 = 1e-8;
 /// The same for MINPACK, whose creeping along curved valleys is left to the bounded solver.
 const MINPACK_PATIENCE: usize = 30;
 /// The same for a probe: ten evaluations with nine unknowns, enough to rank starts.
@@ -82,7 +84,7 @@ fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, recorder: &mut Rec
     if stop == StopReason::Cancelled {
         return stop;
     }
-    let limits = Limits { evaluations: COARSE_PATIENCE * (start.len() + 1), ..LIMITS };
+    let limits = Limits { evaluations: COARSE_PATIENCE * (start.len() + 1), tolerance: COARSE_TOLERANCE, ..LIMITS };
     BoundedLm::new(problem, &from).run(limits, recorder)
 }
 

@@ -39,6 +39,15 @@ impl MultistartResult {
         self.basins.first().map_or(f64::INFINITY, |basin| basin.local_fit.sum_of_squares)
     }
 
+    /// The expected share of starts that end in minima not seen yet, `w(w + 1)/(n(n − 1))` of w distinct minima after n starts (Boender
+    /// and Kan, Math. Program. 37, 59 (1987)); none after a single start.
+    pub(crate) fn unseen_share(&self) -> Option<f64> {
+        let starts: usize = self.basins.iter().map(|basin| basin.hits).sum();
+        #[expect(clippy::cast_precision_loss, reason = "numbers of starts")]
+        let (w, n) = (self.basins.len() as f64, starts as f64);
+        (starts > 1).then(|| (w * (w + 1.0) / (n * (n - 1.0))).min(1.0))
+    }
+
     /// Whether the best minimum is at rounding, so that no better one can be.
     pub(crate) fn is_exact(&self) -> bool {
         self.basins.first().is_some_and(|basin| basin.local_fit.stop_reason == StopReason::ResidualsZero)

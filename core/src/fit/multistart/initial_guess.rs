@@ -1,21 +1,24 @@
-//! First guesses by variable projection (Golub and Pereyra, SIAM J. Numer. Anal. 10, 413 (1973)) on a grid: k_d and k_v from linear
-//! least squares at each point of a grid of the other parameters.
+//! First guesses by variable projection (Golub and Pereyra, SIAM J. Numer. Anal. 10, 413 (1973)) on a grid: the weights from linear least
+//! squares at each point of a grid of the other parameters.
 //!
-//! For fixed shapes (n, k, σ, q, c, σ_v), `1/X = (1 + g)/L` with the Fresnel limit L and `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d
-//! and k_v. Linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`: a least squares problem in the box of k_d and k_v, solved once
-//! about the measured DoLP and once more about what came of it.
+//! For fixed shapes (n, k, σ, q, c, σ_v) the BRDF is linear in k_s, k_d and k_v. Of DoLP, `1/X = (1 + g)/L` with the Fresnel limit L and
+//! `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d and k_v; linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`. That is solved
+//! about the measured DoLP and, at grid minima, once more about what came of it.
 //!
 //! A point of the grid that is lower than its neighbours along each axis is a grid minimum: a minimum of the objective is near.
 
+use crate::fit::local::tall_qr::dot;
+use crate::fit::multistart::box_least_squares::BoxLeastSquares;
 use crate::fit::objective::Problem;
-use crate::model::{Diffuse, Model, Parameter, ParameterSet, Parameters, Pbrdf, Reflection};
+use crate::fit::observations::Kind;
+use crate::model::{Batch, Diffuse, DolpFormula, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances};
 
 /// The axes of the grid. Volume lobes of different widths reach different rows, hence the many σ_v.
 const AXES: [(Parameter, &[f64]); 6] = [
-    (Parameter::N, &[0.06, 0.2, 0.5, 0.9, 1.4, 2.2, 3.5, 6.0]),
-    (Parameter::K, &[0.05, 0.4, 1.0, 2.0, 3.2, 4.5, 7.0, 11.0]),
-    (Parameter::Sigma, &[0.03, 0.07, 0.13, 0.22, 0.35, 0.6, 1.1, 2.5]),
-    (Parameter::Q, &[1.002, 1.15, 1.5, 2.2, 5.0]),
+    (Parameter::N, &[0.1, 0.4, 0.9, 1.4, 2.2, 4.5]),
+    (Parameter::K, &[0.1, 0.8, 2.0, 3.2, 5.5, 10.0]),
+    (Parameter::Sigma, &[0.04, 0.1, 0.2, 0.35, 0.65, 1.5]),
+    (Parameter::Q, &[1.05, 1.5, 2.2, 5.0]),
     (Parameter::C, &[-1.0, -0.7, -0.35, 0.0]),
     (Parameter::SigmaV, &[0.02, 0.06, 0.1, 0.16, 0.25, 0.4, 0.65, 1.1, 2.2]),
 ];
@@ -28,53 +31,74 @@ const LOBES: [(Parameter, &[f64]); 4] = [
 ];
 /// Rows of data on which the grid is judged, at most: the time of the grid is proportional to their number.
 const ROWS: usize = 32;
+/// The weights, in the order of the unknowns of the least squares.
+const WEIGHTS: [Parameter; 3] = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
+/// Above this, squares of a row's coefficients come near the end of f64.
+const FAINT: f64 = 1e100;
 
-/// A guess, and its sum of squared differences of DoLP over the rows of the grid.
+/// A guess, and its sum of squared differences over the rows of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guess {
     pub misfit: f64,
     pub parameters: Parameters,
 }
 
-/// The lowest points of the whole grid, the lowest first; none where the data have a BRDF or no DoLP but 0, the model has no specular lobe, or k_d
-/// and k_v are both fixed.
+/// The lowest points of the whole grid, the lowest first: of the grid of DoLP, or that of the BRDF, or of both in turns. None where the model has no
+/// specular lobe or no weight is free.
 pub(crate) fn grid_minima(problem: &Problem) -> Vec<Guess> {
-    let Some(grid) = Grid::new(problem, problem.start(), &AXES) else { return Vec::new() };
-    grid.grid_minima()
+    minima_over(problem, problem.start(), &AXES)
 }
 
 /// The lowest points over σ, q, c and σ_v with n and k as they are there, the lowest first.
 pub(crate) fn lobe_grid_minima(problem: &Problem, at: &Parameters) -> Vec<Guess> {
-    let Some(grid) = Grid::new(problem, at, &LOBES) else { return Vec::new() };
-    grid.grid_minima()
+    minima_over(problem, at, &LOBES)
 }
 
-/// A grid of shapes and the rows that it is judged by.
+fn minima_over(problem: &Problem, base: &Parameters, axes: &[(Parameter, &[f64])]) -> Vec<Guess> {
+    let minima = |kind| Grid::new(problem, base, axes, kind).map_or_else(Vec::new, |grid| grid.grid_minima());
+    let (dolp, brdf) = (minima(Kind::Dolp), minima(Kind::Brdf));
+    // In turns: each sees a part of the data, and their misfits are of different kinds.
+    let (mut dolp, mut brdf) = (dolp.into_iter(), brdf.into_iter());
+    let mut turns = Vec::with_capacity(dolp.len() + brdf.len());
+    while dolp.len() + brdf.len() > 0 {
+        turns.extend(dolp.next());
+        turns.extend(brdf.next());
+    }
+    turns
+}
+
+/// A grid of shapes and the rows of DoLP or BRDF that it is judged by.
 struct Grid<'a> {
     problem: &'a Problem,
-    /// Places in the problem's scene with the measured DoLP.
-    rows: Vec<(usize, f64)>,
+    kind: Kind,
+    batch: Batch,
+    measured: Vec<f64>,
     /// Values of n, k, σ, q, c, σ_v: one alone where the parameter is fixed.
     axes: [Vec<f64>; 6],
     base: Parameters,
-    fit_d: bool,
-    fit_v: bool,
+    /// Whether k_s, k_d and k_v are fitted.
+    fitted: [bool; 3],
 }
 
-/// The lobe of each c, or of each σ_v, on each row.
+/// A lobe of unit weight, or of its weight where that is not fitted: for each shape its value on each row, relative to the measured value
+/// where that is a BRDF.
 type LobeColumns = Vec<Vec<f64>>;
 
 impl<'a> Grid<'a> {
-    fn new(problem: &'a Problem, base: &Parameters, values: &[(Parameter, &[f64])]) -> Option<Self> {
+    fn new(problem: &'a Problem, base: &Parameters, values: &[(Parameter, &[f64])], kind: Kind) -> Option<Self> {
         let free: ParameterSet = problem.free().iter().copied().collect();
         let model = problem.model();
-        let fit_d = free.contains(Parameter::Kd) && model.diffuse != Diffuse::Absent;
-        let fit_v = free.contains(Parameter::Kv) && model.volume;
-        if !problem.knows_only_ratios() || !model.specular || !(fit_d || fit_v) {
+        let fitted = [
+            free.contains(Parameter::Ks) && kind != Kind::Dolp,
+            free.contains(Parameter::Kd) && model.diffuse != Diffuse::Absent,
+            free.contains(Parameter::Kv) && model.volume,
+        ];
+        let is_linear = kind != Kind::Dolp || model.dolp_formula == DolpFormula::Consistent;
+        if !is_linear || !model.specular || fitted == [false; 3] {
             return None;
         }
-        let rows = problem.observations().dolp_rows(ROWS);
-        // Where no measured DoLP is above 0, k_d and k_v would only go to their bounds.
+        let rows = problem.observations().rows(kind.block(), ROWS);
+        // Where no measured value is above 0, the weights would only go to their bounds.
         if rows.iter().all(|(_, measured)| *measured <= 0.0) {
             return None;
         }
@@ -83,7 +107,9 @@ impl<'a> Grid<'a> {
             let inside: Vec<f64> = values.iter().copied().filter(|&value| problem.bounds().contain(parameter, value)).collect();
             if free.contains(parameter) && !inside.is_empty() { inside } else { vec![base[parameter]] }
         });
-        Some(Self { problem, rows, axes, base: *base, fit_d, fit_v })
+        let facets = problem.geometries().facets();
+        let batch = Batch::from_facets(rows.iter().map(|&(point, _)| facets[point]).collect()).single_threaded();
+        Some(Self { problem, kind, batch, measured: rows.into_iter().map(|row| row.1).collect(), axes, base: *base, fitted })
     }
 
     /// The guess at each point of the grid, σ_v running fastest; those that make no surface have an infinite misfit.
@@ -106,79 +132,116 @@ impl<'a> Grid<'a> {
         #[cfg(feature = "threads")]
         {
             use rayon::prelude::*;
-            optics.par_iter().flat_map_iter(all).collect()
+            optics.par_iter().with_min_len(16).flat_map_iter(all).collect()
         }
         #[cfg(not(feature = "threads"))]
         optics.iter().flat_map(all).collect()
     }
 
-    /// The diffuse lobe on each row for each c, k_d being 1 where it is fitted.
+    /// The weight of a lobe in the columns of the least squares: 1 where it is fitted.
+    fn weight(&self, j: usize) -> f64 {
+        if self.fitted[j] { 1.0 } else { self.base[WEIGHTS[j]] }
+    }
+
+    /// The diffuse lobe on each row for each c.
     fn diffuse(&self, optics: &Parameters) -> LobeColumns {
-        let kd = if self.fit_d { 1.0 } else { self.base.kd };
-        let column = |&c: &f64| self.column(Parameters { c, kd, ..*optics }, |reflection| reflection.diffuse);
+        let column =
+            |&c: &f64| self.lobe(Parameters { c, kd: self.weight(1), ..*optics }, |surface, facet| surface.reflection(facet).diffuse);
         self.axes[4].iter().map(column).collect()
     }
 
-    /// The volume lobe on each row for each σ_v, k_v being 1 where it is fitted.
+    /// The volume lobe on each row for each σ_v.
     fn volume(&self) -> LobeColumns {
-        let kv = if self.fit_v { 1.0 } else { self.base.kv };
-        let column = |&sigma_v: &f64| self.column(Parameters { sigma_v, kv, ..self.base }, |reflection| reflection.volume);
+        let column = |&sigma_v: &f64| {
+            self.lobe(Parameters { sigma_v, kv: self.weight(2), ..self.base }, |surface, facet| surface.reflection(facet).volume)
+        };
         self.axes[5].iter().map(column).collect()
     }
 
-    fn column(&self, parameters: Parameters, value: impl Fn(Reflection) -> f64) -> Vec<f64> {
-        let Ok(surface) = Pbrdf::new(self.problem.model(), parameters) else { return vec![0.0; self.rows.len()] };
-        self.rows.iter().map(|&(point, _)| value(self.problem.geometries().reflection(&surface, point))).collect()
+    fn lobe(&self, parameters: Parameters, value: impl Fn(&Pbrdf, &crate::optics::Facet) -> f64) -> Vec<f64> {
+        let Ok(surface) = Pbrdf::new(self.problem.model(), parameters) else { return vec![0.0; self.batch.len()] };
+        let values = self.batch.facets().iter().map(|facet| value(&surface, facet));
+        if self.kind == Kind::Dolp {
+            values.collect()
+        } else {
+            values.zip(&self.measured).map(|(value, measured)| value / measured).collect()
+        }
     }
 
     /// The guesses for one specular lobe.
     fn guesses_of(&self, optics: &Parameters, diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<Guess> {
-        // Alone, the specular lobe has the Fresnel limit for its DoLP.
-        let alone = Model { diffuse: Diffuse::Absent, volume: false, ..self.problem.model() };
-        let specular = Pbrdf::new(alone, *optics).ok().map(|surface| {
-            let row = |&(point, measured): &(usize, f64)| Row::new(measured, self.problem.geometries().reflection(&surface, point));
-            self.rows.iter().map(row).collect::<Vec<_>>()
-        });
-        let mut guesses = Vec::with_capacity(self.axes[4].len() * self.axes[5].len());
-        for (&c, diffuse) in self.axes[4].iter().zip(diffuse) {
-            for (&sigma_v, volume) in self.axes[5].iter().zip(volume) {
-                let mut guess = Guess { misfit: f64::INFINITY, parameters: Parameters { c, sigma_v, ..*optics } };
-                if let Some(rows) = &specular {
-                    self.solve_weights(rows, diffuse, volume, &mut guess);
-                }
-                guesses.push(guess);
-            }
+        let shapes = self.axes[4].iter().flat_map(|&c| self.axes[5].iter().map(move |&sigma_v| Parameters { c, sigma_v, ..*optics }));
+        let Some(specular) = self.specular(optics) else {
+            return shapes.map(|parameters| Guess { misfit: f64::INFINITY, parameters }).collect();
+        };
+        let ranges = self.ranges();
+        let lobes = || diffuse.iter().flat_map(|d| volume.iter().map(move |v| (d, v)));
+        if self.kind == Kind::Dolp {
+            let rows = DolpRows::new(&self.measured, &specular);
+            let solved = rows.measured_normals(ranges, diffuse, volume).into_iter().map(|normal| normal.minimum());
+            let guess = |parameters, (d, v): (&Vec<f64>, &Vec<f64>), weights| Guess {
+                misfit: rows.misfit(weights, d, v),
+                parameters: self.with_weights(parameters, weights),
+            };
+            shapes.zip(lobes()).zip(solved).map(|((parameters, pair), weights)| guess(parameters, pair, weights)).collect()
+        } else {
+            let relative: Vec<f64> = specular.specular.iter().zip(&self.measured).map(|(s, measured)| s / measured).collect();
+            let guess = |(parameters, normal): (Parameters, BoxLeastSquares)| {
+                let weights = normal.minimum();
+                Guess { misfit: normal.value(weights), parameters: self.with_weights(parameters, weights) }
+            };
+            shapes.zip(brdf_normals(ranges, &relative, diffuse, volume)).map(guess).collect()
         }
-        guesses
     }
 
-    /// Fits k_d and k_v.
-    fn solve_weights(&self, rows: &[Row], diffuse: &[f64], volume: &[f64], guess: &mut Guess) {
+    /// The specular lobe alone, which has the Fresnel limit for its DoLP; none where it is no surface.
+    fn specular(&self, optics: &Parameters) -> Option<Radiances> {
+        let alone = Model { diffuse: Diffuse::Absent, volume: false, ..self.problem.model() };
+        let ks = if self.kind == Kind::Dolp { self.base.ks } else { self.weight(0) };
+        let surface = Pbrdf::new(alone, Parameters { ks, ..*optics }).ok()?;
+        let mut specular = Radiances::default();
+        self.batch.radiances(&surface, &mut specular);
+        Some(specular)
+    }
+
+    fn ranges(&self) -> [(f64, f64); 3] {
         // What is not fitted counts once, with the weight that it has.
-        let range = |parameter, fitted| if fitted { self.problem.bounds().of(parameter) } else { (1.0, 1.0) };
-        let (d_range, v_range) = (range(Parameter::Kd, self.fit_d), range(Parameter::Kv, self.fit_v));
-        let mut weights = None;
-        for _ in 0..PASSES {
-            let mut normal = Normal::default();
-            for (row, (&d, &v)) in rows.iter().zip(diffuse.iter().zip(volume)) {
-                row.count(weights, d, v, &mut normal);
+        [0, 1, 2].map(|j| if self.fitted[j] { self.problem.bounds().of(WEIGHTS[j]) } else { (1.0, 1.0) })
+    }
+
+    fn with_weights(&self, mut parameters: Parameters, weights: [f64; 3]) -> Parameters {
+        for j in 0..3 {
+            if self.fitted[j] {
+                parameters[WEIGHTS[j]] = weights[j];
             }
-            let (kd, kv) = normal.minimum(d_range, v_range);
-            let difference = |(row, (d, v)): (&Row, (&f64, &f64))| row.dolp(kd * d + kv * v) - row.measured;
-            let misfit: f64 = rows.iter().zip(diffuse.iter().zip(volume)).map(difference).map(|x| x * x).sum();
-            if misfit < guess.misfit {
-                guess.misfit = misfit;
-                guess.parameters.kd = if self.fit_d { kd } else { self.base.kd };
-                guess.parameters.kv = if self.fit_v { kv } else { self.base.kv };
-            }
-            weights = Some((kd, kv));
         }
+        parameters
+    }
+
+    /// A guess of DoLP, linearised once more about what came of it.
+    fn improved(&self, guess: Guess) -> Guess {
+        let Some(specular) = self.specular(&guess.parameters).filter(|_| self.kind == Kind::Dolp) else { return guess };
+        let rows = DolpRows::new(&self.measured, &specular);
+        let Parameters { c, sigma_v, .. } = guess.parameters;
+        let alone = Grid {
+            axes: [vec![], vec![], vec![], vec![], vec![c], vec![sigma_v]],
+            batch: self.batch.clone(),
+            measured: Vec::new(),
+            ..*self
+        };
+        let (diffuse, volume) = (alone.diffuse(&guess.parameters), alone.volume());
+        let weights = WEIGHTS.map(|weight| guess.parameters[weight]);
+        let held = [0, 1, 2].map(|j| if self.fitted[j] { weights[j] } else { 1.0 });
+        let solved = rows.normal_about(held, self.ranges(), &diffuse[0], &volume[0]).minimum();
+        let misfit = rows.misfit(solved, &diffuse[0], &volume[0]);
+        if misfit < guess.misfit { Guess { misfit, parameters: self.with_weights(guess.parameters, solved) } } else { guess }
     }
 
     /// The points that are lower than their neighbours along each axis; of equal neighbours the first counts as lower.
     fn grid_minima(&self) -> Vec<Guess> {
         let guesses = self.guesses();
-        let mut grid_minima: Vec<Guess> = (0..guesses.len()).filter(|&i| self.is_minimum(&guesses, i)).map(|i| guesses[i]).collect();
+        let minima = (0..guesses.len()).filter(|&i| self.is_minimum(&guesses, i));
+        let mut grid_minima: Vec<Guess> = minima.map(|i| self.improved(guesses[i])).collect();
         grid_minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
         grid_minima
     }
@@ -197,95 +260,95 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// Linearisations: about the measured DoLP, and about the DoLP of the first solution.
-const PASSES: usize = 2;
-
-/// A row under one specular lobe.
-struct Row {
-    measured: f64,
-    /// DoLP_s.
-    limit: f64,
-    /// k_s F^s, above 0.
-    specular: f64,
-    /// 1/(L k_s F^s); 0 where that is beyond f64, and the row has nothing to say of k_d and k_v.
-    scale: f64,
+/// The normal equations of relative differences of the BRDF for each pair of lobes, given the specular lobe relative to what is measured.
+fn brdf_normals(ranges: [(f64, f64); 3], specular: &[f64], diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<BoxLeastSquares> {
+    let ones = vec![1.0; specular.len()];
+    normals(ranges, Some(specular), diffuse, volume, &ones)
 }
 
-impl Row {
-    fn new(measured: f64, alone: Reflection) -> Self {
-        let Reflection { dolp: limit, specular, .. } = alone;
-        let scale = 1.0 / (limit * specular);
-        let scale = if scale < FAINT { scale } else { 0.0 };
-        Self { measured, limit, specular: specular.max(f64::MIN_POSITIVE), scale }
+/// The normal equations of each pair of lobes: products of columns, each formed once.
+fn normals(
+    ranges: [(f64, f64); 3],
+    specular: Option<&[f64]>,
+    diffuse: &LobeColumns,
+    volume: &LobeColumns,
+    right: &[f64],
+) -> Vec<BoxLeastSquares> {
+    let constant = dot(right, right);
+    let with = |column: &[f64]| specular.map_or(0.0, |specular| dot(specular, column));
+    let (ss, sy) = (specular.map_or(0.0, |specular| dot(specular, specular)), with(right));
+    let of_volume: Vec<[f64; 3]> = volume.iter().map(|v| [dot(v, v), with(v), dot(v, right)]).collect();
+    let mut normals = Vec::with_capacity(diffuse.len() * volume.len());
+    for d in diffuse {
+        let (dd, sd, dy) = (dot(d, d), with(d), dot(d, right));
+        for (v, &[vv, sv, vy]) in volume.iter().zip(&of_volume) {
+            let square = [[ss, sd, sv], [0.0, dd, dot(d, v)], [0.0, 0.0, vv]];
+            normals.push(BoxLeastSquares { square, right: [sy, dy, vy], constant, ranges });
+        }
+    }
+    normals
+}
+
+/// The rows of DoLP under one specular lobe.
+struct DolpRows<'a> {
+    measured: &'a [f64],
+    /// DoLP_s.
+    limit: &'a [f64],
+    /// k_s F^s, above 0.
+    specular: Vec<f64>,
+    /// 1/(L k_s F^s); 0 where that is beyond f64, and the row has nothing to say of k_d and k_v.
+    scale: Vec<f64>,
+}
+
+impl<'a> DolpRows<'a> {
+    fn new(measured: &'a [f64], alone: &'a Radiances) -> Self {
+        let scale = alone.dolp.iter().zip(&alone.specular).map(|(limit, specular)| 1.0 / (limit * specular));
+        Self {
+            measured,
+            limit: &alone.dolp,
+            specular: alone.specular.iter().map(|specular| specular.max(f64::MIN_POSITIVE)).collect(),
+            scale: scale.map(|scale| if scale < FAINT { scale } else { 0.0 }).collect(),
+        }
     }
 
     /// DoLP, given what is added to the specular lobe.
-    fn dolp(&self, added: f64) -> f64 {
-        self.limit * self.specular / (self.specular + added)
+    fn dolp(&self, i: usize, added: f64) -> f64 {
+        self.limit[i] * self.specular[i] / (self.specular[i] + added)
     }
 
-    /// Adds the row to the normal equations, linearised where k_d and k_v are as given, or where DoLP is as measured.
-    fn count(&self, weights: Option<(f64, f64)>, d: f64, v: f64, normal: &mut Normal) {
-        if self.scale == 0.0 {
-            return;
-        }
-        // X − Xm = X₀ − Xm − (X₀²/L)(g − g₀), and at X₀ = Xm, (X₀²/L) g₀ = X₀ − X₀²/L; a dark row has no g₀ and no weight there.
-        let (x, added) = match weights {
-            Some((kd, kv)) => (self.dolp(kd * d + kv * v), kd * d + kv * v),
-            None if self.measured > 0.0 => (self.measured, self.specular * (self.limit / self.measured - 1.0)),
-            None => return,
+    /// Σ (X − Xm)².
+    fn misfit(&self, [_, kd, kv]: [f64; 3], diffuse: &[f64], volume: &[f64]) -> f64 {
+        let difference = |i: usize| self.dolp(i, kd * diffuse[i] + kv * volume[i]) - self.measured[i];
+        (0..self.measured.len()).map(|i| difference(i) * difference(i)).sum()
+    }
+
+    /// The normal equations of each pair of lobes, linearised where DoLP is as measured: `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)` with
+    /// `(X₀²/L) g₀ = X₀ − X₀²/L`. A dark row has no g₀ and no weight.
+    fn measured_normals(&self, ranges: [(f64, f64); 3], diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<BoxLeastSquares> {
+        let slopes: Vec<f64> = self.measured.iter().zip(&self.scale).map(|(x, scale)| x * x * scale).collect();
+        let reduced = |i: usize| slopes[i] * self.specular[i] * (self.limit[i] / self.measured[i] - 1.0);
+        let right: Vec<f64> = (0..slopes.len()).map(|i| if slopes[i] > 0.0 { reduced(i) } else { 0.0 }).collect();
+        let weighted = |columns: &LobeColumns| -> LobeColumns {
+            columns.iter().map(|column| column.iter().zip(&slopes).map(|(value, slope)| value * slope).collect()).collect()
         };
-        let slope = x * x * self.scale;
-        let (d, v, y) = (slope * d, slope * v, x - self.measured + slope * added);
-        normal.dd += d * d;
-        normal.dv += d * v;
-        normal.vv += v * v;
-        normal.dy += d * y;
-        normal.vy += v * y;
+        normals(ranges, None, &weighted(diffuse), &weighted(volume), &right)
     }
-}
 
-/// The sums of the normal equations of k_d and k_v.
-#[derive(Debug, Clone, Copy, Default)]
-struct Normal {
-    dd: f64,
-    dv: f64,
-    vv: f64,
-    dy: f64,
-    vy: f64,
-}
-
-/// Above this, squares of a row's coefficients come near the end of f64.
-const FAINT: f64 = 1e100;
-
-impl Normal {
-    /// Minimises `dd x² + 2dv xy + vv y² − 2 dy x − 2 vy y` over the box of x and y.
-    fn minimum(&self, x_range: (f64, f64), y_range: (f64, f64)) -> (f64, f64) {
-        let Self { dd, dv, vv, dy, vy } = *self;
-        let within = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
-        let determinant = dd * vv - dv * dv;
-        if determinant > 1e-12 * dd * vv {
-            let (x, y) = ((dy * vv - vy * dv) / determinant, (vy * dd - dy * dv) / determinant);
-            if within(x, x_range) && within(y, y_range) {
-                return (x, y);
-            }
-        }
-        // The minimum is on an edge; along an edge it is that of a parabola.
-        let along = |square: f64, right: f64, (low, high): (f64, f64)| if square > 0.0 { (right / square).clamp(low, high) } else { low };
-        let edges = [
-            (x_range.0, along(vv, vy - dv * x_range.0, y_range)),
-            (x_range.1, along(vv, vy - dv * x_range.1, y_range)),
-            (along(dd, dy - dv * y_range.0, x_range), y_range.0),
-            (along(dd, dy - dv * y_range.1, x_range), y_range.1),
-        ];
-        let value = |(x, y): (f64, f64)| x * (dd * x + 2.0 * dv * y - 2.0 * dy) + y * (vv * y - 2.0 * vy);
-        edges.into_iter().fold(edges[0], |best, edge| if value(edge) < value(best) { edge } else { best })
+    /// The same for one pair of lobes, linearised where the weights are as given.
+    fn normal_about(&self, [_, kd, kv]: [f64; 3], ranges: [(f64, f64); 3], diffuse: &[f64], volume: &[f64]) -> BoxLeastSquares {
+        let added = |i: usize| kd * diffuse[i] + kv * volume[i];
+        let slopes: Vec<f64> = (0..self.measured.len()).map(|i| self.dolp(i, added(i)).powi(2) * self.scale[i]).collect();
+        let reduced = |i: usize| if slopes[i] > 0.0 { self.dolp(i, added(i)) - self.measured[i] + slopes[i] * added(i) } else { 0.0 };
+        let right: Vec<f64> = (0..slopes.len()).map(reduced).collect();
+        let weighted = |column: &[f64]| vec![column.iter().zip(&slopes).map(|(value, slope)| value * slope).collect()];
+        normals(ranges, None, &weighted(diffuse), &weighted(volume), &right)[0]
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{AXES, Grid, Normal, grid_minima, lobe_grid_minima};
+    use super::{AXES, Grid, grid_minima, lobe_grid_minima};
+    use crate::fit::observations::Kind;
     use crate::fit::{Bounds, FitOptions, Problem, free_by_default};
     use crate::measurement::{Columns, Measurement, Simulation};
     use crate::model::{Model, Parameter, Parameters, Pbrdf};
@@ -296,6 +359,10 @@ mod tests {
     const DEFAULT: Parameters = Parameters { n: 2.2, k: 3.2, sigma: 0.35, ks: 1.0, kd: 0.1, kv: 0.0, q: 2.2, c: -0.7, sigma_v: 3.0 };
 
     fn problem() -> Problem {
+        problem_of(Columns::Dolp)
+    }
+
+    fn problem_of(columns: Columns) -> Problem {
         let model = Model::full(SlopeDistribution::Cauchy);
         let measurement: Measurement = Simulation {
             model_name: "cauchy".to_owned(),
@@ -303,7 +370,7 @@ mod tests {
             theta_i: vec![30.0, 50.0],
             theta_r: (0..15).map(|i| f64::from(5 * i)).collect(),
             dphi: 180.0,
-            columns: Columns::Dolp,
+            columns,
             noise: 0.0,
             brdf_noise: 0.0,
             seed: 1,
@@ -312,18 +379,6 @@ mod tests {
         .unwrap();
         let free = free_by_default(model, &measurement, &FitOptions::default());
         Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), FitOptions::default()).unwrap()
-    }
-
-    #[test]
-    fn least_squares_stay_in_the_box() {
-        let solve = |[dd, dv, vv]: [f64; 3], [dy, vy]: [f64; 2]| Normal { dd, dv, vv, dy, vy }.minimum((0.0, 10.0), (0.0, 10.0));
-        assert_eq!(solve([1.0, 0.0, 1.0], [2.0, 3.0]), (2.0, 3.0));
-        assert_eq!(solve([1.0, 0.0, 1.0], [2.0, -3.0]), (2.0, 0.0));
-        assert_eq!(solve([1.0, 0.0, 1.0], [-2.0, -3.0]), (0.0, 0.0));
-        assert_eq!(solve([1.0, 1.0, 1.0], [1.0, 2.0]), (0.0, 2.0));
-        // Without edges (14, −4) and (10, 4): the second lies on one edge, the first is moved along it to the corner.
-        assert_eq!(solve([1.0, 0.5, 0.5], [12.0, 5.0]), (10.0, 0.0));
-        assert_eq!(solve([1.0, 0.5, 0.5], [12.0, 7.0]), (10.0, 4.0));
     }
 
     #[test]
@@ -338,6 +393,19 @@ mod tests {
     }
 
     #[test]
+    fn brdf_has_its_own_guesses() {
+        let lowest = grid_minima(&problem_of(Columns::Brdf))[0];
+        // Rounding of the normal equations of relative differences.
+        assert!(lowest.misfit < 1e-13, "{lowest:?}");
+        for parameter in [Parameter::N, Parameter::K, Parameter::Sigma, Parameter::Q, Parameter::C, Parameter::SigmaV] {
+            assert_eq!(lowest.parameters[parameter], TRUTH[parameter], "{parameter:?}");
+        }
+        for parameter in [Parameter::Ks, Parameter::Kd, Parameter::Kv] {
+            assert!((lowest.parameters[parameter] - TRUTH[parameter]).abs() < 1e-5, "{parameter:?}");
+        }
+    }
+
+    #[test]
     fn a_volume_lobe_is_found_again_from_where_there_is_none() {
         let lowest = lobe_grid_minima(&problem(), &DEFAULT)[0];
         assert!((lowest.parameters.sigma_v - TRUTH.sigma_v).abs() < 0.05, "{lowest:?}");
@@ -347,7 +415,7 @@ mod tests {
     #[test]
     fn grid_minima_are_lower_than_all_neighbours_and_in_order() {
         let problem = problem();
-        let grid = Grid::new(&problem, problem.start(), &AXES).unwrap();
+        let grid = Grid::new(&problem, problem.start(), &AXES, Kind::Dolp).unwrap();
         let guesses = grid.guesses();
         let grid_minima = grid.grid_minima();
         assert!(grid_minima.windows(2).all(|pair| pair[0].misfit <= pair[1].misfit));

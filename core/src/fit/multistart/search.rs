@@ -1,13 +1,13 @@
 //! Multistart global optimisation: descents from many starts, until the best minimum has been found several times.
 //!
 //! Automatic search, in rounds of a fixed number of starts: the first round follows the first guesses; each later one half the most
-//! promising of many probes and half fresh starts. It ends early once the best minimum has been hit often enough and further rounds
-//! bring nothing better. Then the lobes of the best minima are searched again, and the best minima are polished. Descents of a
+//! promising of many probes and half fresh starts. It ends once the best minimum has been hit often enough and the share of starts that
+//! would end in a minimum not seen yet is small, as Boender and Kan expect it. Then the lobes of the best minima are searched again, and the best minima are polished. Descents of a
 //! round run in parallel where there are threads and are judged in their order: the result does not depend on the number of threads.
 
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
-use crate::fit::multistart::basin::{MultistartResult, SAME, SAME_ABSOLUTE};
+use crate::fit::multistart::basin::{MultistartResult, SAME};
 use crate::fit::multistart::initial_guess::lobe_grid_minima;
 use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::objective::Problem;
@@ -32,15 +32,13 @@ pub enum Starts {
 const ROUND: usize = 12;
 /// Probes of automatic search that its promising starts are chosen from: with nine unknowns a probe takes at most ten evaluations,
 /// a coarse descent up to 800.
-const PROBES: usize = 256;
+const PROBES: usize = 96;
 /// Starts of automatic search, at most: eight rounds.
 const MAX_STARTS: usize = 96;
-/// Starts of automatic search, at least: first guesses, promising and fresh ones, a round of each.
-const MIN_STARTS: usize = 36;
 /// Hits of the best minimum from which automatic search may end. Two may be chance, where starts are neighbours.
 const ENOUGH_HITS: usize = 3;
-/// Rounds without improvement after which it then ends.
-const QUIET_ROUNDS: usize = 2;
+/// Expected share of starts that would end in minima not seen yet, below which automatic search ends.
+const UNSEEN_SHARE: f64 = 0.02;
 /// Number of starts up to which each is followed to its minimum. With more, each is probed and the best distinct ones are followed.
 const MAX_FOLLOWED: usize = 128;
 /// Number of the best distinct probes that are followed.
@@ -55,10 +53,13 @@ const POLISH_PASSES: usize = 12;
 const POLISH_TOLERANCE: f64 = 1e-8;
 /// Lobe restarts: number of best minima whose lobes are searched again, the right optical constants being among them.
 const LOBE_BASINS: usize = 14;
-/// Lobe restarts: number of minima of the lobe grid that are followed for each.
-const LOBE_STARTS: usize = 14;
-/// Lobe restarts: passes, at most; each concerns minima that are new since the last.
-const LOBE_PASSES: usize = 4;
+/// Lobe restarts: number of minima of the lobe grid that are followed for each, and passes, at most; each pass concerns minima that are
+/// new since the last.
+const LOBE_EFFORT: (usize, usize) = (6, 2);
+/// The same where the search has found more distinct minima than `RUGGED`.
+const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
+/// Distinct minima beyond which the objective counts as rugged.
+const RUGGED: usize = 5;
 
 /// Fits from many starts. The seed shifts the points that the starts are spread over.
 #[must_use]
@@ -100,26 +101,27 @@ impl Search<'_> {
         (self.observer.cancelled)()
     }
 
-    /// Rounds of descents until all starts are used or, in automatic search, nothing new is found.
+    /// Rounds of descents until all starts are used or, in automatic search, little is left to be seen.
     fn rounds(&mut self, starts: Starts, most: usize) {
         let is_automatic = starts == Starts::Automatic;
         let mut promising = Vec::new();
-        let mut quiet = 0;
         let mut done = 0;
         // The first round runs even if it is cancelled: each of its descents then ends at its start, which is a result.
-        while done < most && quiet < QUIET_ROUNDS && (done == 0 || !self.is_cancelled()) {
+        while done < most && (done == 0 || !self.is_cancelled()) {
             let count = ROUND.min(most - done);
             let round = if is_automatic && done > 0 { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
             done += count;
-            let before = self.found.best();
             self.follow(&round);
-            let improved = self.found.best() < before - SAME_ABSOLUTE && self.found.best() < before * (1.0 - SAME);
-            let hits = self.found.basins.first().map_or(0, |basin| basin.hits);
-            quiet = if !is_automatic || improved || hits < ENOUGH_HITS || done < MIN_STARTS { 0 } else { quiet + 1 };
-            if is_automatic && self.found.is_exact() {
+            if is_automatic && (self.found.is_exact() || self.has_seen_enough()) {
                 break;
             }
         }
+    }
+
+    /// Whether the best minimum was hit several times and the expected share of unseen minima is small.
+    fn has_seen_enough(&self) -> bool {
+        let hits = self.found.basins.first().map_or(0, |basin| basin.hits);
+        hits >= ENOUGH_HITS && self.found.unseen_share().is_some_and(|share| share < UNSEEN_SHARE)
     }
 
     /// Half of the starts the most promising of many probes, half fresh ones: a few steps do not tell everything.
@@ -163,7 +165,8 @@ impl Search<'_> {
     /// From the best minima with other lobes: where k_v or k_d is small, so is the slope along σ_v or c, and no descent leaves.
     fn restart_lobes(&mut self) {
         let mut seen: Vec<f64> = Vec::new();
-        for _ in 0..LOBE_PASSES {
+        let (most, passes) = if self.found.basins.len() > RUGGED { RUGGED_LOBE_EFFORT } else { LOBE_EFFORT };
+        for _ in 0..passes {
             if self.found.is_exact() || self.is_cancelled() {
                 return;
             }
@@ -173,7 +176,7 @@ impl Search<'_> {
                 return;
             }
             seen.extend(best().map(|end| end.sum_of_squares));
-            let guesses = |at: &Parameters| lobe_grid_minima(self.problem, at).into_iter().take(LOBE_STARTS).map(|guess| guess.parameters);
+            let guesses = |at: &Parameters| lobe_grid_minima(self.problem, at).into_iter().take(most).map(|guess| guess.parameters);
             let starts: Vec<Parameters> = fresh.iter().flat_map(guesses).collect();
             self.follow(&starts);
             self.polish(1);
