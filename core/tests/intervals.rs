@@ -1,11 +1,11 @@
 //! What is said about a parameter must be true: profile-likelihood intervals on data that came out wrong, and on their definition.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
 
-use pbrdf::fit::{EstimateStatus, FitOptions, FitResult, Interval, Loss, Observer, Starts, Weights, profile};
+use pbrdf::Fit;
+use pbrdf::fit::{Edge, EstimateStatus, FitOptions, FitResult, Interval, Loss, Observer, Starts, Weights, profile};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::{Cauchy, Gauss};
-use pbrdf::{Edge, Fit};
 use std::path::Path;
 
 const CAUCHY: Model = Model::CAUCHY;
@@ -109,7 +109,7 @@ fn a_held_fit_at_an_end_meets_the_limit_and_at_an_open_side_stays_below() {
     for estimate in result.estimates.iter().filter(|estimate| estimate.free) {
         for (interval, level) in [(estimate.interval68, 0), (estimate.interval95, 1)] {
             let Interval { low, high } = interval.expect("intervals");
-            let (lowest, highest) = estimate.parameter.range();
+            let (lowest, highest) = estimate.parameter.range().into_inner();
             for (end, bound) in [(low, lowest), (high, highest)] {
                 let held = Fit::new(&data, CAUCHY).fix(estimate.parameter, end.unwrap_or(bound)).intervals(pbrdf::fit::Intervals::None);
                 let objective = [Starts::Automatic, Starts::One]

@@ -152,6 +152,12 @@ impl Problem {
         Self { free: free.intersection(self.model.parameters()).iter().collect(), ..self.clone() }
     }
 
+    /// The same problem with about so many of its residuals.
+    #[must_use]
+    pub(crate) fn thinned(&self, most: usize) -> Self {
+        Self { observations: Arc::new(self.observations.thinned(most)), ..self.clone() }
+    }
+
     /// The same problem with every residual counted by its square.
     #[must_use]
     pub fn with_squared_loss(&self) -> Self {

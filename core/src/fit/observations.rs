@@ -19,6 +19,9 @@ pub(crate) struct UnstatedSigma {
     pub quantity: &'static str,
 }
 
+/// 1/φ: its multiples are the most even sequence of one dimension.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
+
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
@@ -199,6 +202,21 @@ impl Observations {
             (Some(dolp), Some(brdf)) => Some(dolp + brdf),
             (dolp, brdf) => dolp.or(brdf),
         }
+    }
+
+    /// About so many of the values, one of each of as many equal parts of the list, at a place that a low-discrepancy sequence picks: no
+    /// stride that could meet the period of a grid of angles.
+    pub(crate) fn thinned(&self, most: usize) -> Self {
+        let step = self.data.len().div_ceil(most).max(1);
+        #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a part")]
+        let place = |part: usize| part * step + ((part as f64 * GOLDEN_RATIO).fract() * step as f64) as usize;
+        let places = (0..self.data.len().div_ceil(step)).map(place).filter(|&i| i < self.data.len());
+        let facets = self.batch.facets();
+        let mut data: Vec<Datum> = places.map(|i| self.data[i]).collect();
+        let batch = Batch::from_facets(data.iter().map(|datum| facets[datum.point]).collect());
+        data.iter_mut().enumerate().for_each(|(point, datum)| datum.point = point);
+        let has = [0, 1].map(|block| data.iter().any(|datum| datum.kind.block() == block));
+        Self { data, batch: Arc::new(batch), has, ..*self }
     }
 
     /// Indices of geometries with their measured DoLP (0) or BRDF (1), evenly picked where there are more than `most`; zeros of DoLP

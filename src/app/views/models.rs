@@ -6,7 +6,7 @@ use crate::app::plots::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::{short, significant};
+use crate::app::text::numbers::{short, significant, within_text};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
@@ -177,8 +177,9 @@ fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
         EstimateStatus::Fixed => tr!("fixed"),
         EstimateStatus::AtBound(_) => tr!("at bound"),
         EstimateStatus::Determined(error) => format!("± {}", short(error)),
+        EstimateStatus::Within(interval) => within_text(estimate.value, interval),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Undetermined => tr!("open"),
+        EstimateStatus::Undetermined => tr!("not determined"),
     };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

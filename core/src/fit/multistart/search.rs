@@ -2,12 +2,13 @@
 //!
 //! Automatic search, in rounds of a fixed number of starts: the first round follows the first guesses; each later one half the most
 //! promising of many probes and half fresh starts. It ends once the best minimum has been hit often enough and the share of starts that
-//! would end in a minimum not seen yet is small, as Boender and Kan expect it. Then the lobes of the best minima are searched again, and the best minima are polished. Descents of a
+//! would end in a minimum not seen yet is small, as Boender and Kan expect it. Of many data a part is explored, and the best minima are
+//! followed on all. Then the lobes of the best minima are searched again, and the best minima are polished. Descents of a
 //! round run in parallel where there are threads and are judged in their order: the result does not depend on the number of threads.
 
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
-use crate::fit::multistart::basin::{MultistartResult, SAME};
+use crate::fit::multistart::basin::{Basin, MultistartResult, SAME};
 use crate::fit::multistart::initial_guess::lobe_grid_minima;
 use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::objective::Problem;
@@ -45,6 +46,11 @@ const MAX_FOLLOWED: usize = 128;
 const KEPT_PROBES: usize = 16;
 /// Probes that are held in memory at once, however many starts are asked for.
 const PROBE_BLOCK: usize = 4096;
+/// Residuals beyond which a part of them is explored, and how many that part has.
+const MANY_RESIDUALS: usize = 1000;
+const SUBSET: usize = 300;
+/// Minima of the part that are followed on all data: those within this factor of the best.
+const NEAR_BEST: f64 = 1.5;
 /// Polishing: number of best minima refined. Polishing may change the order among the best; further down none becomes the best.
 const POLISHED_BASINS: usize = 4;
 /// Polishing: passes, at most.
@@ -75,6 +81,10 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
         found.add(fit_local(problem, Effort::Thorough, observer));
         return found;
     }
+    if problem.len() > MANY_RESIDUALS {
+        let explored = multistart(&problem.thinned(SUBSET), starts, seed, Observer { progress: &|_| {}, ..observer });
+        return finished_on_all(problem, explored, observer);
+    }
     let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed), found };
     if most > MAX_FOLLOWED {
         search.keep_best(most);
@@ -86,6 +96,19 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
     }
     search.polish(POLISH_PASSES);
     search.found
+}
+
+/// The best minima of a part of the data, followed on all of them.
+fn finished_on_all(problem: &Problem, explored: MultistartResult, observer: Observer<'_>) -> MultistartResult {
+    let mut found = MultistartResult { basins: Vec::new(), evaluations: explored.evaluations };
+    let best = explored.best();
+    let is_near = |basin: &Basin| basin.local_fit.sum_of_squares <= best * NEAR_BEST;
+    for Basin { local_fit, hits } in explored.basins.into_iter().take_while(is_near).take(POLISHED_BASINS) {
+        let local_fit = fit_local(&problem.with_start(local_fit.parameters), Effort::Polish, observer);
+        found.evaluations += local_fit.evaluations;
+        found.merge(Basin { local_fit, hits });
+    }
+    found
 }
 
 /// A search under way.

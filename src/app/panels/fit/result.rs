@@ -5,7 +5,7 @@ use crate::app::plots::theme;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::{short, significant};
+use crate::app::text::numbers::{short, significant, within_text};
 use crate::app::views::action::Action;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
@@ -218,7 +218,8 @@ fn error_text(estimate: &Estimate) -> String {
         EstimateStatus::AtBound(Edge::Lower) => tr!("at lower bound"),
         EstimateStatus::AtBound(Edge::Upper) => tr!("at upper bound"),
         EstimateStatus::Determined(error) => format!("{} {}", short(error), estimate.parameter.unit()).trim_end().to_owned(),
+        EstimateStatus::Within(interval) => within_text(estimate.value, interval),
         EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Undetermined => tr!("open"),
+        EstimateStatus::Undetermined => tr!("not determined"),
     }
 }
