@@ -106,13 +106,12 @@ enum Height {
 
 impl Height {
     fn row(self, problem: &Problem, mut parameters: Parameters, across: Parameter, columns: &[f64]) -> Vec<f64> {
+        if self == Self::Minimised || problem.minimises_delta_e() {
+            return problem.sums_of_squares_along(&parameters, across, columns);
+        }
         let mut node = |value: f64| {
             parameters[across] = value;
-            let objective = match self {
-                Self::Minimised => problem.sum_of_squares(&parameters),
-                Self::DeltaE => problem.delta_e(&parameters),
-            };
-            objective.filter(|objective| objective.is_finite()).unwrap_or(f64::NAN)
+            problem.delta_e(&parameters).filter(|objective| objective.is_finite()).unwrap_or(f64::NAN)
         };
         columns.iter().map(|&value| node(value)).collect()
     }

@@ -7,6 +7,7 @@ use crate::fit::loss::robust_scale;
 use crate::fit::observations::{Datum, Kind, Observations, UnstatedSigma};
 use crate::fit::options::{BrdfResiduals, FitOptions, Loss, Weights};
 use crate::measurement::Measurement;
+use crate::model::batch::surface_row::{MeasuredDolp, dolp_misfits};
 use crate::model::{DolpFormula, GeometrySet, Model, Parameter, ParameterSet, Parameters, Pbrdf, PerParameter, Radiances};
 use nalgebra::{DMatrix, DVector};
 use std::cell::Cell;
@@ -392,6 +393,32 @@ impl Problem {
     pub fn sum_of_squares(&self, parameters: &Parameters) -> Option<f64> {
         let mut residuals = DVector::zeros(self.len());
         (!self.is_empty() && self.residuals(parameters, &mut residuals)).then(|| residuals.norm_squared())
+    }
+
+    /// The sum of squares at those parameters with one of them at each of the values; NaN where it is not finite or the parameters are no
+    /// surface.
+    pub(crate) fn sums_of_squares_along(&self, parameters: &Parameters, along: Parameter, values: &[f64]) -> Vec<f64> {
+        let fast = || {
+            let is_plain = !self.observations.has_brdf() && self.options.loss == Loss::Squared && !self.is_empty();
+            if !is_plain {
+                return None;
+            }
+            let facets = self.observations.batch().facets();
+            let measured = |datum: &Datum| MeasuredDolp {
+                facet: &facets[datum.point],
+                measured: datum.measured,
+                weight: self.block_weights[0] * datum.weight,
+            };
+            let data: Vec<MeasuredDolp<'_>> = self.observations.data().iter().map(measured).collect();
+            dolp_misfits(&data, self.model, parameters, along, values)
+        };
+        let mut sums = fast().unwrap_or_else(|| vec![f64::NAN; values.len()]);
+        for (sum, &value) in sums.iter_mut().zip(values).filter(|(sum, _)| !sum.is_finite()) {
+            let mut there = *parameters;
+            there[along] = value;
+            *sum = self.sum_of_squares(&there).unwrap_or(f64::NAN);
+        }
+        sums
     }
 
     /// Whether the sum of squares is ΔE of Eq. (18).

@@ -6,7 +6,7 @@
 
 mod assignment;
 mod audit;
-mod batch;
+pub(crate) mod batch;
 mod domain;
 mod finishes;
 mod geometry_set;

@@ -96,6 +96,11 @@ impl Coefficients {
         (model.specular && model.diffuse != Diffuse::Hyde && coefficients.stay_in_range()).then_some(coefficients)
     }
 
+    /// Whether there is a diffuse term.
+    pub(crate) fn has_diffuse(&self) -> bool {
+        self.model.diffuse != Diffuse::Absent
+    }
+
     fn stay_in_range(&self) -> bool {
         let p = &self.parameters;
         let is_moderate = |height: f64, weight: f64| height.max(weight * height) <= LARGEST_RATIO;

@@ -11,6 +11,7 @@
 use crate::model::batch::coefficients::Coefficients;
 use crate::model::batch::elementary::{exp, ln_1p};
 use crate::model::batch::lanes::{Kernel, Mask, Points, V, choose, number};
+use crate::model::batch::prepared::{LANES, PointBlock};
 use crate::optics::Masking;
 use fearless_simd::prelude::*;
 
@@ -23,6 +24,7 @@ pub(crate) const LAMBERT: u8 = 1;
 pub(crate) const MINNAERT: u8 = 2;
 
 /// Fresnel reflection of the facets, without a reflectance: what DoLP and BRDF share.
+#[derive(Clone, Copy)]
 pub(crate) struct FresnelLanes<S: Simd> {
     pub sin_sq: V<S>,
     pub cos_sq: V<S>,
@@ -40,20 +42,45 @@ pub(crate) struct FresnelLanes<S: Simd> {
     pub w: V<S>,
 }
 
+/// What [`FresnelLanes`] needs of an index, in lanes: [`crate::model::batch::coefficients::IndexCoefficients`].
+#[derive(Clone, Copy)]
+pub(crate) struct IndexLanes<S: Simd> {
+    pub excess: V<S>,
+    pub excess_size: V<S>,
+    pub n_sq: V<S>,
+    pub difference: V<S>,
+    pub nk: V<S>,
+    pub two_nk_sq: V<S>,
+}
+
 impl<S: Simd> FresnelLanes<S> {
+    /// Of many points under one index.
     #[inline(always)]
     pub(crate) fn new(simd: S, points: &Points<'_, S>, of: &Coefficients) -> Self {
-        let sin_sq = points.load(|block| &block.sin_beta_sq);
-        let cos_sq = points.load(|block| &block.cos_beta_sq);
-        let cos = points.load(|block| &block.cos_beta);
+        let splat = |value| number(simd, value);
+        let index = IndexLanes {
+            excess: splat(of.index.excess),
+            excess_size: splat(of.index.excess_size),
+            n_sq: splat(of.index.n_sq),
+            difference: splat(of.index.difference),
+            nk: splat(of.index.nk),
+            two_nk_sq: splat(of.index.two_nk_sq),
+        };
+        let column = |of: fn(&PointBlock) -> &[f64; LANES]| points.load(of);
+        Self::of(simd, [column(|block| &block.sin_beta_sq), column(|block| &block.cos_beta_sq), column(|block| &block.cos_beta)], &index)
+    }
+
+    /// Given sin²β, cos²β and cos β.
+    #[inline(always)]
+    pub(crate) fn of(simd: S, [sin_sq, cos_sq, cos]: [V<S>; 3], index: &IndexLanes<S>) -> Self {
         let splat = |value| number(simd, value);
         // Re(N² − sin²β), by whichever of two equal sums has the smaller terms.
-        let by_excess = splat(of.index.excess_size).max(cos_sq).simd_lt(splat(of.index.n_sq).max(sin_sq));
-        let x = choose::<S>(by_excess, cos_sq + of.index.excess, splat(of.index.difference) - sin_sq);
-        let a_sq = x.mul_add(x, splat(of.index.two_nk_sq)).sqrt();
+        let by_excess = index.excess_size.max(cos_sq).simd_lt(index.n_sq.max(sin_sq));
+        let x = choose::<S>(by_excess, cos_sq + index.excess, index.difference - sin_sq);
+        let a_sq = x.mul_add(x, index.two_nk_sq).sqrt();
         let larger = ((a_sq + x.abs()) * 0.5).sqrt();
         // The least number keeps 0/0 away at the critical angle of a transparent index.
-        let smaller = splat(of.index.nk) / larger.max(splat(f64::MIN_POSITIVE));
+        let smaller = index.nk / larger.max(splat(f64::MIN_POSITIVE));
         let dense = x.simd_ge(splat(0.0));
         let u = choose::<S>(dense, larger, smaller);
         let h = a_sq.mul_add(cos_sq, sin_sq * sin_sq);

@@ -150,34 +150,7 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
 
     /// Evaluates all points with those instructions on this thread.
     pub(crate) fn run<K: Kernel<OUT>>(self, kernel: &K, instructions: Instructions) {
-        match instructions.level() {
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Avx512(simd) => simd.vectorize(
-                #[inline(always)]
-                || self.run_on(simd, kernel),
-            ),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Avx2(simd) => simd.vectorize(
-                #[inline(always)]
-                || self.run_on(simd, kernel),
-            ),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Level::Sse2(simd) => simd.vectorize(
-                #[inline(always)]
-                || self.run_on(simd, kernel),
-            ),
-            #[cfg(target_arch = "aarch64")]
-            Level::Neon(simd) => simd.vectorize(
-                #[inline(always)]
-                || self.run_on(simd, kernel),
-            ),
-            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            Level::WasmSimd128(simd) => simd.vectorize(
-                #[inline(always)]
-                || self.run_on(simd, kernel),
-            ),
-            _ => self.run_scalar(),
-        }
+        dispatch(instructions, KernelTask { run: self, kernel });
     }
 
     #[inline(always)]
@@ -241,6 +214,63 @@ impl<const OUT: usize> KernelRun<'_, OUT> {
         for (column, value) in self.columns.iter_mut().zip(values).filter(|(column, _)| !column.is_empty()) {
             column[point] = value;
         }
+    }
+}
+
+/// Work that is compiled for each kind of instructions.
+pub(crate) trait Vectorised {
+    /// With vectors.
+    fn run<S: Simd>(self, simd: S);
+    /// Where the processor has none.
+    fn run_scalar(self);
+}
+
+/// Does the work with those instructions.
+pub(crate) fn dispatch(instructions: Instructions, task: impl Vectorised) {
+    match instructions.level() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Avx512(simd) => simd.vectorize(
+            #[inline(always)]
+            || task.run(simd),
+        ),
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Avx2(simd) => simd.vectorize(
+            #[inline(always)]
+            || task.run(simd),
+        ),
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Sse2(simd) => simd.vectorize(
+            #[inline(always)]
+            || task.run(simd),
+        ),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon(simd) => simd.vectorize(
+            #[inline(always)]
+            || task.run(simd),
+        ),
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        Level::WasmSimd128(simd) => simd.vectorize(
+            #[inline(always)]
+            || task.run(simd),
+        ),
+        _ => task.run_scalar(),
+    }
+}
+
+/// A kernel on its points.
+struct KernelTask<'a, 'k, const OUT: usize, K> {
+    run: KernelRun<'a, OUT>,
+    kernel: &'k K,
+}
+
+impl<const OUT: usize, K: Kernel<OUT>> Vectorised for KernelTask<'_, '_, OUT, K> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        self.run.run_on(simd, self.kernel);
+    }
+
+    fn run_scalar(self) {
+        self.run.run_scalar();
     }
 }
 

@@ -14,6 +14,7 @@ mod gradient;
 mod kernels;
 mod lanes;
 mod prepared;
+pub(crate) mod surface_row;
 
 use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
