@@ -76,7 +76,7 @@ fn on_a_curved_ridge_the_interval_is_not_the_linear_error() {
     let Interval { low, high } = interval68(&result, Parameter::N);
     assert!(near(low, 0.80, 0.02) && high.is_none_or(|high| high >= 0.997), "{low:?} {high:?}");
     // The truth, n = 2.07, raises χ² by 3.7 only.
-    assert!(interval95(&result, Parameter::N).contains(2.07));
+    assert!(interval95(&result, Parameter::N).contains(2.07), "{:?}", interval95(&result, Parameter::N));
     assert_eq!(result[Parameter::N].std_error, None);
     // The truth, k_d = 0.12, lies far above the value of 2e-8.
     assert!(interval68(&fitted(&data("steel1.csv")), Parameter::Kd).high.is_none_or(|high| high > 0.1));
@@ -199,7 +199,8 @@ fn a_robust_loss_has_the_errors_of_its_sandwich() {
     let plain = error(&fit(&data, Loss::Squared));
     for loss in [Loss::Huber, Loss::SoftL1] {
         // Of Gaussian noise, Huber's loss keeps 95 % of the efficiency; 144 residuals leave the variance to 12 %.
-        assert!(near(Some(error(&fit(&data, loss))), plain, 0.25), "{loss:?}");
+        let robust = error(&fit(&data, loss));
+        assert!(near(Some(robust), plain, 0.25), "{loss:?}: {robust} instead of {plain}");
     }
     // Every ninth row far off: squares lose n, and the robust loss keeps its error near the plain one.
     for row in data.rows.iter_mut().step_by(9) {

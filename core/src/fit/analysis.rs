@@ -3,6 +3,7 @@
 use crate::fit::estimate::{Edge, Estimate};
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::linear::{Uncertainty, has_effect};
+use crate::fit::least_squares::LeastSquares as _;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::multistart::basin::{Basin, MultistartResult};
 use crate::fit::objective::Problem;
@@ -16,6 +17,8 @@ use crate::model::{Parameter, ParameterSet, Parameters};
 const PRESSED: f64 = 1e-6;
 /// Relative rise of the sum of squares that is rounding.
 const ROUNDING: f64 = 1e-12;
+/// A parameter is beside a bound within this fraction of the box.
+const BESIDE_BOUND: f64 = 1e-9;
 /// A parameter's column of the Jacobian vanishes if it changes the residuals by no more than this fraction of their norm when it
 /// crosses its box: where DoLP is even in k, at k = 0, the effect is quadratic.
 const VANISHED: f64 = 1e-10;
@@ -32,6 +35,7 @@ pub fn analyse(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> 
     };
     let mut minima: Vec<Minimum> = basins.iter().map(minimum).collect();
     let LocalFit { parameters, sum_of_squares, mut stop_reason, trace, path, .. } = basins.swap_remove(0).local_fit;
+    let parameters = on_bounds(problem, parameters, sum_of_squares);
     let at_bound: ParameterSet =
         problem.free().iter().copied().filter(|&parameter| edge(problem, &parameters, parameter).is_some()).collect();
     let uncertainty = Uncertainty::at(problem, &parameters, sum_of_squares, pressed(problem, &parameters, at_bound));
@@ -98,6 +102,19 @@ fn without_idle_changes(problem: &Problem, parameters: Parameters, sum_of_square
         back[parameter] = problem.start()[parameter];
         let is_idle = problem.sum_of_squares(&back).is_some_and(|sum| sum <= sum_of_squares * (1.0 + ROUNDING));
         if is_idle { back } else { so_far }
+    })
+}
+
+/// Parameters beside a bound move onto it if that changes nothing: exact data leave a descent where residuals are rounding.
+fn on_bounds(problem: &Problem, parameters: Parameters, sum_of_squares: f64) -> Parameters {
+    let enough = (sum_of_squares * (1.0 + ROUNDING)).max(problem.negligible());
+    problem.free().iter().fold(parameters, |so_far, &parameter| {
+        let (low, high) = problem.bounds().of(parameter);
+        let beside = |bound: &&f64| (so_far[parameter] - **bound).abs() <= BESIDE_BOUND * (high - low) && so_far[parameter] != **bound;
+        let Some(&bound) = [low, high].iter().find(beside) else { return so_far };
+        let mut there = so_far;
+        there[parameter] = bound;
+        if problem.sum_of_squares(&there).is_some_and(|sum| sum <= enough) { there } else { so_far }
     })
 }
 

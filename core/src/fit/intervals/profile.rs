@@ -15,6 +15,7 @@ use crate::fit::least_squares::LeastSquares;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult};
+use crate::fit::multistart::initial_guess::grid_minima;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
@@ -33,6 +34,8 @@ const ROUNDING: f64 = 1e-26;
 const MOST_MINIMA: usize = 4;
 /// Better points of a round that are followed to their minima.
 const POLISHED: usize = 6;
+/// First guesses that fits at a limit are started from.
+const GUESSES: usize = 4;
 /// Fall of the minimum, in units of the first limit's rise, that leaves intervals as they are.
 const SLIGHT: f64 = 1e-3;
 /// Other minima that fits at a limit are started from, at most.
@@ -124,7 +127,16 @@ fn profiles_of(problem: &Problem, result: &FitResult, of: &[Parameter], observer
     let sum_of_squares = problem.sum_of_squares(&result.parameters).unwrap_or(f64::NAN);
     let others: Vec<DVector<f64>> =
         result.course.minima.iter().skip(1).take(OTHER_MINIMA).map(|minimum| unknowns_at(problem, &minimum.parameters)).collect();
-    let landmarks = Landmarks { problem, minimum: &ProfileFit { x, sum_of_squares }, others: &others, observer };
+    let elsewhere = |unknown: usize, value: f64| {
+        let held = problem.free()[unknown];
+        let mut start = result.parameters;
+        start[held] = value;
+        let rest = problem.free().iter().copied().filter(|&free| free != held).collect();
+        let guesses = grid_minima(&problem.with_free(rest).with_start(start));
+        guesses.into_iter().take(GUESSES).map(|guess| unknowns_at(problem, &guess.parameters)).collect()
+    };
+    let minimum = &ProfileFit { x, sum_of_squares };
+    let landmarks = Landmarks { problem, minimum, others: &others, elsewhere: &elsewhere, observer };
     let is_wanted = |parameter: Parameter| of.contains(&parameter) && !is_idle(result, parameter);
     let unknowns: Vec<usize> = (0..problem.free().len()).filter(|&j| is_wanted(problem.free()[j])).collect();
     let errors: Vec<Option<f64>> = problem.free().iter().map(|&parameter| result.band.uncertainty().standard_error(parameter)).collect();

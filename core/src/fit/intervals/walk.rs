@@ -49,6 +49,8 @@ pub(crate) struct Landmarks<'a, P> {
     pub minimum: &'a ProfileFit,
     /// Other points that fits are started from, the best first.
     pub others: &'a [DVector<f64>],
+    /// Starts far from all of these, given an unknown and where it is held.
+    pub elsewhere: &'a (dyn Fn(usize, f64) -> Vec<DVector<f64>> + Sync),
     pub observer: Observer<'a>,
 }
 
@@ -234,12 +236,15 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     fn challenge(&mut self, end: &ProfileFit, level: usize) -> Option<ProfileFit> {
         let target = self.at.minimum.sum_of_squares + (1.0 - MARGIN) * self.rises[level];
         let value = self.value(end);
-        for other in self.at.others {
+        // Those that cost nothing first.
+        let (at, unknown) = (self.at, self.unknown);
+        let elsewhere = std::iter::once(()).flat_map(|()| (at.elsewhere)(unknown, value));
+        for other in at.others.iter().cloned().chain(elsewhere) {
             if (self.at.observer.cancelled)() {
                 self.is_incomplete = true;
                 return None;
             }
-            let fit = self.descend(value, other.clone(), target);
+            let fit = self.descend(value, other, target);
             if fit.sum_of_squares <= target {
                 return Some(fit);
             }

@@ -13,21 +13,28 @@ use std::cell::RefCell;
 
 /// First step bound, relative to the scaled start. MINPACK's default of 100 overshoots from far starts.
 const STEP_BOUND: f64 = 1.0;
-/// Relative reduction of the sum of squares in a step below which progress counts as slow.
-const TOLERANCE: f64 = 1e-3;
 
-/// Minimises until progress is slow, for at most `patience` evaluations per unknown and one. Returns the best point, and why it
+/// How far MINPACK goes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MinpackLimits {
+    /// Evaluations per unknown and one.
+    pub patience: usize,
+    /// Relative reduction of the sum of squares in a step below which progress counts as slow.
+    pub tolerance: f64,
+}
+
+/// Minimises until progress is slow or the patience is at its end. Returns the best point, and why it
 /// ended.
 pub(crate) fn minpack_sin2<P: LeastSquares>(
     problem: &P,
     start: &DVector<f64>,
-    patience: usize,
+    limits: MinpackLimits,
     recorder: &mut Recorder<'_>,
 ) -> (DVector<f64>, StopReason) {
     let boxes = SinSquared::new(problem, start.len());
     let z = boxes.angles(start);
     let adapter = Adapter { problem, boxes, z, best: RefCell::new((f64::INFINITY, start.clone())), recorder: RefCell::new(recorder) };
-    let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_ftol(TOLERANCE).with_patience(patience);
+    let solver = LevenbergMarquardt::new().with_stepbound(STEP_BOUND).with_ftol(limits.tolerance).with_patience(limits.patience);
     let (adapter, report) = solver.minimize(adapter);
     let reason = match report.termination {
         TerminationReason::Converged { .. } | TerminationReason::Orthogonal | TerminationReason::NoParameters => StopReason::Converged,

@@ -7,7 +7,7 @@
 
 use crate::fit::least_squares::LeastSquares;
 use crate::fit::local::bounded_lm::{BoundedLm, GRADIENT_TOLERANCE, Limits};
-use crate::fit::local::minpack::minpack_sin2;
+use crate::fit::local::minpack::{MinpackLimits, minpack_sin2};
 use crate::fit::local::recorder::Recorder;
 use crate::fit::local::solution::{LocalFit, Solution};
 use crate::fit::objective::Problem;
@@ -39,9 +39,11 @@ const COARSE_PATIENCE: usize = 50;
 /// Square of the relative offset at which such a start has shown its minimum.
 const COARSE_TOLERANCE: f64 = 1e-8;
 /// The same for MINPACK, whose creeping along curved valleys is left to the bounded solver.
-const MINPACK_PATIENCE: usize = 30;
+const MINPACK: MinpackLimits = MinpackLimits { patience: 30, tolerance: 1e-5 };
+/// The same for one start among many, which is handed over earlier.
+const COARSE_MINPACK: MinpackLimits = MinpackLimits { tolerance: 1e-3, ..MINPACK };
 /// The same for a probe: ten evaluations with nine unknowns, enough to rank starts.
-const PROBE_PATIENCE: usize = 1;
+const PROBE: MinpackLimits = MinpackLimits { patience: 1, ..COARSE_MINPACK };
 
 /// To the minimum, not refined.
 pub(crate) const LIMITS: Limits =
@@ -70,7 +72,7 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
     }
     let thorough = Limits { evaluations: PATIENCE * (n + 1), refine: true, ..LIMITS };
     let stop = match effort {
-        Effort::Probe => minpack_sin2(problem, &start, PROBE_PATIENCE, &mut recorder).1,
+        Effort::Probe => minpack_sin2(problem, &start, PROBE, &mut recorder).1,
         Effort::Coarse => coarse(problem, &start, &mut recorder),
         Effort::Polish => BoundedLm::new(problem, &start).run(thorough, &mut recorder),
         Effort::Thorough => self::thorough(problem, &start, thorough, &mut recorder),
@@ -80,7 +82,7 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
 
 /// MINPACK until progress stalls, then the bounded Levenberg–Marquardt.
 fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, recorder: &mut Recorder<'_>) -> StopReason {
-    let (from, stop) = minpack_sin2(problem, start, MINPACK_PATIENCE, recorder);
+    let (from, stop) = minpack_sin2(problem, start, COARSE_MINPACK, recorder);
     if stop == StopReason::Cancelled {
         return stop;
     }
@@ -99,7 +101,7 @@ fn thorough<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, 
     if is_done {
         return first;
     }
-    let (from, stop) = minpack_sin2(problem, start, MINPACK_PATIENCE, recorder);
+    let (from, stop) = minpack_sin2(problem, start, MINPACK, recorder);
     if stop == StopReason::Cancelled {
         return stop;
     }
