@@ -162,7 +162,7 @@ impl StiffFit {
             Self::new("noise 0.005, dense angles", steel(), dolp(steel(), 0.005), Bar::Covers),
             Self { loss: Loss::SoftL1, ..Self::new("every tenth point an outlier, soft-L1 loss", steel(), outliers, Bar::SparesOutliers) },
             Self::new("all points masked", steel(), masked, Bar::Ends(StopReason::NoData)),
-            Self::new("DoLP 0 everywhere", steel(), dark, Bar::Ends(StopReason::ResidualsZero)),
+            Self::new("DoLP 0 everywhere", steel(), dark, Bar::Ends(StopReason::Underdetermined)),
         ]
     }
 

@@ -43,8 +43,9 @@ pub(crate) fn profiles<P: LeastSquares + Sync>(
     rises: &[[f64; 2]],
 ) -> Profiles {
     let sides = || unknowns.iter().flat_map(|&unknown| [(unknown, false), (unknown, true)]);
-    let mut walks: Vec<Walk<'_, P>> = sides().map(|(unknown, upwards)| Walk::new(at, unknown, upwards, rises[unknown])).collect();
-    for_each(&mut walks, &|walk| walk.run(0, None, errors[walk.unknown]));
+    let mut walks: Vec<Walk<'_, P>> =
+        sides().map(|(unknown, upwards)| Walk::new(at, unknown, upwards, rises[unknown], errors[unknown])).collect();
+    for_each(&mut walks, &|walk| walk.run(0, None));
     for _ in 0..ROUNDS {
         if (at.observer.cancelled)() || !better(at, &walks).is_empty() {
             break;
@@ -59,7 +60,7 @@ pub(crate) fn profiles<P: LeastSquares + Sync>(
         if wider.is_empty() {
             break;
         }
-        for_each(&mut wider, &|(walk, level, point)| walk.run(*level, Some(point.clone()), None));
+        for_each(&mut wider, &|(walk, level, point)| walk.run(*level, Some(point.clone())));
     }
     collect(at, unknowns, walks)
 }

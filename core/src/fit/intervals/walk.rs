@@ -29,6 +29,8 @@ const CROSSING: f64 = 1e-3;
 const ACCURACY: f64 = 1e-4;
 /// Evaluations of a held fit per unknown and one: it starts beside its minimum.
 const PATIENCE: usize = 40;
+/// A valley is quadratic where a crossing lies within this fraction of the distance that the linear error tells.
+const QUADRATIC: f64 = 0.25;
 /// A challenger must stay below the limit by this fraction of the rise.
 const MARGIN: f64 = 0.01;
 /// A point that lies below the minimum by this fraction of the first limit's rise ends the walk.
@@ -62,6 +64,8 @@ pub(crate) struct Walk<'a, P> {
     bound: f64,
     /// The rises of the sum of squares at 68.3 and at 95 %.
     pub rises: [f64; 2],
+    /// The linear standard error in the unknown's own unit, if there is one.
+    error: Option<f64>,
     /// Outwards from the minimum.
     pub points: Vec<ProfileFit>,
     /// Where the limits are crossed; none where the bound comes first.
@@ -72,20 +76,19 @@ pub(crate) struct Walk<'a, P> {
 }
 
 impl<'a, P: LeastSquares> Walk<'a, P> {
-    pub(crate) fn new(at: &'a Landmarks<'a, P>, unknown: usize, upwards: bool, rises: [f64; 2]) -> Self {
+    pub(crate) fn new(at: &'a Landmarks<'a, P>, unknown: usize, upwards: bool, rises: [f64; 2], error: Option<f64>) -> Self {
         let (low, high) = at.problem.bounds_of(unknown);
         let bound = if upwards { high } else { low };
-        Self { at, unknown, bound, rises, points: vec![at.minimum.clone()], ends: [None; 2], evaluations: 0, is_incomplete: false }
+        Self { at, unknown, bound, rises, error, points: vec![at.minimum.clone()], ends: [None; 2], evaluations: 0, is_incomplete: false }
     }
 
-    /// Walks outwards from a point, the minimum or one farther out that is known to lie below a limit. The step is the standard error in
-    /// the unknown's own unit, if there is one.
-    pub(crate) fn run(&mut self, first_level: usize, from: Option<ProfileFit>, error: Option<f64>) {
+    /// Walks outwards from a point, the minimum or one farther out that is known to lie below a limit.
+    pub(crate) fn run(&mut self, first_level: usize, from: Option<ProfileFit>) {
         self.points.extend(from);
         for level in first_level..self.ends.len() {
             self.ends[level] = None;
             for _ in 0..MOST_BRANCHES {
-                let Some(crossing) = self.advance(level, error) else { return };
+                let Some(crossing) = self.advance(level) else { return };
                 let end = self.refine(crossing, level);
                 self.ends[level] = Some(end.x[self.unknown]);
                 let Some(challenger) = self.challenge(&end, level) else { break };
@@ -139,7 +142,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// Steps outwards until a limit is crossed; the number of the first point above it, or none where the bound comes first.
-    fn advance(&mut self, level: usize, error: Option<f64>) -> Option<usize> {
+    fn advance(&mut self, level: usize) -> Option<usize> {
         // A limit may be crossed by the steps that were taken for the one before.
         if let Some(crossing) = self.points.iter().position(|fit| self.rise(fit) >= self.rises[level]) {
             return Some(crossing);
@@ -155,7 +158,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             if self.value(last) == self.bound || !(end - here).is_finite() {
                 return None;
             }
-            let step = self.step(here, end, error);
+            let step = self.step(here, end);
             let reaches = step.abs() >= 0.999 * (end - here).abs();
             let value = if reaches { self.bound } else { self.at.problem.from_straight(self.unknown, here + step) };
             let fit = self.held_fit(value, &self.predicted(value));
@@ -175,11 +178,11 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// The next step of the straight coordinate.
-    fn step(&self, here: f64, end: f64, error: Option<f64>) -> f64 {
+    fn step(&self, here: f64, end: f64) -> f64 {
         let away = end - here;
         let [.., before, last] = &self.points[..] else {
             let unit = self.at.problem.from_straight(self.unknown, here);
-            let by_error = error.filter(|error| error.is_finite() && *error > 0.0).map(|error| {
+            let by_error = self.error.filter(|error| error.is_finite() && *error > 0.0).map(|error| {
                 let there = unit + STEP * error.copysign(away);
                 let inside = if away > 0.0 { there < self.bound } else { there > self.bound };
                 if inside { (self.at.problem.straight(self.unknown, there) - here).abs() } else { f64::INFINITY }
@@ -238,7 +241,8 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         let value = self.value(end);
         // Those that cost nothing first.
         let (at, unknown) = (self.at, self.unknown);
-        let elsewhere = std::iter::once(()).flat_map(|()| (at.elsewhere)(unknown, value));
+        let is_expected = self.is_where_linear_error_expects(value, level);
+        let elsewhere = std::iter::once(()).filter(|()| !is_expected).flat_map(|()| (at.elsewhere)(unknown, value));
         for other in at.others.iter().cloned().chain(elsewhere) {
             if (self.at.observer.cancelled)() {
                 self.is_incomplete = true;
@@ -250,6 +254,13 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             }
         }
         None
+    }
+
+    /// Whether a crossing lies where a quadratic valley has it: there is no reason to look for another branch then.
+    fn is_where_linear_error_expects(&self, value: f64, level: usize) -> bool {
+        let distance = (value - self.value(self.at.minimum)).abs();
+        let expected = self.error.map(|error| error * (self.rises[level] / self.rises[0]).sqrt());
+        expected.is_some_and(|expected| (distance - expected).abs() <= QUADRATIC * expected)
     }
 
     /// The best fit with the unknown held at a value, from the best of some starts.
