@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (problem, result) = (fit.problem()?, fit.run()?);
     println!("n = {}", result[Parameter::N]);
     let scan = profile(&problem, &result, Parameter::N, Observer::NONE);
-    println!("profile: {:?} to {:?}", scan.low, scan.high);
+    println!("profile: {:?} to {:?}", scan.interval68.low, scan.interval68.high);
     for point in &scan.points {
         println!("{:>10.5} {:.6e}", point.value, point.rss);
     }

@@ -95,7 +95,7 @@ fn a_profile_stays_in_the_box_and_its_ends_are_no_chords() {
         assert!(profile.points.windows(2).all(|pair| pair[0].value <= pair[1].value));
         if parameter == Parameter::K {
             // A grid of 4000 held fits of SciPy.
-            assert!(near(profile.high, 5.27, 0.01), "{:?}", profile.high);
+            assert!(near(profile.interval68.high, 5.27, 0.01), "{:?}", profile.interval68.high);
         }
     }
 }
@@ -226,7 +226,7 @@ fn cancelled_intervals_say_that_they_are_incomplete() {
     let cancelled = pbrdf::fit::with_intervals(&problem, result, Observer { cancelled: &|| true, ..Observer::NONE });
     assert_eq!(cancelled.course.intervals_complete, Some(false));
     let one = profile(&problem, &cancelled, Parameter::N, Observer { cancelled: &|| true, ..Observer::NONE });
-    assert!(!one.is_complete && one.low.is_none() && one.high.is_none());
+    assert!(!one.is_complete && one.interval68.is_open());
 }
 
 #[test]

@@ -142,7 +142,10 @@ fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[BootstrapEstima
     let Some(object) = json.as_object_mut() else { return };
     if !profiles.is_empty() {
         let of = |profile: &Profile| {
-            (profile.parameter.key().to_owned(), json!({ "low": profile.low, "high": profile.high, "points": profile.points }))
+            let Profile { points, interval68, interval95, is_complete, .. } = profile;
+            let (low, high) = (interval68.low, interval68.high);
+            let json = json!({ "low": low, "high": high, "interval95": interval95, "points": points, "complete": is_complete });
+            (profile.parameter.key().to_owned(), json)
         };
         object.insert("profile".to_owned(), Value::Object(profiles.iter().map(of).collect::<Map<_, _>>()));
     }
@@ -161,8 +164,8 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapE
             out,
             "\nprofile of {}: one-standard-error interval {} … {}",
             profile.parameter.key(),
-            end(profile.low),
-            end(profile.high)
+            end(profile.interval68.low),
+            end(profile.interval68.high)
         )?;
         for point in &profile.points {
             writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.rss, point.objective)?;

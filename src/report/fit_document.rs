@@ -5,11 +5,11 @@ use crate::figure::{Figure, Panel};
 use crate::report::document::{DocumentPart, ReportDocument};
 use crate::report::fit_figures::FitFigures;
 use crate::report::language::ReportLanguage;
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Loss, Problem, Weights, ends_text};
+use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Interval, Loss, Problem, Weights};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
-use pbrdf::rounding::{significant, trimmed, with_error};
+use pbrdf::rounding::{significant, trimmed};
 
 /// Where measured data come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -155,27 +155,29 @@ impl FitDocument<'_> {
     }
 
     fn parameters(&self) -> Vec<DocumentPart> {
-        let head = self.head(["", "parameter", "value", "standard error", "start", "bounds", "unit"]);
+        let has_intervals = self.report.course.intervals_complete.is_some();
+        let mut head = self.head(["", "parameter", "value", "standard error", "start", "bounds", "unit"]);
+        if has_intervals {
+            head.splice(3..4, self.head(["interval, 68.3 %", "interval, 95 %"]));
+        }
         let row = |estimate: &Estimate| {
-            let Estimate { parameter, start, value, free, .. } = *estimate;
-            let standing = estimate.status();
-            let (value, error) = with_error(value, if let EstimateStatus::Determined(error) = standing { Some(error) } else { None });
-            let error = match standing {
-                EstimateStatus::Fixed => self.text("fixed"),
-                EstimateStatus::AtBound(Edge::Lower) => self.text("at lower bound"),
-                EstimateStatus::AtBound(Edge::Upper) => self.text("at upper bound"),
-                EstimateStatus::Determined(zero) => error.unwrap_or_else(|| significant(zero, 2)),
-                EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
-                EstimateStatus::Within(interval) => ends_text(estimate.value, interval),
-                EstimateStatus::Undetermined => self.text("not determined"),
-            };
+            let Estimate { parameter, start, free, interval95, .. } = *estimate;
+            let mut cells =
+                vec![parameter.symbol().to_owned(), self.text(parameter.name()), estimate.value_text(), self.uncertainty(estimate)];
+            if has_intervals {
+                cells.push(interval95.map_or_else(String::new, |interval| self.interval(interval)));
+            }
             let (low, high) = self.problem.bounds().of(parameter);
-            let bounds = if free { format!("{low} … {high}") } else { String::new() };
-            let start = trimmed(start, 6);
-            vec![parameter.symbol().to_owned(), self.text(parameter.name()), value, error, start, bounds, parameter.unit().to_owned()]
+            cells.extend([trimmed(start, 6), if free { format!("{low} … {high}") } else { String::new() }, parameter.unit().to_owned()]);
+            cells
         };
         let table = DocumentPart::Table { head, rows: self.report.estimates.iter().map(row).collect() };
         let errors = match self.choices().weights {
+            _ if has_intervals => {
+                "Intervals are by profile likelihood: the parameter held, all others fitted again, until the misfit is as large as the level \
+                 allows. A side that the parameter's bound ends is open; open on both sides, the data do not determine it. The intervals say \
+                 nothing about a wrong model."
+            }
             Weights::Sigma => "Standard errors are those of the stated standard deviations, one each, linearised at the solution.",
             Weights::None => {
                 "Standard errors come from the scatter of the residuals, one standard deviation each, linearised at the solution; \
@@ -183,10 +185,38 @@ impl FitDocument<'_> {
             }
         };
         let mut parts = vec![self.heading("Parameters"), table, self.paragraph(errors)];
-        if self.report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
+        if self.report.course.intervals_complete == Some(false) {
+            parts.push(self.paragraph("Not every interval was followed to its end: some may be wider."));
+        }
+        if !has_intervals && self.report.estimates.iter().any(|estimate| estimate.at_bound.is_some()) {
             parts.push(self.paragraph("A parameter at a bound has no standard error, and those of the others hold with it kept there."));
         }
         parts
+    }
+
+    /// How uncertain an estimate is, or why that is not known, and which bound it rests on.
+    fn uncertainty(&self, estimate: &Estimate) -> String {
+        let bound = |edge| self.text(if edge == Edge::Lower { "at lower bound" } else { "at upper bound" });
+        let text = match estimate.status() {
+            EstimateStatus::Fixed => self.text("fixed"),
+            EstimateStatus::AtBound(edge) => return bound(edge),
+            EstimateStatus::Determined(_) | EstimateStatus::Within(_) => estimate.uncertainty_text().unwrap_or_default(),
+            EstimateStatus::NoDegreesOfFreedom => self.text("no degree of freedom left"),
+            EstimateStatus::Undetermined => self.text("not determined"),
+        };
+        let parts: Vec<String> = [Some(text), estimate.at_bound.map(bound)].into_iter().flatten().collect();
+        self.words.list(&parts)
+    }
+
+    /// An interval by its ends.
+    fn interval(&self, interval: Interval) -> String {
+        let end = |value: f64| significant(value, 4);
+        match (interval.low, interval.high) {
+            (Some(low), Some(high)) => format!("{} … {}", end(low), end(high)),
+            (Some(low), None) => format!("> {}", end(low)),
+            (None, Some(high)) => format!("< {}", end(high)),
+            (None, None) => self.text("not determined"),
+        }
     }
 
     fn open(&self) -> Vec<DocumentPart> {
@@ -240,6 +270,12 @@ impl FitDocument<'_> {
         }
         rows.push(("AICc", self.number(report.statistics.aicc)));
         let mut parts = vec![self.heading("Goodness of fit"), self.pairs(rows)];
+        if let Some(share) = report.course.unseen_share() {
+            let share = significant(100.0 * share, 2);
+            let text = "{0} starts, {1} in the best basin; about {2} % of further starts would end in a minimum not seen (Boender and Kan, \
+                        Math. Program. 37, 59 (1987)).";
+            parts.push(DocumentPart::Paragraph(self.words.fill(text, &[&report.course.starts(), &report.course.hits_of_best(), &share])));
+        }
         if report.course.minima.len() > 1 {
             let row = |minimum: &pbrdf::fit::Minimum| {
                 vec![significant(minimum.objective, 6), minimum.hits.to_string(), self.words.stop_reason(minimum.stop_reason)]

@@ -2,7 +2,7 @@
 
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
-use crate::fit::rounding::{decimal_places, significant, with_error};
+use crate::fit::rounding::{significant, trimmed, with_error};
 use crate::model::Parameter;
 use serde::Serialize;
 use std::fmt;
@@ -76,10 +76,35 @@ impl Estimate {
         }
     }
 
-    /// Whether the data determine it, but to no better than half its size.
+    /// Whether, without an interval that says more, the data determine it to no better than half its size.
     #[must_use]
     pub fn is_poorly_determined(&self) -> bool {
-        matches!(self.status(), EstimateStatus::Determined(error) if is_poorly_determined(self.parameter, self.value, error))
+        let is_poor = |error| is_poorly_determined(self.parameter, self.value, error);
+        self.interval68.is_none() && matches!(self.status(), EstimateStatus::Determined(error) if is_poor(error))
+    }
+
+    /// The value with the digits that its uncertainty leaves: to the second one of its error or of the nearer end of its interval;
+    /// three where it is not determined or an interval has one end, six where there is no uncertainty.
+    #[must_use]
+    pub fn value_text(&self) -> String {
+        match self.status() {
+            EstimateStatus::Determined(error) => with_error(self.value, Some(error)).0,
+            EstimateStatus::Within(Interval { low: Some(low), high: Some(high) }) => {
+                with_error(self.value, Some(nearer(self.value, low, high))).0
+            }
+            EstimateStatus::Within(_) | EstimateStatus::Undetermined => trimmed(self.value, 3),
+            EstimateStatus::Fixed | EstimateStatus::AtBound(_) | EstimateStatus::NoDegreesOfFreedom => trimmed(self.value, 6),
+        }
+    }
+
+    /// How uncertain it is, to two digits: `± 0.021`, `+0.31 −0.24`, `> 1.20`; none where words say it.
+    #[must_use]
+    pub fn uncertainty_text(&self) -> Option<String> {
+        match self.status() {
+            EstimateStatus::Determined(error) => Some(format!("± {}", if error > 0.0 { significant(error, 2) } else { "0".to_owned() })),
+            EstimateStatus::Within(interval) => Some(ends_text(self.value, interval)),
+            _ => None,
+        }
     }
 }
 
@@ -89,40 +114,47 @@ impl fmt::Display for Estimate {
             EstimateStatus::Fixed => write!(f, "{} (fixed)", self.value),
             EstimateStatus::AtBound(Edge::Lower) => write!(f, "at lower bound {}", self.value),
             EstimateStatus::AtBound(Edge::Upper) => write!(f, "at upper bound {}", self.value),
-            EstimateStatus::Determined(error) => {
-                let (value, error) = with_error(self.value, Some(error));
-                write!(f, "{value} ± {}", error.as_deref().unwrap_or("0"))
-            }
+            EstimateStatus::Determined(_) => write!(f, "{} {}", self.value_text(), self.uncertainty_text().unwrap_or_default()),
             EstimateStatus::NoDegreesOfFreedom => write!(f, "{} (no degrees of freedom)", self.value),
-            EstimateStatus::Within(interval) => f.write_str(&within(self.value, interval)),
+            EstimateStatus::Within(interval) => {
+                let value = if interval.is_closed() { self.value_text() + " " } else { String::new() };
+                write!(f, "{value}{} (68 %)", ends_text(self.value, interval))
+            }
             EstimateStatus::Undetermined => f.write_str("not determined"),
         }
     }
 }
 
-/// The distances of the ends of an interval from a value, `+0.31 −0.24`, rounded by the smaller one, or its only end, `> 1.20`.
+/// The distances of the ends of an interval from a value, `+0.31 −0.24`, each to its second digit, `± 0.31` where both agree, or
+/// its only end, `> 1.20`.
 #[must_use]
 pub fn ends_text(value: f64, interval: Interval) -> String {
     match (interval.low, interval.high) {
-        (Some(low), Some(high)) => {
-            let places = decimal_places((high - value).min(value - low));
-            format!("+{:.places$} −{:.places$}", high - value, value - low)
-        }
+        (Some(low), Some(high)) => match [high - value, value - low].map(|distance| significant(distance, 2)) {
+            [above, below] if above == below => format!("± {above}"),
+            [above, below] => format!("+{above} −{below}"),
+        },
         (Some(low), None) => format!("> {}", significant(low, 3)),
         (None, Some(high)) => format!("< {}", significant(high, 3)),
         (None, None) => "not determined".to_owned(),
     }
 }
 
-/// A value in its interval at 68.3 %: `2.05 +0.31 −0.24 (68 %)`.
-fn within(value: f64, interval: Interval) -> String {
-    let ends = ends_text(value, interval);
-    match (interval.low, interval.high) {
-        (Some(low), Some(high)) => format!("{value:.*} {ends} (68 %)", decimal_places((high - value).min(value - low))),
-        (None, None) => ends,
-        _ => format!("{ends} (68 %)"),
-    }
+/// The distance of the end that is nearer to the value, or of the other where the value rests on that end.
+fn nearer(value: f64, low: f64, high: f64) -> f64 {
+    let [below, above] = [value - low, high - value];
+    if below > 0.0 && above > 0.0 { below.min(above) } else { below.max(above) }
 }
+
+/// Whether a standard error, of a parameter with those bounds, says something about a value: it is at most half of max(|value|, 0.1)
+/// and half of the box.
+#[must_use]
+pub fn is_determined(value: f64, error: f64, (low, high): (f64, f64)) -> bool {
+    error <= 0.5 * value.abs().max(SMALLEST_SIZE).min(high - low)
+}
+
+/// Size, in units of the parameter, that smaller values count as where an error is compared with them.
+pub(crate) const SMALLEST_SIZE: f64 = 0.1;
 
 /// What the standard error of a parameter is compared with: the distance of its value from where its effect vanishes or, for c,
 /// which has no such place, the width of its range.
@@ -146,16 +178,16 @@ pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> boo
 pub enum Undetermined {
     /// A direction that they do not determine at all.
     Direction(UndeterminedDirection),
+    /// Parameters whose interval at 68.3 % is open on both sides.
+    Parameters(Vec<Parameter>),
     /// Parameters that they determine with a standard error above half of the value.
     Poorly(Vec<Parameter>),
 }
 
 impl Undetermined {
-    /// The poorly determined parameters, if there are any.
-    #[must_use]
-    pub fn poorly(parameters: impl Iterator<Item = Parameter>) -> Option<Self> {
-        let parameters: Vec<Parameter> = parameters.collect();
-        (!parameters.is_empty()).then_some(Self::Poorly(parameters))
+    /// Whether it names nothing.
+    pub(crate) fn is_empty(&self) -> bool {
+        matches!(self, Self::Parameters(parameters) | Self::Poorly(parameters) if parameters.is_empty())
     }
 }
 
@@ -163,6 +195,7 @@ impl fmt::Display for Undetermined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Direction(direction) => direction.fmt(f),
+            Self::Parameters(parameters) => write!(f, "not determined: {}", symbols(parameters)),
             Self::Poorly(parameters) => write!(f, "a standard error above half of the value: {}", symbols(parameters)),
         }
     }
@@ -197,6 +230,8 @@ mod tests {
         assert_eq!(within(Some(1.829), Some(2.382)), "2.07 +0.31 −0.24 (68 %)");
         assert_eq!(within(Some(1.829), None), "> 1.83 (68 %)");
         assert_eq!(within(None, Some(2.382)), "< 2.38 (68 %)");
+        assert_eq!(within(Some(1.763), Some(2.382)), "2.07 ± 0.31 (68 %)");
+        assert_eq!(within(Some(2.0713), Some(2.382)), "2.07 +0.31 −0 (68 %)", "it rests on its lower end");
         assert_eq!(
             Estimate { determined: false, ..Estimate { std_error: None, interval68: Some(Interval::OPEN), ..free } }.to_string(),
             "not determined"

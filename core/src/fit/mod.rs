@@ -61,13 +61,15 @@ pub use design::{
     NoiseModel, choose,
 };
 pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
-pub use estimate::{Edge, Estimate, EstimateStatus, Undetermined, ends_text, is_poorly_determined, relative_error_base, symbols};
+pub use estimate::{
+    Edge, Estimate, EstimateStatus, Undetermined, ends_text, is_determined, is_poorly_determined, relative_error_base, symbols,
+};
 pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
 pub use intervals::interval::Interval;
 pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
-pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, with_intervals};
+pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, set_intervals, with_intervals};
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
 #[cfg(feature = "selftest")]

@@ -1,9 +1,10 @@
 //! The result of a fit: values, uncertainties, what the data leave undetermined, and how the fit came about.
 
-use crate::fit::estimate::{Edge, Estimate, Undetermined};
+use crate::fit::estimate::{Edge, Estimate, EstimateStatus, Undetermined};
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
+use crate::fit::multistart::basin::unseen_share;
 use crate::fit::objective::Problem;
 use crate::fit::observer::TracePoint;
 use crate::fit::stop_reason::StopReason;
@@ -99,6 +100,27 @@ pub struct Course {
     pub path: Vec<Parameters>,
 }
 
+impl Course {
+    /// How many starts there were.
+    #[must_use]
+    pub fn starts(&self) -> usize {
+        self.minima.iter().map(|minimum| minimum.hits).sum()
+    }
+
+    /// How many of them ended in the best minimum.
+    #[must_use]
+    pub fn hits_of_best(&self) -> usize {
+        self.minima.first().map_or(0, |best| best.hits)
+    }
+
+    /// The share of starts, 0 to 1, that would end in minima not seen yet, as Boender and Kan (Math. Program. 37, 59 (1987)) expect
+    /// it; none after a single start.
+    #[must_use]
+    pub fn unseen_share(&self) -> Option<f64> {
+        unseen_share(self.minima.len(), self.starts())
+    }
+}
+
 /// The result of a fit.
 ///
 /// `result[parameter]` is the estimate of a parameter of the model. `Display` lists all estimates and what is undetermined;
@@ -154,11 +176,21 @@ impl FitResult {
         self.undetermined.iter()
     }
 
-    /// What the data leave open: directions, and the parameters that are poorly determined.
+    /// What the data leave open: directions and, by the intervals, parameters that are not determined; without intervals, parameters
+    /// that are poorly determined.
     #[must_use]
     pub fn describe_undetermined(&self) -> Vec<Undetermined> {
-        let poor = self.estimates.iter().filter(|estimate| estimate.is_poorly_determined()).map(|estimate| estimate.parameter);
-        self.undetermined.iter().cloned().map(Undetermined::Direction).chain(Undetermined::poorly(poor)).collect()
+        let of = |is_such: &dyn Fn(&Estimate) -> bool| -> Vec<Parameter> {
+            self.estimates.iter().filter(|estimate| is_such(estimate)).map(|estimate| estimate.parameter).collect()
+        };
+        let is_named = |parameter| self.undetermined.iter().any(|open| matches!(open.direction[..], [(only, _)] if only == parameter));
+        let is_open = |estimate: &Estimate| {
+            let is_undetermined = estimate.interval68.is_some() && estimate.status() == EstimateStatus::Undetermined;
+            is_undetermined && !is_named(estimate.parameter)
+        };
+        let lists = [Undetermined::Parameters(of(&is_open)), Undetermined::Poorly(of(&Estimate::is_poorly_determined))];
+        let lists = lists.into_iter().filter(|list| !list.is_empty());
+        self.undetermined.iter().cloned().map(Undetermined::Direction).chain(lists).collect()
     }
 }
 

@@ -3,7 +3,9 @@
 
 use crate::app::text::localized::Localized;
 use crate::app::work::fit_history::FitEntry;
-use pbrdf::fit::{Basin, FitResult, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse};
+use pbrdf::fit::{
+    Basin, Course, FitResult, Interval, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse, set_intervals,
+};
 use pbrdf::model::{Parameter, Parameters};
 use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Deserialize, Serialize, Serializer};
@@ -34,11 +36,43 @@ pub struct FitRecord {
     /// Where a robust loss changed from squares to sizes, for DoLP and BRDF.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     loss_scales: Option<[f64; 2]>,
+    /// What residuals of DoLP and BRDF were multiplied by, where that was not 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    block_weights: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    intervals: Option<SavedIntervals>,
     /// The best first.
     #[serde(serialize_with = "one_a_line")]
     minima: Vec<Ending>,
     #[serde(serialize_with = "one_a_line")]
     way: Vec<Step>,
+}
+
+/// The intervals of a fit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct SavedIntervals {
+    elapsed_ms: f64,
+    /// Whether all were followed to their ends.
+    complete: bool,
+    /// At 68.3 and at 95 %, of the free parameters in the order of the fit's list of them.
+    #[serde(serialize_with = "one_a_line")]
+    of: Vec<[Interval; 2]>,
+}
+
+impl SavedIntervals {
+    fn new(report: &FitResult, free: &[Parameter]) -> Option<Self> {
+        let of = |parameter: &Parameter| {
+            let estimate = report.estimate(*parameter)?;
+            Some([estimate.interval68?, estimate.interval95?])
+        };
+        let Course { intervals_ms: elapsed_ms, intervals_complete, .. } = report.course;
+        Some(Self { elapsed_ms, complete: intervals_complete?, of: free.iter().map(of).collect::<Option<_>>()? })
+    }
+
+    fn is_sound(&self, free: usize) -> bool {
+        let are_ordered = |interval: &Interval| interval.low.zip(interval.high).is_none_or(|(low, high)| low <= high);
+        self.of.len() == free && self.elapsed_ms >= 0.0 && self.of.iter().flatten().all(are_ordered)
+    }
 }
 
 /// A minimum.
@@ -84,6 +118,10 @@ pub enum FitRecordError {
     Starts,
     /// A scale of the loss is out of range.
     LossScale,
+    /// A weight of DoLP or BRDF is out of range.
+    BlockWeight,
+    /// There is not one pair of intervals for each free parameter, or an end is on the wrong side.
+    Intervals,
     /// A time or a ΔE is negative.
     Negative,
 }
@@ -94,6 +132,10 @@ impl Localized for FitRecordError {
             Self::Place => tr!("account: a place has not one value for each free parameter"),
             Self::Starts => tr!("account.minima: more starts than can be counted"),
             Self::LossScale => tr!("account: a scale of the loss is out of range"),
+            Self::BlockWeight => tr!("account: a weight of DoLP or BRDF is out of range"),
+            Self::Intervals => {
+                tr!("account.intervals: expected two intervals for each free parameter, each from its lower to its upper end")
+            }
             Self::Negative => tr!("account: a time or a ΔE is negative"),
         }
     }
@@ -123,6 +165,8 @@ impl FitRecord {
             elapsed_ms: report.course.elapsed_ms,
             masked: mask.to_vec(),
             loss_scales: Some(report.statistics.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
+            block_weights: Some(report.statistics.block_weights).filter(|weights| *weights != [1.0; 2]),
+            intervals: SavedIntervals::new(report, free),
             minima,
             way: thinned(report.course.trace.iter().zip(&report.course.path).map(step).collect()),
         };
@@ -154,6 +198,10 @@ impl FitRecord {
             Some(FitRecordError::Starts)
         } else if !self.loss_scales.iter().flatten().all(is_loss_scale) {
             Some(FitRecordError::LossScale)
+        } else if !self.block_weights.iter().flatten().all(|weight| LOSS_SCALES.contains(weight)) {
+            Some(FitRecordError::BlockWeight)
+        } else if self.intervals.as_ref().is_some_and(|intervals| !intervals.is_sound(free)) {
+            Some(FitRecordError::Intervals)
         } else if !is_size(self.elapsed_ms) || !self.way.iter().all(|step| is_size(step.elapsed_ms) && step.delta_e.is_none_or(is_size)) {
             Some(FitRecordError::Negative)
         } else {
@@ -170,6 +218,7 @@ impl FitRecord {
     /// The report as it was.
     pub fn report(&self, problem: &Problem, free: &[Parameter]) -> Option<FitResult> {
         let problem = self.loss_scales.map_or_else(|| problem.clone(), |scales| problem.with_loss_scales(scales));
+        let problem = self.block_weights.map_or_else(|| problem.clone(), |weights| problem.with_block_weights(weights));
         let start = *problem.start();
         let found = self.minima.iter().enumerate().map(|(i, ending)| {
             let parameters = place(start, free, &ending.at);
@@ -191,7 +240,12 @@ impl FitRecord {
             Basin { local_fit, hits: ending.reached }
         });
         let search = MultistartResult::new(found.collect(), self.evaluations)?;
-        Some(analyse(&problem, search, self.elapsed_ms))
+        let mut report = analyse(&problem, search, self.elapsed_ms);
+        if let Some(SavedIntervals { elapsed_ms, complete, of }) = &self.intervals {
+            set_intervals(&problem, &mut report, of);
+            (report.course.intervals_ms, report.course.intervals_complete) = (*elapsed_ms, Some(*complete));
+        }
+        Some(report)
     }
 }
 

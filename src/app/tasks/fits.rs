@@ -7,9 +7,12 @@ use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::platform::Instant;
 use crate::app::tasks::start_error::start_error;
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{Mask, OpenMeasurement};
-use pbrdf::fit::{BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile};
+use pbrdf::fit::{
+    BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile, with_intervals,
+};
 use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
 
@@ -22,6 +25,14 @@ pub struct FinishedFit {
     pub mask: Mask,
 }
 
+/// A fit with the intervals of its parameters.
+pub struct FinishedIntervals {
+    /// The id of the fit in the history.
+    pub id: usize,
+    /// None where the job was stopped before their ends.
+    pub report: Option<Box<FitResult>>,
+}
+
 /// How the parameters scatter over so many data sets.
 pub struct FinishedBootstrap {
     pub replicates: usize,
@@ -32,6 +43,7 @@ pub struct FinishedBootstrap {
 pub struct FitJobs {
     spawner: Spawner,
     pub fit: Slot<FinishedFit, TracePoint>,
+    pub intervals: Slot<FinishedIntervals>,
     /// Fits from the sliders while they move.
     pub refit: Slot<Box<FitResult>>,
     /// The revision at which the user had moved the sliders that the last refit began at.
@@ -47,6 +59,7 @@ impl FitJobs {
         Self {
             spawner,
             fit: Slot::default(),
+            intervals: Slot::default(),
             refit: Slot::default(),
             refitted_at: 0,
             compare: Slot::default(),
@@ -58,8 +71,8 @@ impl FitJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, refitted_at: _, fit, refit, compare, profile, bootstrap } = self;
-        vec![fit, refit, compare, profile, bootstrap]
+        let Self { spawner: _, refitted_at: _, fit, intervals, refit, compare, profile, bootstrap } = self;
+        vec![fit, intervals, refit, compare, profile, bootstrap]
     }
 
     /// Fits a document from so many starts.
@@ -79,6 +92,21 @@ impl FitJobs {
             FinishedFit { report, problem: Arc::new(problem), generation, mask }
         };
         self.fit.start(&self.spawner, "fit", job).map_err(start_error)
+    }
+
+    /// Finds the intervals of a finished fit, in place of those that are being found.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn intervals(&mut self, fit: &FitEntry) -> Result<(), String> {
+        let (id, problem, report) = (fit.id, fit.problem.clone(), fit.report.clone());
+        let job = move |context: &JobContext| {
+            let begun = Instant::now();
+            let cancelled = || context.is_cancelled();
+            let observer = Observer { clock: &|| milliseconds_since(begun), ..observer(&cancelled) };
+            FinishedIntervals { id, report: whole_intervals(&problem, report, observer).map(Box::new) }
+        };
+        self.intervals.start(&self.spawner, "intervals", job).map_err(start_error)
     }
 
     /// Fits from the sliders alone.
@@ -109,7 +137,11 @@ impl FitJobs {
                 context.report(preset.name);
                 let begun = Instant::now();
                 let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
-                fits.push(ModelFit { preset, result: problem.map(|problem| Box::new(fit(&problem, starts, seed, observer))) });
+                let fitted = |problem: Problem| {
+                    let linear = fit(&problem, starts, seed, observer);
+                    Box::new(whole_intervals(&problem, linear.clone(), observer).unwrap_or(linear))
+                };
+                fits.push(ModelFit { preset, result: problem.map(fitted) });
             }
             fits
         };
@@ -159,10 +191,18 @@ impl FitJobs {
     /// Stops all work on a measurement that is being replaced.
     pub fn abandon(&mut self) {
         self.fit.abandon();
+        self.intervals.abandon();
         self.refit.abandon();
         self.compare.abandon();
         self.abandon_scan();
     }
+}
+
+/// The result with its intervals; none where these were cancelled on the way.
+fn whole_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>) -> Option<FitResult> {
+    let result = with_intervals(problem, result, observer);
+    let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
+    (!is_part).then_some(result)
 }
 
 /// An observer that only cancels.

@@ -1,12 +1,18 @@
 //! Pressing Fit, and what follows.
 
-use crate::app::tests::{explorer, harness, take, wait};
+use crate::app::shell::app::App;
+use crate::app::tests::{PATIENCE, edit, explorer, harness, take, wait};
+use crate::app::text::numbers::significant;
 use crate::app::views::action::Action;
 use crate::app::work::edit::Edit;
+use crate::app::work::fit_setup::fit_problem;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use pbrdf::fit::{Starts, Weights};
+use pbrdf::fit::{FitOptions, Starts, Weights};
 use pbrdf::measurement::Quantity;
 use pbrdf::model::{Parameter, ParameterSet, Parameters};
+use std::time::Instant;
 
 #[test]
 fn pressing_fit_moves_the_sliders_to_a_better_place() {
@@ -93,6 +99,105 @@ fn refitting_while_dragging_keeps_what_is_fixed_and_fits_the_rest() {
 }
 
 #[test]
+fn a_dragged_slider_stays_where_the_pointer_is_while_the_others_are_refitted() {
+    let mut harness = harness();
+    let slider = harness.get_by_role_and_label(Role::Slider, "n").rect().center();
+    let places = [12.0, -9.0, 20.0, 3.0].map(|right| slider + egui::vec2(right, 0.0));
+    // What the pointer says, without any fit.
+    let mut drag = |is_live: bool| -> Vec<Parameters> {
+        explorer(&mut harness).work.surface_mut().parameters = Parameters::default();
+        explorer(&mut harness).work.settings_mut().refit_live = is_live;
+        wait(&mut harness);
+        harness.drag_at(slider);
+        let at = |place: &egui::Pos2| {
+            harness.hover_at(*place);
+            harness.step();
+            wait(&mut harness);
+            let explorer = explorer(&mut harness);
+            let (surface, measurement) = (explorer.work.surface(), &explorer.work.active().measurement);
+            let shown = surface.parameters;
+            let problem = fit_problem(surface, measurement, surface.model, ParameterSet::EMPTY, FitOptions::default()).expect("a problem");
+            assert_eq!(explorer.derived.delta_e(), problem.delta_e(&shown), "ΔE is that of the values");
+            assert_eq!(explorer.derived.curves.key().expect("curves").parameters, shown, "and so are the curves");
+            let text = harness.get_by_role_and_label(Role::SpinButton, "n").accesskit_node().value();
+            assert_eq!(text, Some(significant(shown.n)), "and so is the number in the box");
+            shown
+        };
+        let shown = places.iter().map(at).collect();
+        harness.drop_at(places[3]);
+        harness.run();
+        shown
+    };
+    let (alone, live) = (drag(false), drag(true));
+    for (alone, live) in alone.iter().zip(&live) {
+        assert_eq!(alone.n, live.n);
+        assert!(Parameters { n: live.n, ..Parameters::default() } != *live, "the others are fitted");
+    }
+}
+
+/// Draws frames until the fit is there and its intervals are on their way.
+fn fit_alone(harness: &mut Harness<'static, Option<App>>) {
+    explorer(harness).actions.push(Action::StartFit);
+    let begun = Instant::now();
+    while !explorer(harness).jobs.fits.intervals.is_running() {
+        assert!(begun.elapsed() < PATIENCE, "no intervals are being found");
+        harness.step();
+    }
+}
+
+#[test]
+fn intervals_follow_a_fit_and_can_be_stopped_and_found_after_all() {
+    let mut harness = harness();
+    fit_alone(&mut harness);
+    let linear = explorer(&mut harness).work.shown_fit().expect("a fit").report.clone();
+    assert!(linear.course.intervals_complete.is_none() && linear.estimates.iter().all(|estimate| estimate.interval68.is_none()));
+    harness.get_by_label("Finding the intervals…");
+    explorer(&mut harness).actions.push(Action::CancelIntervals);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.shown_fit().expect("a fit").report, linear, "a part of the intervals says nothing");
+    harness.get_by_label("Find the intervals").click();
+    harness.step();
+    wait(&mut harness);
+    let report = explorer(&mut harness).work.shown_fit().expect("a fit").report.clone();
+    assert_eq!(report.course.intervals_complete, Some(true));
+    for estimate in report.estimates.iter().filter(|estimate| estimate.free) {
+        let interval = estimate.interval68.expect("an interval");
+        assert!(interval.contains(estimate.value));
+        if estimate.determined {
+            harness.get_all_by_label_contains(&estimate.uncertainty_text().expect("a text")).next().expect("its uncertainty is shown");
+        }
+    }
+    // Of 27 noisy values for eight parameters some say nothing.
+    harness.get_by_label_contains("• not determined: ");
+    assert!(harness.query_by_label_contains("standard error above half").is_none());
+    harness.get_by_label_contains(" in the best basin");
+    let history = explorer(&mut harness).work.fit_history().get(0).expect("the fit").report.clone();
+    assert_eq!(history, report);
+}
+
+#[test]
+fn sliders_follow_a_better_minimum_unless_they_were_moved() {
+    let mut harness = harness();
+    explorer(&mut harness).actions.push(Action::StartFit);
+    wait(&mut harness);
+    let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
+    let better = |n: f64| {
+        let mut report = Box::new(fit.report.clone());
+        report.parameters.n = n;
+        Edit::SetFitReport { id: fit.id, report }
+    };
+    edit(&mut harness, better(1.25));
+    let work = &explorer(&mut harness).work;
+    assert_eq!((work.surface().parameters.n, work.shown_fit().expect("a fit").report.parameters.n), (1.25, 1.25));
+    // The sliders are those of the fit: one step of undo for both.
+    edit(&mut harness, Edit::Undo);
+    assert_eq!(explorer(&mut harness).work.surface().parameters, Parameters::default());
+    edit(&mut harness, better(1.5));
+    let work = &explorer(&mut harness).work;
+    assert_eq!((work.surface().parameters, work.shown_fit().expect("a fit").report.parameters.n), (Parameters::default(), 1.5));
+}
+
+#[test]
 fn what_the_data_determine_is_told_before_a_fit_and_only_if_asked() {
     let mut harness = harness();
     assert!(explorer(&mut harness).derived.outlook().is_none());
@@ -101,8 +206,14 @@ fn what_the_data_determine_is_told_before_a_fit_and_only_if_asked() {
     let outlook = explorer(&mut harness).derived.outlook().expect("an outlook");
     assert!(outlook.from_stated);
     let error = |parameter| outlook.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error);
-    // The paper's angles leave n more open than half its own size.
-    assert!(error(pbrdf::model::Parameter::N).expect("n is determined, badly") > 1.0);
+    // The paper's angles leave n more open than half its own size: that is not determined.
+    assert_eq!(error(Parameter::N), None);
+    harness.get_all_by_label("not determined").next().expect("it says so");
+    let parameters = explorer(&mut harness).work.surface().model.parameters();
+    explorer(&mut harness).work.surface_mut().locked = parameters.without(Parameter::N);
+    harness.run();
+    let alone = explorer(&mut harness).derived.outlook().expect("an outlook").errors.clone();
+    assert!(matches!(alone[..], [(Parameter::N, Some(error))] if error < 0.5), "all others known, n is: {alone:?}");
 }
 
 #[test]

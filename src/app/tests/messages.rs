@@ -313,7 +313,7 @@ fn damaged_sessions_are_refused_in_chinese() {
     ]);
     assert_localized([SavedFitError::Mask, SavedFitError::Problem(ProblemError::NothingToPredict)]);
     use FitRecordError as R;
-    assert_localized([R::Place, R::Starts, R::LossScale, R::Negative]);
+    assert_localized([R::Place, R::Starts, R::LossScale, R::BlockWeight, R::Intervals, R::Negative]);
 }
 
 #[test]
@@ -347,8 +347,9 @@ fn english_is_what_the_core_says() {
     for direction in directions() {
         assert_eq!(direction.localized(), direction.to_string());
     }
-    let undetermined = Undetermined::Poorly(vec![Parameter::N, Parameter::K]);
-    assert_eq!(undetermined.localized(), undetermined.to_string());
+    for undetermined in [Undetermined::Poorly, Undetermined::Parameters].map(|of| of(vec![Parameter::N, Parameter::K])) {
+        assert_eq!(undetermined.localized(), undetermined.to_string());
+    }
     let error = ProblemError::MissingSigma { row: 3, quantity: "dolp" };
     assert_eq!(error.localized(), error.to_string());
     for outcome in outcomes() {

@@ -29,13 +29,17 @@ fn a_profile_is_scanned_and_its_interval_told() {
     let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
     let error = fit.report.estimates.iter().find(|estimate| estimate.parameter == Parameter::K).and_then(|estimate| estimate.std_error);
     let profile = explorer(&mut harness).work.diagnostics().profile.as_ref().expect("a profile");
-    let (low, high) = (profile.low.expect("an end"), profile.high.expect("an end"));
+    let [(low, high), (lower, higher)] = profile.intervals.map(|interval| (interval.low.expect("an end"), interval.high.expect("an end")));
+    // The same walks make the table and the curve.
+    let estimate = fit.report[Parameter::K];
+    assert_eq!([estimate.interval68, estimate.interval95].map(|interval| interval.expect("intervals")), profile.intervals);
+    assert!(lower < low && high < higher && profile.limits[0] < profile.limits[1]);
     assert_eq!(profile.parameter, Parameter::K);
     // With two parameters on clean data the interval is nearly the symmetric one.
     let half = 0.5 * (high - low) / error.expect("k is determined");
     assert!((0.8..1.25).contains(&half), "{half}");
     assert!(profile.points.iter().all(|[_, gain]| *gain >= -1e-9 * fit.report.statistics.rss));
-    harness.get_by_label_contains("(one standard error)");
+    harness.get_by_label_contains("k, 95 %: ");
     // Another fit has another profile.
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);

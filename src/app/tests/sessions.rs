@@ -84,7 +84,7 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
         wait(harness);
     }
     let said = |harness: &mut Harness<'static, Option<App>>| {
-        let texts = ["evaluations", "minima from", "Winning start of", "The mask has changed"];
+        let texts = ["evaluations", "in the best basin", "Winning start of", "The mask has changed"];
         texts.map(|text| {
             harness
                 .query_all_by_label_contains(text)
@@ -108,6 +108,32 @@ fn a_fit_of_a_session_is_shown_as_it_was() {
     };
     assert_eq!(marks(before), marks(after));
     assert!(marks(after).0 >= 1 && marks(after).1.iter().all(|&steps| steps > 1));
+}
+
+#[test]
+fn a_fit_of_dolp_and_brdf_together_comes_back_with_its_weights_and_intervals() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut before = harness();
+    order(&mut before, Action::OpenExample(2));
+    assert!(explorer(&mut before).work.active().measurement.has_dolp() && explorer(&mut before).work.active().measurement.has_brdf());
+    order(&mut before, Action::StartFit);
+    let path = saved(&mut before, folder.path());
+    let text = std::fs::read_to_string(&path).expect("the session");
+    let opened = |text: &str| {
+        std::fs::write(&path, text).expect("a file");
+        let mut after = harness();
+        order(&mut after, Action::OpenSession(path.clone()));
+        after
+    };
+    let old = explorer(&mut before).work.shown_fit().expect("a fit").report.clone();
+    assert!(old.statistics.block_weights != [1.0; 2] && old.course.intervals_complete == Some(true));
+    assert_eq!(explorer(&mut opened(&text)).work.shown_fit().expect("the fit").report, old);
+    // Versions before knew no intervals.
+    let mut earlier: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    earlier["fits"][0]["account"].as_object_mut().expect("an account").remove("intervals").expect("intervals");
+    let mut after = opened(&earlier.to_string());
+    assert_eq!(explorer(&mut after).work.shown_fit().expect("the fit").report.course.intervals_complete, None);
+    after.get_by_label("Find the intervals");
 }
 
 #[test]
@@ -144,7 +170,7 @@ fn a_session_that_does_not_tell_how_its_fit_came_about_opens() {
         assert_eq!(third.work.shown_fit().expect("the fit").mask[..], [3, 5]);
         assert_eq!(third.work.active().mask()[..], [3, 5, 8]);
     }
-    for wrong in ["evaluations", "minima from"] {
+    for wrong in ["evaluations", "in the best basin"] {
         assert!(other.query_by_label_contains(wrong).is_none(), "{wrong}");
     }
     explorer(&mut other).dock.show(PaneId::Convergence);
@@ -258,6 +284,8 @@ fn a_damaged_fit_is_left_out_with_a_sentence_and_the_rest_opens() {
         ("/fits/0/account/loss_scales", "[-1.0, 1.0]", "account: a scale of the loss"),
         ("/fits/0/account/loss_scales", "[1e-300, 1.0]", "account: a scale of the loss"),
         ("/fits/0/account/loss_scales", "[1.0, 1e300]", "account: a scale of the loss"),
+        ("/fits/0/account/intervals/of/0/0", "[2.0, 1.0]", "account.intervals: "),
+        ("/fits/0/account/intervals/of", "[]", "account.intervals: "),
         ("/fits/0/account/masked", "[5, 3]", "masked: "),
         ("/fits/0/account/masked", "[3, 3]", "masked: "),
         ("/fits/0/account/masked", "[3, 99999]", "masked: "),

@@ -24,15 +24,17 @@ pub const DELTA_E: Entry = Entry {
     meaning: "ΔE = Σ (X − Xm)² / Σ Xm², Eq. (18): the squared distance between model X and measurement Xm over that of the measurement from 0; with DoLP and BRDF measured, the sum of both. 0 is a perfect fit.",
 };
 pub const OPEN: Entry = Entry {
-    word: "open, undetermined",
+    word: "open, undetermined, not determined",
     meaning: "The data leave it open: quite other values, together with other parameters, fit as well, so that it has no standard error.",
 };
 pub const AT_BOUND: Entry = Entry {
     word: "at bound",
-    meaning: "It rests on the end of its range: a better value may lie outside. There it has no standard error, and those of the others hold only with it kept there.",
+    meaning: "It rests on the end of its range: a better value may lie outside. There it has no linear error, and its interval is open on that side.",
 };
-pub const BADLY_DETERMINED: Entry =
-    Entry { word: "badly determined", meaning: "The data determine it, but with a standard error above half of the value." };
+pub const INTERVAL: Entry = Entry {
+    word: "interval",
+    meaning: "The values of a parameter that the data allow, by profile likelihood: the parameter is held, all others are fitted again, and the misfit stays below what the level, 68.3 or 95 %, allows.",
+};
 pub const MASK: Entry =
     Entry { word: "mask", meaning: "Masked rows stay in the file and are shown, but count in no fit and no statistic." };
 pub const AICC: Entry = Entry {
@@ -53,7 +55,7 @@ pub const GLOSSARY: [Entry; 15] = [
     },
     OPEN,
     AT_BOUND,
-    BADLY_DETERMINED,
+    INTERVAL,
     Entry { word: "limit", meaning: "What a number of a report or of the audit has to keep in order to pass." },
     MASK,
     Entry { word: "ghost", meaning: "The faint dotted curve of the last fit, which stays in view while the sliders move on." },

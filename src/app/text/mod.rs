@@ -1,5 +1,6 @@
 //! Texts: two languages, the glossary, numbers.
 
+pub mod estimate;
 pub mod glossary;
 pub mod help;
 pub mod i18n;

@@ -1,9 +1,8 @@
 //! Numbers as the window shows them: by the rounding of the core.
 
-use pbrdf::fit::{Interval, ends_text, relative_error_base};
+use pbrdf::fit::relative_error_base;
 use pbrdf::model::Parameter;
 use pbrdf::rounding;
-use tr::tr;
 
 /// Three significant digits, enough for an error.
 pub fn short(value: f64) -> String {
@@ -13,11 +12,6 @@ pub fn short(value: f64) -> String {
 /// Up to five significant digits, for a value.
 pub fn significant(value: f64) -> String {
     rounding::trimmed(value, 5)
-}
-
-/// The ends of the interval of a value at 68.3 %.
-pub fn within_text(value: f64, interval: Interval) -> String {
-    if interval.is_open() { tr!("not determined") } else { ends_text(value, interval) }
 }
 
 /// An error in percent of the size of its parameter.

@@ -59,6 +59,9 @@ pub enum Action {
     ForgetRecent,
     StartFit,
     CancelFit,
+    /// Find the intervals of the shown fit, which were stopped.
+    FindIntervals,
+    CancelIntervals,
     /// Fitted values to the sliders.
     UseFit,
     /// The values from before the fit to the sliders.

@@ -6,7 +6,7 @@ use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
 use crate::app::work::fit_setup::fit_problem;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
-use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights};
+use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights, is_determined};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
@@ -91,7 +91,7 @@ impl Derived {
 
 /// What data would determine, seen from the sliders before any fit.
 pub struct Identifiability {
-    /// Standard error of each free parameter; none where it would stay open.
+    /// Standard error of each free parameter; none where it would say nothing of the value.
     pub errors: Vec<(Parameter, Option<f64>)>,
     pub open: Vec<UndeterminedDirection>,
     /// Whether the errors come from stated standard deviations rather than from the present misfit.
@@ -111,7 +111,11 @@ impl Identifiability {
         let problem = stated.or_else(|| with(Weights::None))?;
         let misfit = problem.sum_of_squares(&parameters)?;
         let uncertainty = Uncertainty::at(&problem, &parameters, misfit, ParameterSet::EMPTY);
-        let errors = free.iter().map(|parameter| (parameter, uncertainty.standard_error(parameter))).collect();
+        let error_of = |parameter| {
+            let error = uncertainty.standard_error(parameter);
+            error.filter(|error| is_determined(parameters[parameter], *error, problem.bounds().of(parameter)))
+        };
+        let errors = free.iter().map(|parameter| (parameter, error_of(parameter))).collect();
         Some(Self { errors, open: uncertainty.undetermined, from_stated })
     }
 }

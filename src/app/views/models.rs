@@ -3,10 +3,10 @@
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
+use crate::app::text::estimate::{uncertainty_help, uncertainty_text};
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::{short, significant, within_text};
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
@@ -14,7 +14,7 @@ use crate::app::work::fit_setup::explain;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::workspace::Workspace;
 use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
-use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
+use pbrdf::fit::{DistributionComparison, Estimate, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
 
@@ -139,9 +139,7 @@ fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.localized());
     ui.monospace(number(reduced, |value| format!("{value:.3}")));
     ui.monospace(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
-    let starts: usize = report.course.minima.iter().map(|minimum| minimum.hits).sum();
-    let reached = report.course.minima.first().map_or(0, |minimum| minimum.hits);
-    ui.monospace(tr!("{} of {}", reached, starts));
+    ui.monospace(tr!("{} of {}", report.course.hits_of_best(), report.course.starts()));
     ui.monospace(report.course.evaluations.to_string());
     ui.monospace(format!("{:.1}", report.course.elapsed_ms));
 }
@@ -173,18 +171,10 @@ fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
 const LETTERS: f32 = 11.0;
 
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
-    let standing = match estimate.status() {
-        EstimateStatus::Fixed => tr!("fixed"),
-        EstimateStatus::AtBound(_) => tr!("at bound"),
-        EstimateStatus::Determined(error) => format!("± {}", short(error)),
-        EstimateStatus::Within(interval) => within_text(estimate.value, interval),
-        EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Undetermined => tr!("not determined"),
-    };
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
-        ui.label(RichText::new(significant(estimate.value)).size(LETTERS));
-        ui.label(RichText::new(standing).size(LETTERS)).on_hover_text(glossary::standing_help(estimate.status()));
+        ui.label(RichText::new(estimate.value_text()).size(LETTERS));
+        ui.label(RichText::new(uncertainty_text(estimate)).size(LETTERS)).on_hover_text(uncertainty_help(estimate));
     });
 }
 

@@ -16,7 +16,7 @@ use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::predicted_errors::PredictedErrors;
 use crate::app::work::workspace::Workspace;
 use egui::{ComboBox, DragValue, Grid, Role, ScrollArea, Ui, WidgetInfo};
-use pbrdf::fit::{Undetermined, is_poorly_determined};
+use pbrdf::fit::Undetermined;
 use pbrdf::measurement::Columns;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
@@ -237,7 +237,7 @@ fn predictions_ui(work: &Workspace, view: &PlannerView, ui: &mut Ui) {
     });
     for (prediction, angles) in [(planned, "With the planned angles"), (now, "With the measured angles")] {
         if let Ok(prediction) = prediction {
-            open_ui(parameters, prediction, angles, ui);
+            open_ui(prediction, angles, ui);
         }
     }
 }
@@ -258,6 +258,9 @@ fn error_row_ui(
         match (prediction, error(prediction)) {
             (Err(_), _) => _ = ui.monospace("-"),
             (Ok(_), None) => _ = ui.monospace(tr!("open")).on_hover_text(open_help()),
+            (Ok(prediction), Some(error)) if !prediction.determined.contains(parameter) => {
+                ui.monospace(tr!("not determined")).on_hover_text(format!("± {}", short(error)));
+            }
             (Ok(_), Some(error)) => {
                 let share = percent(parameter, value, error);
                 let text = if with_percent { format!("{} ({share})", short(error)) } else { short(error) };
@@ -270,12 +273,12 @@ fn error_row_ui(
 }
 
 /// What stays open, in words.
-fn open_ui(parameters: &Parameters, prediction: &PredictedErrors, angles: &str, ui: &mut Ui) {
-    let loose = prediction.errors.iter().filter_map(|(parameter, error)| Some((*parameter, (*error)?)));
-    let loose =
-        loose.filter(|(parameter, error)| is_poorly_determined(*parameter, parameters[*parameter], *error)).map(|(parameter, _)| parameter);
+fn open_ui(prediction: &PredictedErrors, angles: &str, ui: &mut Ui) {
+    let loose = prediction.errors.iter().filter(|(_, error)| error.is_some()).map(|(parameter, _)| *parameter);
+    let loose: Vec<Parameter> = loose.filter(|parameter| !prediction.determined.contains(*parameter)).collect();
     let directions = prediction.open.iter().cloned().map(Undetermined::Direction);
-    let open: Vec<Undetermined> = directions.chain(Undetermined::poorly(loose)).collect();
+    let loose = (!loose.is_empty()).then_some(Undetermined::Parameters(loose));
+    let open: Vec<Undetermined> = directions.chain(loose).collect();
     if open.is_empty() {
         ui.add(egui::Label::new(tr!("{} nothing stays open.", translated(angles))).wrap());
         return;

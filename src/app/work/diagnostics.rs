@@ -1,6 +1,6 @@
 //! What is asked about a finished fit: the profile of a parameter, and a bootstrap.
 
-use pbrdf::fit::{BootstrapEstimate, FitResult, Problem, Profile, Weights};
+use pbrdf::fit::{BootstrapEstimate, FitResult, Interval, Problem, Profile, Weights};
 use pbrdf::model::Parameter;
 
 /// Diagnostics around the fit that is shown.
@@ -38,11 +38,12 @@ pub struct ProfileCurve {
     pub parameter: Parameter,
     /// Value and gain.
     pub points: Vec<[f64; 2]>,
-    /// The gain that one standard error makes.
-    pub limit: f64,
-    /// Where the curve meets it, on either side; none where the scan ends before.
-    pub low: Option<f64>,
-    pub high: Option<f64>,
+    /// The gains at 68.3 and at 95 %; infinite where no degree of freedom is left.
+    pub limits: [f64; 2],
+    /// The intervals between the places where the curve meets them.
+    pub intervals: [Interval; 2],
+    /// Whether it was followed to its ends.
+    pub is_complete: bool,
     /// The fitted value.
     pub best: f64,
     /// Whether the gain is one of χ².
@@ -53,15 +54,13 @@ impl ProfileCurve {
     pub fn new(profile: &Profile, problem: &Problem, report: &FitResult) -> Self {
         let smallest = report.statistics.rss;
         let is_chi2 = problem.options().weights == Weights::Sigma;
-        #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-        let limit = if is_chi2 { 1.0 } else { smallest / report.statistics.dof.max(1) as f64 };
         let points = profile.points.iter().map(|point| [point.value, point.rss - smallest]);
         Self {
             parameter: profile.parameter,
             points: points.filter(|[_, gain]| gain.is_finite()).collect(),
-            limit,
-            low: profile.low,
-            high: profile.high,
+            limits: profile.limits.map(|limit| limit - smallest),
+            intervals: [profile.interval68, profile.interval95],
+            is_complete: profile.is_complete,
             best: report.parameters[profile.parameter],
             is_chi2,
         }

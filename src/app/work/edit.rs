@@ -59,6 +59,12 @@ pub enum Edit {
     Open(Box<OpenMeasurement>),
     /// Adds a finished fit to the history, shows it and takes its values.
     AddFit(Box<FitEntry>),
+    /// Puts a report with intervals in the place of that of the fit with this id. If its minimum is a
+    /// better one, sliders that stand at the minimum before follow.
+    SetFitReport {
+        id: usize,
+        report: Box<FitResult>,
+    },
     /// Takes the free parameters of a fit that ran while sliders moved.
     Refit(Box<FitResult>),
     /// Values and model of something that was looked at. A live refit does not begin there.

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// A fit as the window remembers it.
+#[derive(Clone)]
 pub struct FitEntry {
     /// Its number in the session, from 1.
     pub id: usize,
@@ -55,6 +56,13 @@ impl FitHistory {
             self.fits.pop_back();
         }
         fit
+    }
+
+    /// Puts a report in the place of that of a kept fit, and gives the fit back.
+    pub fn replace_report(&mut self, id: usize, report: FitResult) -> Option<Arc<FitEntry>> {
+        let fit = self.fits.iter_mut().find(|fit| fit.id == id)?;
+        Arc::make_mut(fit).report = report;
+        Some(fit.clone())
     }
 
     /// The fit so many before the newest.

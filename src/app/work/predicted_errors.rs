@@ -14,6 +14,8 @@ use tr::tr;
 pub struct PredictedErrors {
     /// Standard error of each free parameter; none where it would stay open.
     pub errors: Vec<(Parameter, Option<f64>)>,
+    /// The parameters whose error says something about the value.
+    pub determined: ParameterSet,
     /// What would stay open, in words.
     pub open: Vec<UndeterminedDirection>,
 }
@@ -49,8 +51,8 @@ impl PredictedErrors {
         }
         let plan =
             Design { model: surface.model, parameters: surface.parameters, geometries, noise: design.noise(), free, given: Vec::new() };
-        let DesignPrediction { errors, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
-        Ok(Self { errors, open: undetermined })
+        let DesignPrediction { errors, determined, undetermined, .. } = plan.predict().map_err(|error| tr!("{}.", error.localized()))?;
+        Ok(Self { errors, determined, open: undetermined })
     }
 
     /// Standard error of a parameter.

@@ -13,7 +13,7 @@ use crate::app::work::setup::Setup;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::FitResult;
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, Parameters};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,6 +36,8 @@ pub struct Workspace {
     /// The revision at which the user last moved a value or masked a row; 0 where the values are
     /// those of a fit.
     moved_at: u64,
+    /// The parameters that the user moved then.
+    moved: ParameterSet,
 }
 
 fn next_revision() -> u64 {
@@ -68,6 +70,7 @@ impl Workspace {
             revision,
             recorded_at: 0,
             moved_at: revision,
+            moved: ParameterSet::EMPTY,
         }
     }
 
@@ -176,6 +179,11 @@ impl Workspace {
         self.moved_at
     }
 
+    /// The parameters that the user moved last, all others having stayed: a live refit holds them.
+    pub fn moved(&self) -> ParameterSet {
+        self.moved
+    }
+
     /// Makes one change.
     pub fn apply(&mut self, edit: Edit) {
         self.revision = next_revision();
@@ -197,7 +205,7 @@ impl Workspace {
             Edit::SetDesign(design) => self.settings.design = design,
             Edit::Mask { rows, masked } => {
                 self.measurements.active_mut().set_masked(&rows, masked);
-                self.moved_at = self.revision;
+                (self.moved_at, self.moved) = (self.revision, ParameterSet::EMPTY);
             }
             Edit::Open(opened) => self.open(*opened),
             Edit::SetProfiled(parameter) => self.diagnostics.parameter = Some(parameter),
@@ -214,6 +222,7 @@ impl Workspace {
                 let fit = self.fit_history.push(*fit);
                 self.show_fit(Some(fit));
             }
+            Edit::SetFitReport { id, report } => self.set_fit_report(id, *report),
             Edit::Refit(report) => self.take_refit(&report),
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
             Edit::UseFit => {
@@ -299,8 +308,10 @@ impl Workspace {
 
     /// The user moves the sliders.
     fn move_to(&mut self, parameters: Parameters) {
-        if parameters != self.surface().parameters {
+        let before = self.surface().parameters;
+        if parameters != before {
             self.moved_at = self.revision;
+            self.moved = Parameter::ALL.into_iter().filter(|&parameter| parameters[parameter] != before[parameter]).collect();
         }
         self.measurements.set_parameters(parameters);
     }
@@ -312,15 +323,34 @@ impl Workspace {
         self.moved_at = 0;
     }
 
-    /// Takes what a live refit found. Sliders may have moved since it began: locked ones stay, free
-    /// ones are the fit's.
+    /// Takes what a live refit found. Sliders may have moved since it began: locked and moved ones
+    /// stay, those that it fitted are the fit's.
     fn take_refit(&mut self, report: &FitResult) {
         let Surface { mut parameters, locked, .. } = *self.surface();
-        let free = report.estimates.iter().map(|estimate| estimate.parameter);
-        for parameter in free.filter(|parameter| !locked.contains(*parameter)) {
-            parameters[parameter] = report.parameters[parameter];
+        let held = locked.union(self.moved);
+        for estimate in report.estimates.iter().filter(|estimate| estimate.free && !held.contains(estimate.parameter)) {
+            parameters[estimate.parameter] = estimate.value;
         }
         self.measurements.set_parameters(parameters);
+    }
+
+    fn set_fit_report(&mut self, id: usize, report: FitResult) {
+        let Some(before) = self.fit_history.iter().find(|fit| fit.id == id).map(|fit| fit.report.parameters) else { return };
+        let (after, model) = (report.parameters, report.model);
+        let Some(fit) = self.fit_history.replace_report(id, report) else { return };
+        let surface = self.surface();
+        if after != before && fit.number == self.active().number && (surface.parameters, surface.model) == (before, model) {
+            self.record_step();
+            self.take_values(after, model);
+            // Undo goes from the better minimum to what was before the fit.
+            self.replace_step();
+        }
+        if self.shown_fit.as_ref().is_some_and(|shown| shown.id == id) {
+            self.shown_fit = Some(fit);
+            if after != before {
+                self.diagnostics.forget();
+            }
+        }
     }
 
     /// Shows a fit; profile and bootstrap of another one are dropped.

@@ -5,7 +5,8 @@
 //! columns scaled to length 1, are `U S Vᵀ`; directions with a singular value below [`RANK_THRESHOLD`] of the largest are left out.
 
 use crate::fit::design::candidates::CandidateGrid;
-use crate::fit::design::prediction::{NoiseModel, SMALLEST_SIZE};
+use crate::fit::design::prediction::NoiseModel;
+use crate::fit::estimate::SMALLEST_SIZE;
 use crate::fit::intervals::linear::RANK_THRESHOLD;
 use crate::measurement::Row;
 use crate::model::{Batch, DolpGradients, GradientRequest, Parameter, Parameters, Pbrdf};

@@ -4,6 +4,7 @@
 //! σ at the planned surface, without χ²/dof, which nobody knows beforehand.
 
 use crate::fit::bounds::Bounds;
+use crate::fit::estimate::is_determined;
 use crate::fit::free_parameters::free_by_default;
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
@@ -12,9 +13,6 @@ use crate::fit::options::{FitOptions, Weights};
 use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use crate::optics::{Facet, Geometry};
-
-/// Size below which an error is compared with this size.
-pub(crate) const SMALLEST_SIZE: f64 = 0.1;
 
 /// What is to be measured, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,9 +114,8 @@ impl Design {
         let errors: Vec<(Parameter, Option<f64>)> =
             problem.free().iter().map(|&parameter| (parameter, uncertainty.standard_error(parameter))).collect();
         let is_determined = |&(parameter, error): &(Parameter, Option<f64>)| {
-            let (low, high) = bounds.of(parameter);
-            let largest = 0.5 * self.parameters[parameter].abs().max(SMALLEST_SIZE).min(high - low);
-            error.is_some_and(|error| error <= largest).then_some(parameter)
+            let is_determined = |error| is_determined(self.parameters[parameter], error, bounds.of(parameter));
+            error.is_some_and(is_determined).then_some(parameter)
         };
         Ok(DesignPrediction {
             determined: errors.iter().filter_map(is_determined).collect(),

@@ -24,6 +24,12 @@ impl Interval {
         *self == Self::OPEN
     }
 
+    /// Whether it has both ends.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.low.is_some() && self.high.is_some()
+    }
+
     /// Whether a value lies in it.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {

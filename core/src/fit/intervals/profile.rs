@@ -60,10 +60,12 @@ pub struct Profile {
     pub parameter: Parameter,
     /// Held fits from one limit of 95 % to the other, or to the bound, in ascending values.
     pub points: Vec<ProfilePoint>,
-    /// Lower end of the interval at 68.3 %; none where the bound comes first.
-    pub low: Option<f64>,
-    /// Upper end.
-    pub high: Option<f64>,
+    /// The interval at 68.3 %.
+    pub interval68: Interval,
+    /// The interval at 95 %.
+    pub interval95: Interval,
+    /// Residual sums of squares that the ends of both have.
+    pub limits: [f64; 2],
     /// Whether it was not cancelled on the way.
     pub is_complete: bool,
 }
@@ -93,7 +95,7 @@ pub fn with_intervals(problem: &Problem, mut result: FitResult, observer: Observ
         }
         if is_settled {
             result.course.intervals_complete = Some(found.is_complete);
-            set_intervals(&fitted, &mut result, &found);
+            set_intervals(&fitted, &mut result, &found.ends.into_iter().map(intervals_of).collect::<Vec<_>>());
             break;
         }
     }
@@ -107,15 +109,19 @@ pub fn profile(problem: &Problem, result: &FitResult, parameter: Parameter, obse
     let fitted = result.fitted(problem);
     let found = profiles_of(&fitted, result, &[parameter], observer);
     let Some(unknown) = fitted.free().iter().position(|&free| free == parameter) else {
-        return Profile { parameter, points: Vec::new(), low: None, high: None, is_complete: true };
+        let [interval68, interval95] = [Interval::OPEN; 2];
+        return Profile { parameter, points: Vec::new(), interval68, interval95, limits: [f64::INFINITY; 2], is_complete: true };
     };
+    let sum_of_squares = fitted.sum_of_squares(&result.parameters).unwrap_or(f64::NAN);
+    let limits = rises(&fitted, result, sum_of_squares, parameter).map(|rise| (sum_of_squares + rise) * fitted.rss_scale());
     let point = |fit: &ProfileFit| ProfilePoint {
         value: fit.x[unknown],
         objective: fitted.objective(fit.sum_of_squares, &fitted.parameters_at(&fit.x)),
         rss: fit.sum_of_squares * fitted.rss_scale(),
     };
-    let [low, high] = found.ends[unknown].map(|side| side[0]);
-    Profile { parameter, points: found.points[unknown].iter().map(point).collect(), low, high, is_complete: found.is_complete }
+    let [interval68, interval95] = intervals_of(found.ends[unknown]);
+    let points = found.points[unknown].iter().map(point).collect();
+    Profile { parameter, points, interval68, interval95, limits, is_complete: found.is_complete }
 }
 
 fn unknowns_at(problem: &Problem, parameters: &Parameters) -> DVector<f64> {
@@ -192,12 +198,18 @@ fn with_better_minimum(problem: &Problem, result: FitResult, better: &[ProfileFi
     analyse(&fitted, found, course.elapsed_ms)
 }
 
-fn set_intervals(problem: &Problem, result: &mut FitResult, found: &Profiles) {
+/// The intervals at both levels between the ends below and above the minimum.
+fn intervals_of([low, high]: [[Option<f64>; 2]; 2]) -> [Interval; 2] {
+    [0, 1].map(|level| Interval { low: low[level], high: high[level] })
+}
+
+/// Sets intervals at 68.3 and 95 % that were found before, one pair for each free parameter of the problem; a linear standard error
+/// stays only where it agrees.
+pub fn set_intervals(problem: &Problem, result: &mut FitResult, intervals: &[[Interval; 2]]) {
     let dof = result.statistics.dof;
     for estimate in result.estimates.iter_mut().filter(|estimate| estimate.free) {
-        let ends = problem.free().iter().position(|&free| free == estimate.parameter).map(|j| found.ends[j]);
-        let [interval68, interval95] =
-            [0, 1].map(|level| ends.map_or(Interval::OPEN, |[low, high]| Interval { low: low[level], high: high[level] }));
+        let found = problem.free().iter().position(|&free| free == estimate.parameter).and_then(|j| intervals.get(j));
+        let [interval68, interval95] = found.copied().unwrap_or([Interval::OPEN; 2]);
         estimate.interval68 = Some(interval68);
         estimate.interval95 = Some(interval95);
         estimate.determined = !interval68.is_open() || (dof == 0 && estimate.determined);

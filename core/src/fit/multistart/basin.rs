@@ -27,6 +27,14 @@ pub(crate) const SAME: f64 = 1e-6;
 /// Sums of squares that differ by less than this are the same: of noise-free data, rounding alone is left.
 pub(crate) const SAME_ABSOLUTE: f64 = 1e-20;
 
+/// The expected share of starts that end in minima not seen yet, `w(w + 1)/(n(n − 1))` of w distinct minima after n starts (Boender
+/// and Kan, Math. Program. 37, 59 (1987)); none after a single start.
+pub(crate) fn unseen_share(minima: usize, starts: usize) -> Option<f64> {
+    #[expect(clippy::cast_precision_loss, reason = "numbers of starts")]
+    let (w, n) = (minima as f64, starts as f64);
+    (starts > 1).then(|| (w * (w + 1.0) / (n * (n - 1.0))).min(1.0))
+}
+
 impl MultistartResult {
     /// Of the distinct minima, best first, and the residual evaluations of all starts; none without a minimum.
     #[must_use]
@@ -39,13 +47,9 @@ impl MultistartResult {
         self.basins.first().map_or(f64::INFINITY, |basin| basin.local_fit.sum_of_squares)
     }
 
-    /// The expected share of starts that end in minima not seen yet, `w(w + 1)/(n(n − 1))` of w distinct minima after n starts (Boender
-    /// and Kan, Math. Program. 37, 59 (1987)); none after a single start.
+    /// [`unseen_share`] of these minima.
     pub(crate) fn unseen_share(&self) -> Option<f64> {
-        let starts: usize = self.basins.iter().map(|basin| basin.hits).sum();
-        #[expect(clippy::cast_precision_loss, reason = "numbers of starts")]
-        let (w, n) = (self.basins.len() as f64, starts as f64);
-        (starts > 1).then(|| (w * (w + 1.0) / (n * (n - 1.0))).min(1.0))
+        unseen_share(self.basins.len(), self.basins.iter().map(|basin| basin.hits).sum())
     }
 
     /// Whether the best minimum is at rounding, so that no better one can be.

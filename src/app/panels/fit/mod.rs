@@ -74,7 +74,7 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."))
                         .on_hover_text(glossary::mask_help());
                 }
-                result::result_ui(fit, work, cx.actions, ui);
+                result::result_ui(fit, work, &jobs.fits, cx.actions, ui);
                 scans::scans_ui(fit, cx, ui);
             }
             None => {

@@ -2,9 +2,9 @@
 
 use crate::app::text::glossary::open_help;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::significant;
 use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};
+use pbrdf::rounding::significant;
 use tr::tr;
 
 /// Standard errors that a fit from the sliders would have, before it is made.
@@ -23,8 +23,8 @@ pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
         for (parameter, error) in &outlook.errors {
             ui.label(parameter.symbol());
             match error {
-                Some(error) => ui.label(format!("± {} {}", significant(*error), parameter.unit())),
-                None => ui.label(tr!("open")).on_hover_text(open_help()),
+                Some(error) => ui.label(format!("± {} {}", significant(*error, 2), parameter.unit())),
+                None => ui.label(tr!("not determined")).on_hover_text(open_help()),
             };
             ui.end_row();
         }

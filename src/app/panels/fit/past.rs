@@ -1,10 +1,12 @@
 //! The last fits, to look at again and to return to.
 
+use crate::app::text::estimate::uncertainty_text;
 use crate::app::text::glossary::delta_e_help;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
 use crate::app::work::workspace::Workspace;
 use egui::{CollapsingHeader, Grid, Ui};
+use pbrdf::fit::Estimate;
 use pbrdf::model::Preset;
 use std::sync::Arc;
 use tr::tr;
@@ -28,7 +30,11 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
                 let elsewhere =
                     if fit.number == number { String::new() } else { format!("\n{}", tr!("of another measurement than the open one")) };
                 let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
-                let help = format!("{}\n{}{elsewhere}", fit.document, report.stop_reason.localized());
+                let line = |estimate: &Estimate| {
+                    format!("\n{} = {}, {}", estimate.parameter.symbol(), estimate.value_text(), uncertainty_text(estimate))
+                };
+                let values: String = report.estimates.iter().filter(|estimate| estimate.free).map(line).collect();
+                let help = format!("{}\n{}{elsewhere}{values}", fit.document, report.stop_reason.localized());
                 if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Action::ReturnToFit(index));
                 }

@@ -2,22 +2,25 @@
 
 use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
+use crate::app::tasks::fits::FitJobs;
+use crate::app::text::estimate::{bound_text, uncertainty_help, uncertainty_text};
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::{short, significant, within_text};
+use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, Ui};
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
+use pbrdf::fit::{BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
+use pbrdf::rounding;
 use tr::tr;
 
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
-pub fn result_ui(fit: &FitEntry, work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
+pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mut Vec<Action>, ui: &mut Ui) {
     let (report, surface) = (&fit.report, work.surface());
     ui.horizontal(|ui| {
         let are_sliders = surface.parameters == report.parameters && surface.model == report.model;
@@ -60,6 +63,9 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, commands: &mut Vec<Action>, u
     });
     ui.add_space(6.0);
     estimates_ui(report, work.diagnostics().scatter.as_ref(), ui);
+    if !fit.problem.free().is_empty() && !fit.problem.is_empty() {
+        intervals_ui(report, jobs, commands, ui);
+    }
     ui.add_space(6.0);
     minima_ui(report, ui);
     correlations_ui(report, ui);
@@ -86,7 +92,10 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
         for (heading, help) in [
             ("start", "The slider before the fit"),
             ("value", "Where the fit ended"),
-            ("± std. error", "One standard error, or why there is none"),
+            (
+                "± (68.3 %)",
+                "The interval at 68.3 % by profile likelihood, or why there is none; grey: the linear error, until that interval is there",
+            ),
         ] {
             ui.strong(translated(heading)).on_hover_text(translated(help));
         }
@@ -97,8 +106,8 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
         for estimate in &report.estimates {
             ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
             ui.monospace(significant(estimate.start));
-            ui.monospace(significant(estimate.value));
-            ui.label(error_text(estimate)).on_hover_text(glossary::standing_help(estimate.status()));
+            ui.monospace(estimate.value_text()).on_hover_text(significant(estimate.value));
+            uncertainty_ui(estimate, report.course.intervals_complete.is_some(), ui);
             let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
@@ -155,8 +164,19 @@ fn minima_ui(report: &FitResult, ui: &mut Ui) {
     if report.course.minima.is_empty() {
         return;
     }
-    let starts: usize = report.course.minima.iter().map(|minimum| minimum.hits).sum();
-    ui.collapsing(tr!("{0} minima from {1} starts", report.course.minima.len(), starts), |ui| {
+    let (starts, hits) = (report.course.starts(), report.course.hits_of_best());
+    let title = tr!("{0} starts, {1} in the best basin", starts, hits);
+    egui::CollapsingHeader::new(title).id_salt("starts").show(ui, |ui| {
+        if let Some(share) = report.course.unseen_share() {
+            let text = tr!(
+                "Minima seen: {0}; about {1} % of further starts would end in one not seen.",
+                report.course.minima.len(),
+                rounding::significant(100.0 * share, 2)
+            );
+            let help =
+                tr!("As Boender and Kan expect it (Math. Program. 37, 59 (1987)): w (w + 1)/(n (n − 1)) for w minima after n starts");
+            ui.add(egui::Label::new(text).wrap()).on_hover_text(help);
+        }
         Grid::new("minima").num_columns(3).striped(true).show(ui, |ui| {
             glossary::minima_headings_ui(ui);
             ui.end_row();
@@ -212,14 +232,48 @@ fn short_correlation(r: f64) -> String {
     if r.is_nan() { "-".to_owned() } else { format!("{r:.2}").replace("0.", ".") }
 }
 
-fn error_text(estimate: &Estimate) -> String {
-    match estimate.status() {
-        EstimateStatus::Fixed => tr!("fixed"),
-        EstimateStatus::AtBound(Edge::Lower) => tr!("at lower bound"),
-        EstimateStatus::AtBound(Edge::Upper) => tr!("at upper bound"),
-        EstimateStatus::Determined(error) => format!("{} {}", short(error), estimate.parameter.unit()).trim_end().to_owned(),
-        EstimateStatus::Within(interval) => within_text(estimate.value, interval),
-        EstimateStatus::NoDegreesOfFreedom => tr!("no d.o.f."),
-        EstimateStatus::Undetermined => tr!("not determined"),
+/// How uncertain an estimate is, with the bound that it rests on; grey where it is not the last word.
+fn uncertainty_ui(estimate: &Estimate, is_final: bool, ui: &mut Ui) {
+    let unit = match estimate.status() {
+        EstimateStatus::Determined(_) | EstimateStatus::Within(_) => estimate.parameter.unit(),
+        _ => "",
+    };
+    let text = RichText::new(format!("{} {unit}", uncertainty_text(estimate)).trim_end());
+    let is_final = is_final || !estimate.free;
+    ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.label(if is_final { text } else { text.weak() }).on_hover_text(uncertainty_help(estimate));
+        if let Some(edge) = estimate.at_bound.filter(|_| estimate.interval68.is_some()) {
+            ui.label(RichText::new(bound_text(edge)).small().weak());
+        }
+    });
+}
+
+/// How far the intervals are, and the way to stop them or to have them after all.
+fn intervals_ui(report: &FitResult, jobs: &FitJobs, commands: &mut Vec<Action>, ui: &mut Ui) {
+    match report.course.intervals_complete {
+        Some(true) => {}
+        Some(false) => {
+            let text = tr!("Not every interval was followed to its end: some may be wider.");
+            ui.add(egui::Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
+        }
+        None if jobs.intervals.is_running() => {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.weak(tr!("Finding the intervals…"));
+                if ui.button(tr!("Stop")).on_hover_text(tr!("Leave it at the linear errors")).clicked() {
+                    commands.push(Action::CancelIntervals);
+                }
+            });
+        }
+        None => {
+            ui.horizontal(|ui| {
+                ui.weak(tr!("Linear errors only."));
+                let help = tr!("Hold each parameter in turn and fit the others again: what the data really allow");
+                if ui.button(tr!("Find the intervals")).on_hover_text(help).clicked() {
+                    commands.push(Action::FindIntervals);
+                }
+            });
+        }
     }
 }

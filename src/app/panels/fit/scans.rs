@@ -4,14 +4,15 @@ use crate::app::plots::axis;
 use crate::app::plots::axis::{axis, decimal};
 use crate::app::plots::line;
 use crate::app::plots::theme;
+use crate::app::text::estimate::interval_text;
 use crate::app::text::numbers::significant;
 use crate::app::views::Cx;
 use crate::app::views::action::Action;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
-use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, WidgetInfo};
-use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, VLine};
+use egui::{Align2, Button, CollapsingHeader, ComboBox, DragValue, RichText, Role, Ui, WidgetInfo};
+use egui_plot::{AxisHints, HLine, HoverPosition, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine};
 use pbrdf::model::Parameter;
 use tr::tr;
 
@@ -72,16 +73,25 @@ fn profile_choice_ui(free: &[Parameter], cx: &mut Cx<'_>, ui: &mut Ui) {
 }
 
 const HEIGHT: f32 = 150.0;
-/// How many times the gain of one standard error the plot shows.
-const SHOWN: f64 = 10.0;
+/// How many times the gain at 95 % the plot shows.
+const SHOWN: f64 = 1.25;
+/// Names of the two levels.
+const LEVEL_NAMES: [&str; 2] = ["68.3 %", "95 %"];
 
 fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let name = if profile.is_chi2 { "Δχ²" } else { "ΔΣ²" };
-    ui.label(interval_text(profile)).on_hover_text(tr!("Where the sum of squares rises by as much as one standard error makes"));
+    let help = tr!("Where the sum of squares of the best fit with this parameter held rises by as much as the level allows");
+    for (name, interval) in LEVEL_NAMES.into_iter().zip(profile.intervals) {
+        ui.label(format!("{}, {name}: {}", profile.parameter.symbol(), interval_text(interval))).on_hover_text(help.as_str());
+    }
+    if !profile.is_complete {
+        ui.weak(tr!("The scan did not come to its ends."));
+    }
     let points: Vec<PlotPoint> = profile.points.iter().map(|&[value, gain]| PlotPoint::new(value, gain)).collect();
     let highest = points.iter().map(|point| point.y).fold(0.0, f64::max);
-    let top = if profile.limit > 0.0 { highest.clamp(2.0 * profile.limit, SHOWN * profile.limit) } else { highest };
+    let [_, limit] = profile.limits;
+    let top = if limit > 0.0 && limit.is_finite() { SHOWN * limit } else { highest };
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     if !(first.x < last.x && top > 0.0) {
         return;
@@ -112,9 +122,17 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
         plot.set_plot_bounds_y(-0.05 * top..=1.05 * top);
         let color = theme::series(0, dark);
         let muted = theme::muted(dark);
-        plot.hline(HLine::new(tr!("one standard error"), profile.limit).color(theme::warning(dark)).style(LineStyle::dashed_dense()));
-        for end in profile.low.into_iter().chain(profile.high) {
-            plot.vline(VLine::new(tr!("interval"), end).color(muted).style(LineStyle::dotted_dense()));
+        for (i, (level, interval)) in
+            profile.limits.into_iter().zip(profile.intervals).enumerate().filter(|(_, (level, _))| level.is_finite())
+        {
+            let name = LEVEL_NAMES[i];
+            let color = if i == 0 { theme::warning(dark) } else { muted };
+            plot.hline(HLine::new(name, level).color(color).style(LineStyle::dashed_dense()));
+            for end in interval.low.into_iter().chain(interval.high) {
+                plot.vline(VLine::new(name, end).color(color).style(LineStyle::dotted_dense()));
+            }
+            let middle = PlotPoint::new(0.5 * (first.x + last.x), level);
+            plot.text(Text::new(name, middle, RichText::new(name).small()).color(color).anchor(Align2::CENTER_BOTTOM));
         }
         plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
         plot.line(line(&tr!("profile"), &points).color(color).width(1.5).allow_hover(false));
@@ -122,15 +140,4 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
     });
     let said = || WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", name, profile.parameter.symbol()));
     response.response.widget_info(said);
-}
-
-/// The interval in words, with its open ends named.
-pub fn interval_text(profile: &ProfileCurve) -> String {
-    let symbol = profile.parameter.symbol();
-    match (profile.low, profile.high) {
-        (Some(low), Some(high)) => tr!("{0}: {1} … {2} (one standard error)", symbol, significant(low), significant(high)),
-        (Some(low), None) => tr!("{0}: from {1}, open above", symbol, significant(low)),
-        (None, Some(high)) => tr!("{0}: up to {1}, open below", symbol, significant(high)),
-        (None, None) => tr!("{}: open on both sides within the scan", symbol),
-    }
 }

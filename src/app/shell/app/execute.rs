@@ -1,7 +1,7 @@
 //! Carries out what menus, keys, panes and panels ask for.
 
 use crate::app::shell::app::App;
-use crate::app::shell::app::fits::{compare_models, start_bootstrap, start_fit, start_profile};
+use crate::app::shell::app::fits::{compare_models, find_intervals, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
 use crate::app::shell::app::open::{cancel_import, open, start_import};
 use crate::app::shell::dialogs::OverwritePrompt;
@@ -53,6 +53,8 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::CancelLoading => app.jobs.files.cancel_load(),
         Action::StartFit => start_fit(app)?,
         Action::CancelFit => app.jobs.fits.fit.cancel(),
+        Action::FindIntervals => find_intervals(app)?,
+        Action::CancelIntervals => app.jobs.fits.intervals.cancel(),
         Action::Profile(parameter) => start_profile(app, parameter)?,
         Action::Bootstrap => start_bootstrap(app)?,
         Action::CancelScan => app.jobs.fits.cancel_scan(),
@@ -70,6 +72,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::ReturnToFit(index) => {
             app.work.apply(Edit::ReturnToFit(index));
             app.jobs.fits.abandon_scan();
+            find_intervals(app)?;
         }
         Action::Undo => app.work.apply(Edit::Undo),
         Action::Redo => app.work.apply(Edit::Redo),

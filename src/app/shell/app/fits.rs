@@ -1,7 +1,7 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fits::{FinishedBootstrap, FinishedFit};
+use crate::app::tasks::fits::{FinishedBootstrap, FinishedFit, FinishedIntervals};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::edit::Edit;
@@ -33,9 +33,27 @@ pub fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: 
     let fit = FitEntry { id: 0, report: *report, problem, before, document, sha256, data, number, generation, mask };
     app.work.apply(Edit::AddFit(Box::new(fit)));
     app.jobs.fits.abandon_scan();
+    if let Err(sentence) = find_intervals(app) {
+        app.toasts.error(sentence);
+    }
 }
 
-/// Fits what is free again after the user moved a slider, one fit at a time.
+/// Finds the intervals of the shown fit where it has none yet.
+pub fn find_intervals(app: &mut App) -> Result<(), String> {
+    let Some(fit) = app.work.shown_fit().filter(|fit| fit.report.course.intervals_complete.is_none()) else { return Ok(()) };
+    if fit.problem.is_empty() || fit.problem.free().is_empty() {
+        return Ok(());
+    }
+    app.jobs.fits.intervals(fit)
+}
+
+pub fn intervals_found(app: &mut App, FinishedIntervals { id, report }: FinishedIntervals) {
+    if let Some(report) = report {
+        app.work.apply(Edit::SetFitReport { id, report });
+    }
+}
+
+/// Fits what is free again after the user moved a slider, one fit at a time; what was moved is held.
 pub fn refit_if_moved(app: &mut App) {
     let fits = &mut app.jobs.fits;
     let moved_at = app.work.moved_at();
@@ -45,7 +63,7 @@ pub fn refit_if_moved(app: &mut App) {
     fits.refitted_at = moved_at;
     let surface = app.work.surface();
     let Surface { parameters, model, .. } = *surface;
-    let free = app.free();
+    let free = app.free().without_all(app.work.moved());
     if parameters.validate(model.parameters()).is_err() || free.is_empty() {
         return;
     }
@@ -93,6 +111,5 @@ pub fn bootstrapped(app: &mut App, FinishedBootstrap { replicates, scatter }: Fi
 /// The fit that is shown, with the problem that it solved.
 fn shown_fit(app: &App) -> Option<(Problem, FitResult)> {
     let fit = app.work.shown_fit()?;
-    // An automatic scale of the loss belongs to the fit, not to its problem.
-    Some((fit.problem.with_loss_scales(fit.report.statistics.loss_scales), fit.report.clone()))
+    Some((Problem::clone(&fit.problem), fit.report.clone()))
 }

@@ -5,7 +5,7 @@ use crate::app::jobs::slot::Slot;
 use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::autosaved;
-use crate::app::shell::app::fits::{bootstrapped, fitted, profiled};
+use crate::app::shell::app::fits::{bootstrapped, fitted, intervals_found, profiled};
 use crate::app::shell::app::open::{file_loaded, imported};
 use crate::app::shell::app::session::{exported, session_read};
 use crate::app::shell::file_dialogs::{command_for, unavailable_text};
@@ -42,6 +42,7 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.autosave, autosaved,
         || tr!("Saving the working state ended unexpectedly; it is saved again after the next change."));
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);
+    poll(app, |jobs| &mut jobs.fits.intervals, intervals_found, || tr!("The intervals ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.refit, |app, report| app.work.apply(Edit::Refit(report)), fit_panicked);
     poll(app, |jobs| &mut jobs.fits.compare, |app, fits| app.work.apply(Edit::SetModelComparison(fits)),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));

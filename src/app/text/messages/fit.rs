@@ -41,6 +41,7 @@ impl Localized for Undetermined {
     fn localized(&self) -> String {
         match self {
             Self::Direction(direction) => direction.localized(),
+            Self::Parameters(parameters) => tr!("not determined: {}", symbols(parameters)),
             Self::Poorly(parameters) => tr!("a standard error above half of the value: {}", symbols(parameters)),
         }
     }
