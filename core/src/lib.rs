@@ -145,6 +145,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`fit::choose`] picks the angles, and [`fit::posterior::Posterior`] draws all surfaces that a measurement allows.
+//!
 //! Programs: `examples/evaluate.rs`, `fit.rs`, `compare_distributions.rs`, `profile.rs`, `choose_angles.rs`.
 //!
 //! # Scope
@@ -180,7 +182,7 @@
 //! 1. [`optics`]: angles, geometry, Fresnel, facets, Stokes and Mueller, tabulated metals
 //! 2. [`model`]: parameters, lobes, the pBRDF, its gradient, prepared geometries, batches, presets, audit
 //! 3. [`measurement`]: tables read, written, simulated; foreign files imported, tensors exported
-//! 4. [`fit`]: options, bounds, objective, solvers, multistart, results, uncertainty, profiles, bootstrap, design
+//! 4. [`fit`]: options, bounds, objective, solvers, multistart, results, uncertainty, profiles, bootstrap, posterior, design
 //! 5. `selftest` (feature): error against run time, stability, cost
 //!
 //! Feature `threads`: starts, grids and batches run in parallel. The results are the same to the bit without it.

@@ -2,7 +2,9 @@
 //!
 //! Slow ones: `cargo test --release --test angles -- --ignored --nocapture`.
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
+#![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of draws and fits")]
 
+use pbrdf::fit::posterior::{Posterior, PosteriorSettings};
 use pbrdf::fit::{
     AngleChoice, AngleChoiceError, Bounds, CandidateGrid, ChosenAngles, Design, DesignCriterion, DesignPrediction, FitOptions, NoiseModel,
     Observer, Problem, Starts, Weights, choose, fit, free_by_default,
@@ -10,6 +12,8 @@ use pbrdf::fit::{
 use pbrdf::measurement::{Measurement, Quantity, Row};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf, Preset};
 use pbrdf::optics::{Facet, Geometry};
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng as _, SeedableRng as _};
 use serde_json::Value;
 use std::path::Path;
 
@@ -93,7 +97,7 @@ fn log_det(choice: &AngleChoice, geometries: &[Geometry]) -> f64 {
         free.iter().map(|&parameter| gradient.dolp[parameter] * choice.surfaces[0][parameter].abs().max(0.1)).collect::<Vec<_>>()
     });
     let jacobian = nalgebra::DMatrix::from_row_iterator(geometries.len(), free.len(), rows.collect::<Vec<_>>());
-    2.0 * jacobian.singular_values().iter().map(|value| value.ln()).sum::<f64>()
+    2.0 * jacobian.singular_values().iter().map(|&value| libm::log(value)).sum::<f64>()
 }
 
 #[test]
@@ -163,4 +167,232 @@ fn what_cannot_be_chosen_is_said() {
     assert_eq!(refused(&AngleChoice { criterion: own, ..choice.clone() }), AngleChoiceError::SameModel);
     let cancelled = Observer { cancelled: &|| true, ..Observer::NONE };
     assert_eq!(choose(&choice, cancelled, &|_| {}).expect_err("cancelled"), AngleChoiceError::Cancelled);
+}
+
+/// A measurement of a surface, its noise from a seed and not clipped, with its standard deviation stated.
+fn measured(surface: &Pbrdf, geometries: &[Geometry], noise: f64, seed: u64) -> Measurement {
+    let mut generator = Pcg64::seed_from_u64(seed);
+    let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / 9_007_199_254_740_992.0;
+    let rows = geometries.iter().map(|&geometry| {
+        let deviate = (-2.0 * libm::log(uniform())).sqrt() * libm::cos(std::f64::consts::TAU * uniform());
+        let value = surface.dolp(&Facet::new(geometry)) + noise * deviate;
+        Row { geometry, dolp: Some(Quantity { value, sigma: Some(noise) }), brdf: None, masked: false }
+    });
+    Measurement { rows: rows.collect(), ..Measurement::default() }
+}
+
+/// χ² of the best fit of a model near a start, and the fit.
+fn fitted(model: Model, measurement: &Measurement, start: Parameters, starts: Starts) -> (f64, Parameters) {
+    let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
+    let free = free_by_default(model, measurement, &options);
+    let problem = Problem::new(measurement, model, start, free, Bounds::default(), options).expect("a problem");
+    let result = fit(&problem, starts, 1, Observer::NONE);
+    (result.statistics.chi2.expect("stated errors"), result.parameters)
+}
+
+/// At noise 0.001 the problem is linear: fits scatter as predicted. 200 fits tell a standard deviation within 5 %: four of those.
+/// At 0.005 it is not, and the figures are printed only.
+#[test]
+#[ignore = "400 fits"]
+fn fits_at_chosen_angles_scatter_as_predicted() {
+    for noise in [0.001, 0.005] {
+        let grid = grid("10:80:5", "0:85:5");
+        let noise_model = NoiseModel { dolp: Some(noise), brdf: None };
+        let choice = AngleChoice { noise: noise_model, ..request(Model::CAUCHY, STEEL, grid, 27, DesignCriterion::Determinant) };
+        let angles = chosen(&choice);
+        let (prediction, places) = (predicted(&choice, &angles), geometries(&angles));
+        let surface = Pbrdf::new(Model::CAUCHY, STEEL).expect("a surface");
+        let fits: Vec<Parameters> =
+            (0..200).map(|seed| fitted(Model::CAUCHY, &measured(&surface, &places, noise, seed), STEEL, Starts::One).1).collect();
+        for &(parameter, error) in &prediction.errors {
+            let values: Vec<f64> = fits.iter().map(|fit| fit[parameter]).collect();
+            let mean = values.iter().sum::<f64>() / 200.0;
+            let scatter = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / 199.0).sqrt();
+            let error = error.expect("determined");
+            let is_determined = prediction.determined.contains(parameter);
+            println!(
+                "noise {noise} {:<8} predicted {error:.5} scatter {scatter:.5} ratio {:.3} {is_determined}",
+                parameter.key(),
+                scatter / error
+            );
+            assert!(noise > 0.001 || !is_determined || (scatter / error - 1.0).abs() < 0.2, "{parameter:?}");
+        }
+    }
+}
+
+/// An exchange of its own, with inverses formed anew, from many beginnings.
+fn long_search(choice: &AngleChoice, beginnings: u64) -> f64 {
+    let surface = Pbrdf::new(choice.model, choice.surfaces[0]).expect("a surface");
+    let free: Vec<Parameter> = choice.free.iter().collect();
+    let rows: Vec<nalgebra::DVector<f64>> = (0..choice.grid.len())
+        .map(|candidate| {
+            let facet = Facet::new(choice.grid.geometry(candidate).expect("a geometry"));
+            let (_, gradient) = surface.reflection_and_gradient(&facet, pbrdf::model::GradientRequest::ALL);
+            let of = |&parameter: &Parameter| gradient.dolp[parameter] * choice.surfaces[0][parameter].abs().max(0.1);
+            nalgebra::DVector::from_iterator(free.len(), free.iter().map(of))
+        })
+        .collect();
+    // Columns of one length: the determinant of the scales is added at the end.
+    let lengths: Vec<f64> = (0..free.len()).map(|j| rows.iter().map(|row| row[j] * row[j]).sum::<f64>().sqrt()).collect();
+    let rows: Vec<nalgebra::DVector<f64>> =
+        rows.iter().map(|row| nalgebra::DVector::from_fn(free.len(), |j, _| row[j] / lengths[j])).collect();
+    let information = |set: &[usize]| {
+        let ridge = nalgebra::DMatrix::identity(free.len(), free.len()) * 1e-13;
+        set.iter().fold(ridge, |sum, &candidate| sum + &rows[candidate] * rows[candidate].transpose())
+    };
+    let mut best = f64::NEG_INFINITY;
+    for seed in 0..beginnings {
+        let mut generator = Pcg64::seed_from_u64(1000 + seed);
+        let mut set: Vec<usize> = Vec::new();
+        while set.len() < choice.count {
+            let candidate = (generator.next_u64() % choice.grid.len() as u64) as usize;
+            if !set.contains(&candidate) {
+                set.push(candidate);
+            }
+        }
+        loop {
+            let mut gained = false;
+            for place in 0..set.len() {
+                let without: Vec<usize> = set.iter().copied().filter(|&candidate| candidate != set[place]).collect();
+                let Some(inverse) = information(&without).try_inverse() else { continue };
+                let worth = |candidate: usize| (rows[candidate].transpose() * &inverse * &rows[candidate])[0];
+                let candidates = (0..choice.grid.len()).filter(|candidate| !without.contains(candidate));
+                let other = candidates.max_by(|&a, &b| worth(a).total_cmp(&worth(b))).expect("candidates");
+                if worth(other) > worth(set[place]) * (1.0 + 1e-9) {
+                    set[place] = other;
+                    gained = true;
+                }
+            }
+            if !gained {
+                break;
+            }
+        }
+        let det = information(&set).symmetric_eigenvalues().iter().map(|&value| libm::log(value)).sum::<f64>();
+        best = best.max(det + 2.0 * lengths.iter().map(|&length| libm::log(length)).sum::<f64>());
+    }
+    best
+}
+
+#[test]
+#[ignore = "a long search for each of many problems"]
+fn chosen_angles_are_those_of_a_long_search() {
+    let rough = Parameters { n: 1.24, k: 6.6, sigma: 0.25, kd: 0.05, kv: 0.02, q: 3.0, c: -0.7, sigma_v: 0.9, ..STEEL };
+    let glass = Parameters { n: 1.5, k: 0.05, sigma: 0.4, kd: 0.02, kv: 0.1, q: 1.6, c: -0.2, sigma_v: 0.35, ..STEEL };
+    let models = [(Model::CAUCHY, 27), (Model::GAUSS, 14), (Model::GAUSS, 40), (Model::CAUCHY, 9)];
+    for surface in [STEEL, COPPER, rough, glass] {
+        for (model, count) in models {
+            for (theta_i, theta_r) in [("10:80:10", "-80:80:10"), ("20:70:5", "0:75:5"), ("5:85:8", "2:86:7")] {
+                let d = request(model, surface, grid(theta_i, theta_r), count, DesignCriterion::Determinant);
+                let c = AngleChoice { criterion: DesignCriterion::Variances(vec![Parameter::N, Parameter::K]), ..d.clone() };
+                let (of_d, of_c, reference) = (chosen(&d), chosen(&c), long_search(&d, 40));
+                let gap = reference - of_d.value;
+                let ratio = of_c.value / relative_variances(&d, &of_d);
+                println!(
+                    "n {:.2} {count:>2} {theta_i} {theta_r}: ln det {:.4}, {gap:+.4} behind; c over d {ratio:.3}",
+                    surface.n, of_d.value
+                );
+                assert!(gap < 0.02 && ratio < 1.0);
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "a fit for each exchange"]
+fn the_rival_is_told_as_well_as_by_a_long_search() {
+    for (surface, model, rival) in
+        [(STEEL, Model::CAUCHY, Model::GAUSS), (COPPER, Model::CAUCHY, Model::GAUSS), (STEEL, Model::GAUSS, Model::CAUCHY)]
+    {
+        let criterion = DesignCriterion::Discrimination { rival, fixed: ParameterSet::EMPTY };
+        let choice = request(model, surface, grid("20:80:12", "0:80:16"), 12, criterion);
+        let angles = chosen(&choice);
+        let truth = Pbrdf::new(model, surface).expect("a surface");
+        let t = |set: &[usize], start: Parameters, starts: Starts| {
+            let places: Vec<Geometry> = set.iter().map(|&candidate| choice.grid.geometry(candidate).expect("a geometry")).collect();
+            let mut measurement = measured(&truth, &places, 0.005, 1);
+            for row in &mut measurement.rows {
+                row.dolp = row.dolp.map(|dolp| Quantity { value: truth.dolp(&Facet::new(row.geometry)), ..dolp });
+            }
+            fitted(rival, &measurement, start, starts)
+        };
+        let mut best: f64 = 0.0;
+        for seed in 0..6 {
+            let mut generator = Pcg64::seed_from_u64(seed);
+            let mut set: Vec<usize> = (0..choice.grid.len()).collect();
+            set.sort_by_cached_key(|_| generator.next_u64());
+            set.truncate(choice.count);
+            let (mut value, mut start) = t(&set, surface, Starts::Exactly(12));
+            loop {
+                let mut gained = false;
+                for place in 0..set.len() {
+                    for candidate in 0..choice.grid.len() {
+                        let mut other = set.clone();
+                        other[place] = candidate;
+                        if set.contains(&candidate) || t(&other, start, Starts::One).0 <= value * (1.0 + 1e-6) {
+                            continue;
+                        }
+                        // A fit from one start may miss the best one: a gain must hold from several.
+                        let thorough = t(&other, start, Starts::Exactly(12));
+                        if thorough.0 > value * (1.0 + 1e-6) {
+                            (value, start) = thorough;
+                            set = other;
+                            gained = true;
+                        }
+                    }
+                }
+                if !gained {
+                    break;
+                }
+            }
+            best = best.max(value);
+        }
+        println!(
+            "n {:.2} {} from {}: T {:.4}, of a long search {best:.4}",
+            surface.n,
+            model.distribution.key(),
+            rival.distribution.key(),
+            angles.value
+        );
+        assert!(angles.value >= 0.95 * best, "{} instead of {best}", angles.value);
+    }
+}
+
+#[test]
+#[ignore = "draws from a posterior, and averages over them"]
+fn a_plan_for_many_surfaces_is_better_at_the_worst_of_them() {
+    let places = geometries_of(&[30.0, 40.0, 50.0], &range("20:60:5"));
+    let surface = Pbrdf::new(Model::CAUCHY, STEEL).expect("a surface");
+    for seed in 1..=3 {
+        let measurement = measured(&surface, &places, 0.005, seed);
+        let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
+        let free = free_by_default(Model::CAUCHY, &measurement, &options);
+        let problem = Problem::new(&measurement, Model::CAUCHY, STEEL, free, Bounds::default(), options).expect("a problem");
+        let posterior = Posterior::new(&problem, &[], PosteriorSettings::default()).expect("a posterior");
+        let minima: Vec<Parameters> =
+            fit(&problem, Starts::Automatic, 1, Observer::NONE).course.minima.iter().map(|minimum| minimum.parameters).collect();
+        let sample = posterior.run(&minima, Observer::NONE, &mut |_, _| {}).expect("draws");
+        let draws: Vec<Parameters> = sample.draws().map(|draw| draw.parameters).collect();
+        let mut mean = STEEL;
+        for &parameter in &sample.parameters {
+            mean[parameter] = sample.summary(parameter).mean;
+        }
+        let local = request(Model::CAUCHY, mean, grid("10:80:5", "0:85:5"), 27, DesignCriterion::Determinant);
+        let averaged = AngleChoice { surfaces: draws.clone(), ..local.clone() };
+        // Other draws than those that the plan is averaged over.
+        let truths: Vec<Parameters> = draws.iter().skip(160).step_by(draws.len() / 50).copied().take(50).collect();
+        let at_truths = |angles: &ChosenAngles| {
+            let places = geometries(angles);
+            let mut values: Vec<f64> =
+                truths.iter().map(|&truth| log_det(&AngleChoice { surfaces: vec![truth], ..local.clone() }, &places)).collect();
+            values.sort_by(f64::total_cmp);
+            [values[0], values[2], values[25]]
+        };
+        let (of_local, of_average) = (at_truths(&chosen(&local)), at_truths(&chosen(&averaged)));
+        println!("data {seed}: ln det at the worst, third worst and median truth: local {of_local:.3?}, averaged {of_average:.3?}");
+        assert!(of_average[0] > of_local[0]);
+    }
+}
+
+fn geometries_of(theta_i: &[f64], theta_r: &[f64]) -> Vec<Geometry> {
+    pbrdf::measurement::grid_geometries(theta_i, theta_r, 180.0).expect("angles in range")
 }

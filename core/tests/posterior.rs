@@ -1,11 +1,17 @@
 //! Draws from the posterior: diagnostics against ArviZ, and that the draws are what the seed says.
-#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+//!
+//! Slow: `cargo test --release --test posterior -- --ignored --nocapture`.
+#![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
+#![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of draws and fits")]
 
 use pbrdf::fit::posterior::{Posterior, PosteriorSample, PosteriorSettings, Prior, convergence};
 use pbrdf::fit::{FitOptions, Observer, Starts, Weights, fit};
-use pbrdf::measurement::{Columns, Simulation};
+use pbrdf::measurement::{Columns, Quantity, Row, Simulation, grid_geometries};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
+use pbrdf::optics::Facet;
 use pbrdf::{Fit, Measurement};
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng as _, SeedableRng as _};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -115,4 +121,69 @@ fn the_seed_decides_and_a_cancelled_run_keeps_what_there_is() {
     let sample = posterior.run(&[start], observer, &mut stop).expect("draws");
     assert!((500..4000).contains(&sample.len()), "{}", sample.len());
     assert!(sample.chains[0].len() == sample.chains[1].len());
+}
+
+/// Simulation-based calibration (Talts et al., arXiv:1804.06788): the rank of the truth among draws of its posterior is uniform.
+#[test]
+#[ignore = "200 posteriors"]
+fn ranks_of_the_truth_are_uniform() {
+    const TRUTHS: u64 = 200;
+    const RANKS: usize = 100;
+    const BINS: usize = 10;
+    // Quantile of χ² with nine degrees of freedom at 0.999.
+    const LARGEST: f64 = 27.88;
+    let ranges = [
+        (Parameter::N, 0.4, 4.0),
+        (Parameter::K, 1.0, 6.0),
+        (Parameter::Sigma, 0.1, 0.7),
+        (Parameter::Kd, 0.0, 0.4),
+        (Parameter::Kv, 0.0, 0.5),
+        (Parameter::Q, 1.3, 6.0),
+        (Parameter::C, -0.9, -0.1),
+        (Parameter::SigmaV, 0.2, 1.2),
+    ];
+    let geometries =
+        grid_geometries(&[15.0, 30.0, 45.0, 60.0, 75.0], &[0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0], 180.0).expect("valid angles");
+    let mut ranks: HashMap<Parameter, Vec<usize>> = HashMap::new();
+    let (mut divergences, mut largest_rhat) = (0, 0.0_f64);
+    for seed in 0..TRUTHS {
+        let mut generator = Pcg64::seed_from_u64(seed);
+        let mut uniform = || ((generator.next_u64() >> 11) + 1) as f64 / 9_007_199_254_740_992.0;
+        let mut truth = TRUTH;
+        for (parameter, low, high) in ranges {
+            truth[parameter] = low + (high - low) * uniform();
+        }
+        let surface = Pbrdf::new(Model::CAUCHY, truth).expect("a surface");
+        // Not clipped at 0: the likelihood is Gaussian.
+        let rows = geometries.iter().map(|&geometry| {
+            let deviate = (-2.0 * libm::log(uniform())).sqrt() * libm::cos(std::f64::consts::TAU * uniform());
+            let value = surface.dolp(&Facet::new(geometry)) + 0.005 * deviate;
+            Row { geometry, dolp: Some(Quantity { value, sigma: Some(0.005) }), brdf: None, masked: false }
+        });
+        let data = Measurement { rows: rows.collect(), ..Measurement::default() };
+        let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
+        let problem = Fit::new(&data, Model::CAUCHY).options(options).problem().expect("a valid problem");
+        let priors = ranges.map(|(parameter, low, high)| (parameter, Prior::Uniform { low, high }));
+        let settings = PosteriorSettings { draws: 1000, chains: 2, seed };
+        let posterior = Posterior::new(&problem, &priors, settings).expect("a posterior");
+        let start = fit(&posterior.problem().with_start(truth), Starts::One, 1, Observer::NONE).parameters;
+        let sample = posterior.run(&[start], Observer::NONE, &mut |_, _| {}).expect("draws");
+        divergences += sample.divergences;
+        for (parameter, ..) in ranges {
+            let summary = sample.summary(parameter);
+            largest_rhat = largest_rhat.max(summary.convergence.expect("draws enough").rhat);
+            let thinned = sample.draws().step_by(sample.len() / (RANKS - 1)).take(RANKS - 1);
+            let rank = thinned.filter(|draw| draw.parameters[parameter] < truth[parameter]).count();
+            ranks.entry(parameter).or_default().push(rank);
+        }
+    }
+    println!("{divergences} of {} transitions diverged; largest R̂ {largest_rhat:.3}", TRUTHS * 2000);
+    for (parameter, ..) in ranges {
+        let mut bins = [0_u32; BINS];
+        ranks[&parameter].iter().for_each(|rank| bins[rank * BINS / RANKS] += 1);
+        let expected = TRUTHS as f64 / BINS as f64;
+        let chi2: f64 = bins.iter().map(|&count| (f64::from(count) - expected).powi(2) / expected).sum();
+        println!("{:<8} {bins:?} χ² {chi2:.1}", parameter.key());
+        assert!(chi2 < LARGEST, "{parameter:?}: {chi2}");
+    }
 }

@@ -25,7 +25,8 @@
 //!
 //! profile, bootstrap              profile likelihood, residual bootstrap
 //! PredictionBand                  delta method
-//! Design                          predicted errors of a choice of angles
+//! posterior                       draws from the posterior (no-U-turn sampler), evidence
+//! Design, choose                  predicted errors of a choice of angles, and the choice
 //! DistributionComparison          Gauss against Cauchy by AICc
 //! Landscape                       the objective over two parameters
 //! ```

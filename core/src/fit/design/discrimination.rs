@@ -267,8 +267,8 @@ impl Discrimination<'_> {
         let mut value = self.smallest(rivals, &mut sums.iter().copied());
         loop {
             let mut gained = false;
-            for slot in 0..set.len() {
-                let own = set[slot];
+            for slot in &mut *set {
+                let own = *slot;
                 let mut best = (own, value);
                 for place in (0..candidates).filter(|&place| self.choice.repeats || !is_taken[place]) {
                     let mut changed = sums.iter().zip(rivals).map(|(sum, rival)| sum + rival.squares[place] - rival.squares[own]);
@@ -281,7 +281,7 @@ impl Discrimination<'_> {
                     sums.iter_mut().zip(rivals).for_each(|(sum, rival)| *sum += rival.squares[best.0] - rival.squares[own]);
                     is_taken[own] = false;
                     is_taken[best.0] = true;
-                    set[slot] = best.0;
+                    *slot = best.0;
                     value = best.1;
                     gained = true;
                 }

@@ -153,8 +153,8 @@ impl Exchange {
                 let without: Vec<usize> = chosen.iter().enumerate().filter(|(i, _)| *i != place).map(|(_, &candidate)| candidate).collect();
                 let inverses: Vec<Matrix> = self.scenarios.iter().map(|scenario| self.inverse(scenario, &without)).collect();
                 let mut best = (own, self.score(&inverses, own) + GAIN);
-                for candidate in 0..self.candidates {
-                    if (self.repeats || times[candidate] == 0) && candidate != own {
+                for (candidate, &times) in times.iter().enumerate() {
+                    if (self.repeats || times == 0) && candidate != own {
                         let score = self.score(&inverses, candidate);
                         if score > best.1 {
                             best = (candidate, score);

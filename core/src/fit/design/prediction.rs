@@ -143,11 +143,8 @@ impl Design {
         let stated = |quantity: Option<Quantity>, otherwise: &dyn Fn(Quantity) -> Option<f64>| {
             quantity.and_then(|quantity| Some(Quantity { sigma: Some(quantity.sigma.or_else(|| otherwise(quantity))?), ..quantity }))
         };
-        let given = self.given.iter().map(|row| Row {
-            dolp: stated(row.dolp, &|_| self.noise.dolp),
-            brdf: stated(row.brdf, &relative),
-            ..row.clone()
-        });
+        let given =
+            self.given.iter().map(|row| Row { dolp: stated(row.dolp, &|_| self.noise.dolp), brdf: stated(row.brdf, &relative), ..*row });
         Measurement { rows: rows.chain(given).collect(), ..Measurement::default() }
     }
 }

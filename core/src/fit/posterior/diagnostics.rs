@@ -118,7 +118,7 @@ fn effective_size(chains: &[Vec<f64>]) -> f64 {
     let length = chains[0].len();
     let all = (chains.len() * length) as f64;
     let (within, total) = within_and_total(chains);
-    if !(total > 0.0) {
+    if total <= 0.0 || total.is_nan() {
         return all;
     }
     let centred: Vec<Vec<f64>> = chains

@@ -30,7 +30,7 @@ pub(crate) struct Metric {
 
 impl Metric {
     /// From a center and a covariance; none where the covariance is not positive definite.
-    fn new(center: Vec<f64>, covariance: DMatrix<f64>) -> Option<Self> {
+    fn new(center: Vec<f64>, covariance: &DMatrix<f64>) -> Option<Self> {
         // The decomposition of a matrix that is not finite does not terminate.
         if center.iter().chain(covariance.iter()).any(|element| !element.is_finite()) {
             return None;
@@ -74,7 +74,7 @@ impl Metric {
         let eigen = SymmetricEigen::new(symmetric);
         let variances = eigen.eigenvalues.map(|curvature| 1.0 / curvature.abs().max(SMALLEST_CURVATURE));
         let covariance = &eigen.eigenvectors * DMatrix::from_diagonal(&variances) * eigen.eigenvectors.transpose();
-        Self::new(at.to_vec(), covariance)
+        Self::new(at.to_vec(), &covariance)
     }
 
     /// From draws, shrunk a little towards the map before; none where they are too few or do not spread.
@@ -94,7 +94,7 @@ impl Metric {
         let axes = DMatrix::from_row_slice(dimension, dimension, &self.axes);
         let prior = &axes * axes.transpose() * PRIOR_VARIANCE;
         let shrunk = (covariance * count + prior * PRIOR_DRAWS) / (count + PRIOR_DRAWS);
-        let mut metric = Self::new(mean.as_slice().to_vec(), shrunk)?;
+        let mut metric = Self::new(mean.as_slice().to_vec(), &shrunk)?;
         if draws.len() >= DRAWS_PER_TERM * Bend::terms(dimension.saturating_sub(1)) {
             let points: Option<Vec<Vec<f64>>> = draws.iter().map(|draw| metric.unbent(draw)).collect();
             metric.bends = points.and_then(|points| Bend::fit_all(&points)).unwrap_or_default();

@@ -247,7 +247,7 @@ impl Half {
             let rise = self.walker.energy() - energy;
             accepted.points += 1.0;
             // Not a number has diverged too.
-            if !(rise < DIVERGENCE) {
+            if rise >= DIVERGENCE || rise.is_nan() {
                 return HalfOutcome::Diverged;
             }
             accepted.sum += libm::exp(-rise).min(1.0);
@@ -268,7 +268,7 @@ impl Half {
     /// Adds the walker's momentum to the sum as that leaf, and says whether a subtree that the leaf completes turns back.
     fn turned_at(&mut self, leaf: usize) -> bool {
         let open = (leaf >> 1).count_ones() as usize;
-        if leaf % 2 == 0 {
+        if leaf.is_multiple_of(2) {
             let (first, before) = &mut self.stack[open];
             first.copy_from_slice(&self.walker.momentum);
             before.copy_from_slice(&self.sum);

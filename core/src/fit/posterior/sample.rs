@@ -201,7 +201,9 @@ impl PosteriorSample {
         #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
         let share = self.divergences as f64 / self.len().max(1) as f64;
         match (worst_rhat, smallest) {
-            (Some(&(parameter, of)), _) if !(of.rhat <= LARGEST_RHAT) => PosteriorVerdict::NotMixed { parameter, rhat: of.rhat },
+            (Some(&(parameter, of)), _) if of.rhat > LARGEST_RHAT || of.rhat.is_nan() => {
+                PosteriorVerdict::NotMixed { parameter, rhat: of.rhat }
+            }
             (_, Some((parameter, of))) if size(of) < SMALLEST_SIZE => PosteriorVerdict::SmallSize { parameter: *parameter, size: size(of) },
             _ if share > LARGEST_DIVERGING_SHARE => PosteriorVerdict::Diverged { count: self.divergences, share },
             (_, Some((_, of))) => PosteriorVerdict::Converged { size: size(of) },

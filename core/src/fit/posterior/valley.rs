@@ -75,12 +75,12 @@ impl Valley {
         let mut gap = None;
         let mut raise = |end: (f64, f64)| {
             if end.0 > lower.0 {
-                lower = end
+                lower = end;
             }
         };
         let mut limit = |end: (f64, f64)| {
             if end.0 < upper.0 {
-                upper = end
+                upper = end;
             }
         };
         match self {
