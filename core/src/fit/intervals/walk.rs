@@ -31,6 +31,8 @@ const ACCURACY: f64 = 1e-4;
 const PATIENCE: usize = 40;
 /// A valley is quadratic where a crossing lies within this fraction of the distance that the linear error tells.
 const QUADRATIC: f64 = 0.25;
+/// Part of the way to the other bound by which an unknown is moved off a bound.
+const INSIDE: f64 = 0.05;
 /// A challenger must stay below the limit by this fraction of the rise.
 const MARGIN: f64 = 0.01;
 /// A point that lies below the minimum by this fraction of the first limit's rise ends the walk.
@@ -243,7 +245,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         let (at, unknown) = (self.at, self.unknown);
         let is_expected = self.is_where_linear_error_expects(value, level);
         let elsewhere = std::iter::once(()).filter(|()| !is_expected).flat_map(|()| (at.elsewhere)(unknown, value));
-        for other in at.others.iter().cloned().chain(elsewhere) {
+        for other in self.off_bounds(end).into_iter().chain(at.others.iter().cloned()).chain(elsewhere) {
             if (self.at.observer.cancelled)() {
                 self.is_incomplete = true;
                 return None;
@@ -254,6 +256,25 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             }
         }
         None
+    }
+
+    /// The point with each unknown that rests on a bound moved inside, one at a time: where the slope vanishes on the bound, as that of k at
+    /// k = 0, no descent leaves it.
+    fn off_bounds(&self, end: &ProfileFit) -> Vec<DVector<f64>> {
+        let problem = self.at.problem;
+        let moved = |j: usize| {
+            let (low, high) = problem.bounds_of(j);
+            let (from, to) = if end.x[j] <= low { (low, high) } else { (high, low) };
+            let (start, stop) = (problem.straight(j, from), problem.straight(j, to));
+            let mut x = end.x.clone();
+            x[j] = problem.from_straight(j, start + INSIDE * (stop - start));
+            x
+        };
+        let rests = |&j: &usize| {
+            let (low, high) = problem.bounds_of(j);
+            j != self.unknown && low < high && (end.x[j] <= low || end.x[j] >= high)
+        };
+        (0..end.x.len()).filter(rests).map(moved).collect()
     }
 
     /// Whether a crossing lies where a quadratic valley has it: there is no reason to look for another branch then.

@@ -17,8 +17,8 @@ use crate::model::{Batch, Diffuse, DolpFormula, Model, Parameter, ParameterSet, 
 const AXES: [(Parameter, &[f64]); 6] = [
     (Parameter::N, &[0.1, 0.4, 0.9, 1.4, 2.2, 4.5]),
     (Parameter::K, &[0.1, 0.8, 2.0, 3.2, 5.5, 10.0]),
-    (Parameter::Sigma, &[0.04, 0.1, 0.2, 0.35, 0.65, 1.5]),
-    (Parameter::Q, &[1.05, 1.5, 2.2, 5.0]),
+    (Parameter::Sigma, &[0.04, 0.1, 0.2, 0.35, 0.7, 3.0]),
+    (Parameter::Q, &[1.0001, 1.15, 1.5, 2.2, 5.0]),
     (Parameter::C, &[-1.0, -0.7, -0.35, 0.0]),
     (Parameter::SigmaV, &[0.02, 0.06, 0.1, 0.16, 0.25, 0.4, 0.65, 1.1, 2.2]),
 ];

@@ -38,8 +38,12 @@ const PROBES: usize = 96;
 const MAX_STARTS: usize = 96;
 /// Hits of the best minimum from which automatic search may end. Two may be chance, where starts are neighbours.
 const ENOUGH_HITS: usize = 3;
+/// Probes over the whole box where all starts have not hit the best minimum often enough.
+const BROAD_PROBES: usize = 1024;
 /// Expected share of starts that would end in minima not seen yet, below which automatic search ends.
 const UNSEEN_SHARE: f64 = 0.02;
+/// The same with a BRDF, whose lobes of more free weights have narrower basins.
+const UNSEEN_SHARE_OF_BRDF: f64 = 0.004;
 /// Number of starts up to which each is followed to its minimum. With more, each is probed and the best distinct ones are followed.
 const MAX_FOLLOWED: usize = 128;
 /// Number of the best distinct probes that are followed.
@@ -91,6 +95,9 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
     } else {
         search.rounds(starts, most);
         if starts == Starts::Automatic {
+            if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() {
+                search.keep_best(BROAD_PROBES);
+            }
             search.restart_lobes();
         }
     }
@@ -141,10 +148,14 @@ impl Search<'_> {
         }
     }
 
+    fn best_hits(&self) -> usize {
+        self.found.basins.first().map_or(0, |basin| basin.hits)
+    }
+
     /// Whether the best minimum was hit several times and the expected share of unseen minima is small.
     fn has_seen_enough(&self) -> bool {
-        let hits = self.found.basins.first().map_or(0, |basin| basin.hits);
-        hits >= ENOUGH_HITS && self.found.unseen_share().is_some_and(|share| share < UNSEEN_SHARE)
+        let enough = if self.problem.knows_only_ratios() { UNSEEN_SHARE } else { UNSEEN_SHARE_OF_BRDF };
+        self.best_hits() >= ENOUGH_HITS && self.found.unseen_share().is_some_and(|share| share < enough)
     }
 
     /// Half of the starts the most promising of many probes, half fresh ones: a few steps do not tell everything.
