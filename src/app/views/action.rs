@@ -98,6 +98,8 @@ pub enum Action {
     /// Sliders, terms and angles as that case of the stability gallery has them.
     UseCase(usize),
     Toggle(Switch),
+    /// Whether what the data determine is on screen.
+    ShowOutlook(bool),
     ToggleFrameTimes,
     /// A pane to the screen, or off it.
     TogglePane(PaneId),

@@ -14,7 +14,7 @@ use std::any::Any;
 /// What a pane may look at, and where it leaves what it wants to have done.
 pub struct Cx<'a> {
     pub work: &'a Workspace,
-    pub derived: &'a mut Derived,
+    pub derived: &'a Derived,
     /// The progress of jobs; actions start and cancel them.
     pub jobs: &'a Jobs,
     pub benchmarks: &'a mut Benchmarks,
@@ -49,6 +49,11 @@ impl Cx<'_> {
 
 /// The content of a pane.
 pub trait View: Any {
+    /// Whether it shows the curves and points that panes share; they are made before it.
+    fn needs_curves(&self) -> bool {
+        false
+    }
+
     /// Makes anew what it paints where inputs are others; called before each frame that has the
     /// pane on screen, and at no other time.
     fn refresh(&mut self, _cx: &mut Cx<'_>) {}

@@ -149,9 +149,12 @@ const GHOST: f64 = 0.5;
 const SHARE: f64 = 0.65;
 
 impl View for DolpView {
+    fn needs_curves(&self) -> bool {
+        true
+    }
+
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        cx.derived.refresh_curves(cx.work);
-        let derived = &*cx.derived;
+        let derived = cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);

@@ -137,9 +137,12 @@ fn quantity(times_cosine: bool) -> &'static str {
 }
 
 impl View for LobesView {
+    fn needs_curves(&self) -> bool {
+        true
+    }
+
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        cx.derived.refresh_curves(cx.work);
-        let derived = &*cx.derived;
+        let derived = cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
         self.follow(curves, marks, cx);
         // Where no BRDF was measured there is no fitted lobe.

@@ -78,6 +78,11 @@ impl Views {
         self.all[pane as usize].figure(cx)
     }
 
+    /// Whether a pane on screen shows the curves and points that panes share.
+    pub fn need_curves(&self, on_screen: &[PaneId]) -> bool {
+        on_screen.iter().any(|pane| self.all[*pane as usize].needs_curves())
+    }
+
     /// Makes anew what the panes on screen show, and stops what is being made for the others.
     pub fn refresh(&mut self, on_screen: &[PaneId], cx: &mut Cx<'_>) {
         for (pane, view) in PaneId::ALL.iter().zip(&mut self.all) {

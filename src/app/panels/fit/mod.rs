@@ -59,9 +59,9 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         };
         options::options_ui(cx, ui);
         let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(cx.derived.outlook(), ui));
-        let was_shown = std::mem::replace(&mut cx.derived.is_outlook_shown, outlook.openness > 0.0);
-        if cx.derived.is_outlook_shown != was_shown {
-            // It is made before the next frame.
+        let is_open = outlook.openness > 0.0;
+        if is_open != cx.derived.is_outlook_shown {
+            cx.actions.push(Action::ShowOutlook(is_open));
             ui.ctx().request_repaint();
         }
         ui.separator();

@@ -45,6 +45,9 @@ fn refresh(app: &mut App) {
     }
     app.dock.activate_tabs();
     let on_screen = app.dock.on_screen();
+    if app.views.need_curves(&on_screen) {
+        app.derived.refresh_curves(&app.work);
+    }
     let (mut cx, views, _) = app.split();
     views.refresh(&on_screen, &mut cx);
     app.apply_edits();

@@ -29,6 +29,8 @@ pub fn begin(app: &mut App, file: Option<PathBuf>) {
         Ok(measurement) => open(app, OpenMeasurement::new(example.name.to_owned(), measurement)),
         Err(error) => app.toasts.error(tr!("The bundled example cannot be read: {}.", error.localized())),
     }
+    // The settings file knows this.
+    app.persistence.saved_settings = Some((app.work.revision(), app.window.clone()));
     app.actions.extend(file.map(Action::OpenMeasurement));
 }
 
