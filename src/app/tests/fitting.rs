@@ -167,6 +167,10 @@ fn intervals_follow_a_fit_and_can_be_stopped_and_found_after_all() {
             harness.get_all_by_label_contains(&estimate.uncertainty_text().expect("a text")).next().expect("its uncertainty is shown");
         }
     }
+    let line = harness.get_by_label("Converged").rect().height();
+    for text in harness.get_all_by_label("not determined") {
+        assert!(text.rect().height() < 1.5 * line, "it stands in one line");
+    }
     // Of 27 noisy values for eight parameters some say nothing.
     harness.get_by_label_contains("• not determined: ");
     assert!(harness.query_by_label_contains("standard error above half").is_none());

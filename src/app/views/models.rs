@@ -13,7 +13,7 @@ use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::explain;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::workspace::Workspace;
-use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, Ui, Widget};
+use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, TextWrapMode, Ui, Widget};
 use pbrdf::fit::{DistributionComparison, Estimate, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
@@ -173,6 +173,7 @@ const LETTERS: f32 = 11.0;
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new(estimate.value_text()).size(LETTERS));
         ui.label(RichText::new(uncertainty_text(estimate)).size(LETTERS)).on_hover_text(uncertainty_help(estimate));
     });

@@ -12,7 +12,7 @@ use crate::app::views::action::Action;
 use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
-use egui::{Button, Grid, RichText, Ui};
+use egui::{Button, Grid, RichText, TextWrapMode, Ui};
 use pbrdf::fit::{BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
 use pbrdf::rounding;
 use tr::tr;
@@ -242,6 +242,7 @@ fn uncertainty_ui(estimate: &Estimate, is_final: bool, ui: &mut Ui) {
     let is_final = is_final || !estimate.free;
     ui.vertical(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(if is_final { text } else { text.weak() }).on_hover_text(uncertainty_help(estimate));
         if let Some(edge) = estimate.at_bound.filter(|_| estimate.interval68.is_some()) {
             ui.label(RichText::new(bound_text(edge)).small().weak());

@@ -131,8 +131,8 @@ fn profile_ui(profile: &ProfileCurve, ui: &mut Ui) {
             for end in interval.low.into_iter().chain(interval.high) {
                 plot.vline(VLine::new(name, end).color(color).style(LineStyle::dotted_dense()));
             }
-            let middle = PlotPoint::new(0.5 * (first.x + last.x), level);
-            plot.text(Text::new(name, middle, RichText::new(name).small()).color(color).anchor(Align2::CENTER_BOTTOM));
+            let right = PlotPoint::new(last.x, level);
+            plot.text(Text::new(name, right, RichText::new(name).small()).color(color).anchor(Align2::RIGHT_BOTTOM));
         }
         plot.vline(VLine::new(tr!("fit"), profile.best).color(muted));
         plot.line(line(&tr!("profile"), &points).color(color).width(1.5).allow_hover(false));
