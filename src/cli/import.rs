@@ -3,10 +3,9 @@
 use crate::cli::arguments::ImportArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::foreign::{LabTable, OtherFormat, TableOptions, is_workbook};
+use pbrdf::measurement::foreign::{LabTable, TableOptions, is_workbook};
 use pbrdf::measurement::formats::{ForeignFile, Format, ImportError, ImportNote, ImportOptions, Imported, Question, recognise};
 use pbrdf::measurement::{Measurement, ReadErrorKind, write_measurements};
-use std::path::Path;
 use std::process::ExitCode;
 
 pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
@@ -170,28 +169,4 @@ fn failure(task: &ImportArguments, error: &ImportError) -> Failure {
         }
         _ => Failure::input(&task.input, error),
     }
-}
-
-/// How to import a file that is no measurement of this project's own: the options after its name.
-/// None where it is no table of numbers either.
-pub fn options_for(bytes: &[u8]) -> Option<String> {
-    if recognise(bytes).is_some() {
-        return Some(String::new());
-    }
-    if OtherFormat::of(bytes).is_some() {
-        return None;
-    }
-    let table = LabTable::open(bytes.to_vec(), &TableOptions::default(), &mut pbrdf::measurement::unwatched).ok()?;
-    let guess = table.guess(&TableOptions::default()).ok()?;
-    let answers: Vec<&str> = guess.doubts.iter().map(pbrdf::measurement::foreign::Doubt::answer).collect();
-    let names_columns = answers.iter().find(|answer| answer.starts_with("--columns"));
-    Some(names_columns.map_or_else(|| [&["--auto"], &answers[..]].concat().join(" "), |answer| (*answer).to_owned()))
-}
-
-/// The command that imports a file with those options.
-pub fn command(path: &Path, options: &str) -> String {
-    let output = path.with_extension("imported.csv");
-    let word = |path: &Path| input::quoted(&path.display().to_string());
-    let space = if options.is_empty() { "" } else { " " };
-    format!("pbrdf-explorer import {}{space}{options} -o {}", word(path), word(&output))
 }

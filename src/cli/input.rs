@@ -1,8 +1,9 @@
 //! Files from the command line.
 
 use crate::cli::failure::Failure;
+use crate::cli::import_command::{command, options_for};
+use crate::cli::interrupt;
 use crate::cli::output::{Progress, notice};
-use crate::cli::{import, interrupt};
 use crate::files::open_file::open_file;
 use pbrdf::measurement::foreign::{OtherFormat, is_workbook};
 use pbrdf::measurement::formats::{ImportNote, recognise};
@@ -61,24 +62,13 @@ pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
 fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
     if error.may_be_foreign() || recognise(bytes).is_some() || is_workbook(bytes) {
         if let Some(other) = OtherFormat::of(bytes) {
-            let command =
-                other.options.map_or_else(String::new, |options| format!("; to import it, use {}", import::command(path, options)));
+            let command = other.options.map_or_else(String::new, |options| format!("; to import it, use {}", command(path, options)));
             return Failure::input(path, format_args!("{other}{command}"));
         }
-        if let Some(options) = import::options_for(bytes) {
-            let command = import::command(path, &options);
+        if let Some(options) = options_for(bytes) {
+            let command = command(path, &options);
             return Failure::input(path, format_args!("{error}; to import it, use {command}"));
         }
     }
     read_failure(path, error)
-}
-
-/// A word as a shell takes it, on one line.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''").replace(['\n', '\r'], " "))
-    }
 }

@@ -10,6 +10,7 @@ mod evaluate;
 mod failure;
 mod fit;
 mod import;
+mod import_command;
 mod input;
 mod interrupt;
 mod metals;

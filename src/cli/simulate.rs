@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{AngleArguments, SimulateArguments, SurfaceArguments};
 use crate::cli::failure::Failure;
-use crate::cli::input::quoted;
+use crate::cli::import_command::quoted;
 use crate::cli::output;
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Parameters, Pbrdf};

@@ -9,14 +9,14 @@ const QUOTED_LINES: usize = 20;
 
 /// Rows of cells that keep their places in the file.
 #[derive(Debug, Clone)]
-pub struct Grid {
+pub struct CellGrid {
     text: String,
     /// Where each row begins and ends in the text, and its line from 1.
     rows: Vec<(usize, usize, u64)>,
     dialect: Dialect,
 }
 
-impl Grid {
+impl CellGrid {
     /// The rows of a text, whose separator `sep=` may state.
     ///
     /// # Errors
@@ -187,10 +187,10 @@ fn unquoted(cell: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::super::dialect::{Decimal, Dialect, Separator};
-    use super::Grid;
+    use super::CellGrid;
 
     fn cells(text: &str, separator: Separator) -> Vec<Vec<String>> {
-        let grid = Grid::new(text.to_owned(), Dialect { separator, decimal: Decimal::Point, thousands: None }).expect("short cells");
+        let grid = CellGrid::new(text.to_owned(), Dialect { separator, decimal: Decimal::Point, thousands: None }).expect("short cells");
         let mut cells = Vec::new();
         let rows = (0..grid.len()).map(|row| {
             grid.cells(row, &mut cells);
@@ -214,7 +214,7 @@ mod tests {
     fn an_endless_cell_is_refused_with_its_place() {
         let text = format!("a,b\n1,{}\n", "x".repeat(100_000));
         let dialect = Dialect { separator: Separator::Character(','), decimal: Decimal::Point, thousands: None };
-        let error = Grid::new(text, dialect).expect_err("a long cell").to_string();
+        let error = CellGrid::new(text, dialect).expect_err("a long cell").to_string();
         assert!(error.starts_with("line 2, column 2: the cell has 100000 bytes"), "{error}");
     }
 }

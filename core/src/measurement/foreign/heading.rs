@@ -42,7 +42,7 @@ impl At {
 
 /// What the cell of a header says.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Heading {
+pub(crate) struct ColumnHeading {
     pub(crate) meaning: Meaning,
     /// How sure the meaning is: 0 for none, 10 for a name of this project's own.
     pub(crate) score: u8,
@@ -58,7 +58,7 @@ pub(crate) struct Heading {
     pub(crate) across: Option<Field>,
 }
 
-impl Heading {
+impl ColumnHeading {
     const NONE: Self = Self {
         meaning: Meaning::Unknown,
         score: 0,
@@ -146,10 +146,10 @@ impl Heading {
 }
 
 /// `view angle\AOI`: what the rows are, and what the columns are.
-fn corner(cell: &str) -> Option<Heading> {
+fn corner(cell: &str) -> Option<ColumnHeading> {
     let parts = ["\\", "→", "|", " vs. ", " vs ", "/"].iter().find_map(|mark| cell.split_once(mark))?;
-    let of = |part: &str| match Heading::new(part.trim_matches(['↓', '→', ' '])) {
-        heading @ Heading { meaning: Meaning::Field(Field::ThetaI | Field::ThetaR | Field::Wavelength), .. }
+    let of = |part: &str| match ColumnHeading::new(part.trim_matches(['↓', '→', ' '])) {
+        heading @ ColumnHeading { meaning: Meaning::Field(Field::ThetaI | Field::ThetaR | Field::Wavelength), .. }
             if heading.at.is_anywhere() =>
         {
             Some(heading)
@@ -158,7 +158,7 @@ fn corner(cell: &str) -> Option<Heading> {
     };
     let (rows, columns) = (of(parts.0)?, of(parts.1)?);
     let Meaning::Field(across) = columns.meaning else { return None };
-    (rows.meaning != columns.meaning).then_some(Heading { across: Some(across), ..rows })
+    (rows.meaning != columns.meaning).then_some(ColumnHeading { across: Some(across), ..rows })
 }
 
 /// The text without its unit: in brackets, behind a slash or `in`, or as the last word.

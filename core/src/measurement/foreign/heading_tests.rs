@@ -1,4 +1,4 @@
-use super::{At, Heading, Meaning};
+use super::{At, ColumnHeading, Meaning};
 use crate::measurement::foreign::vocabulary::Measure;
 use crate::measurement::{BrdfMeaning, Channel, Field};
 
@@ -46,7 +46,7 @@ fn headings_of_three_languages_mean_their_fields() {
         (F::Channel(Channel::Psi), "psi|Psi|ψ|Psi (deg)|ψ/°"),
         (F::ChannelSigma(Channel::Psi), "sigma_psi|psi error|Psi err"),
     ] {
-        let taken = headings.split('|').map(|heading| (heading, Heading::new(heading).meaning));
+        let taken = headings.split('|').map(|heading| (heading, ColumnHeading::new(heading).meaning));
         wrong.extend(taken.filter(|(_, meaning)| *meaning != Meaning::Field(field)).map(|(heading, meaning)| (field, heading, meaning)));
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
@@ -63,7 +63,7 @@ fn headings_of_three_languages_mean_their_fields() {
         (Meaning::Mueller { row: 1, column: 0, is_sigma: true }, "m10_err|sigma_m10"),
     ] {
         for heading in headings.split('|') {
-            assert_eq!(Heading::new(heading).meaning, meaning, "{heading}");
+            assert_eq!(ColumnHeading::new(heading).meaning, meaning, "{heading}");
         }
     }
 }
@@ -84,7 +84,7 @@ fn headings_say_their_unit_and_what_brdf_is() {
         ("λ [µm]", Some(Measure::Micrometers)),
         ("AOI", None),
     ] {
-        assert_eq!(Heading::new(heading).measure, measure, "{heading}");
+        assert_eq!(ColumnHeading::new(heading).measure, measure, "{heading}");
     }
     for (heading, is) in [
         ("BRDF", Some(BrdfMeaning::Brdf)),
@@ -97,10 +97,14 @@ fn headings_say_their_unit_and_what_brdf_is() {
         ("Reflexionsgrad", None),
         ("反射率", None),
     ] {
-        assert_eq!((Heading::new(heading).meaning, Heading::new(heading).brdf_is), (Meaning::Field(Field::Brdf), is), "{heading}");
+        assert_eq!(
+            (ColumnHeading::new(heading).meaning, ColumnHeading::new(heading).brdf_is),
+            (Meaning::Field(Field::Brdf), is),
+            "{heading}"
+        );
     }
-    assert!(Heading::new("S0 [1/sr]").is_brdf && Heading::new("S0 (BRDF)").is_brdf && !Heading::new("S0").is_brdf);
-    assert!(Heading::new("S1/S0").is_normalised && !Heading::new("S1").is_normalised);
+    assert!(ColumnHeading::new("S0 [1/sr]").is_brdf && ColumnHeading::new("S0 (BRDF)").is_brdf && !ColumnHeading::new("S0").is_brdf);
+    assert!(ColumnHeading::new("S1/S0").is_normalised && !ColumnHeading::new("S1").is_normalised);
 }
 
 #[test]
@@ -125,7 +129,7 @@ fn headings_say_where_their_values_were_measured() {
         ("BRDF 550 nm err", At { wavelength_nm: Some(550.0), ..at }, Meaning::Field(Field::BrdfSigma)),
         ("λ = 550", At { wavelength_nm: Some(550.0), ..at }, Meaning::Unknown),
     ] {
-        let found = Heading::new(heading);
+        let found = ColumnHeading::new(heading);
         assert_eq!((found.at, found.meaning), (expected, meaning), "{heading}");
     }
     for (corner, row, across) in [
@@ -135,7 +139,7 @@ fn headings_say_where_their_values_were_measured() {
         ("观测角\\入射角", Field::ThetaR, Field::ThetaI),
         ("view\\wavelength", Field::ThetaR, Field::Wavelength),
     ] {
-        let found = Heading::new(corner);
+        let found = ColumnHeading::new(corner);
         assert_eq!((found.meaning, found.across), (Meaning::Field(row), Some(across)), "{corner}");
     }
 }

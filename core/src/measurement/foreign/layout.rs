@@ -4,9 +4,9 @@
 //! rows. What stands before a run of data is its preamble: titles, a header, a row of units.
 
 use super::dialect::Separator;
-use super::grid::{Grid, split};
-use super::heading::{Heading, Meaning};
-use super::number::Cell;
+use super::grid::{CellGrid, split};
+use super::heading::{ColumnHeading, Meaning};
+use super::number::ReadCell;
 use super::title::{Title, strip_mark};
 use super::vocabulary::measure;
 use crate::measurement::{Progress, ReadError, ReadErrorKind, is_not_measured};
@@ -47,7 +47,7 @@ pub(crate) struct Section {
 
 /// The regions of a table.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Layout {
+pub(crate) struct TableLayout {
     pub(crate) kinds: Vec<RowKind>,
     pub(crate) sections: Vec<Section>,
     /// Number of columns of most rows of data.
@@ -69,12 +69,12 @@ struct ColumnCount {
     missing: usize,
 }
 
-impl Layout {
+impl TableLayout {
     /// The regions of a grid.
     ///
     /// # Errors
     /// No row looks like data, or `progress` stops the reading.
-    pub(crate) fn new(grid: &Grid, progress: Progress<'_>) -> Result<Self, ReadError> {
+    pub(crate) fn new(grid: &CellGrid, progress: Progress<'_>) -> Result<Self, ReadError> {
         let mut layout = Self { kinds: vec![RowKind::Blank; grid.len()], ..Self::default() };
         let mut lengths: Vec<usize> = Vec::new();
         let mut columns: Vec<ColumnCount> = Vec::new();
@@ -98,7 +98,7 @@ impl Layout {
     }
 
     /// Takes rows for data only where the first column of numbers holds one.
-    fn sort_out(&mut self, grid: &Grid, columns: &[ColumnCount]) {
+    fn sort_out(&mut self, grid: &CellGrid, columns: &[ColumnCount]) {
         let is_numeric = |count: &&ColumnCount| count.numbers > 0 && count.numbers >= count.texts;
         let Some(first) = columns.iter().position(|count| is_numeric(&count)) else { return };
         // Cells of a spreadsheet that were merged: the angle stands in the first row of its group.
@@ -107,12 +107,12 @@ impl Layout {
         for row in 0..grid.len() {
             if self.kinds[row] == RowKind::Data {
                 grid.cells(row, &mut cells);
-                let cell = cells.get(first).map_or(Cell::Missing, |cell| Cell::new(cell, grid.dialect()));
+                let cell = cells.get(first).map_or(ReadCell::Missing, |cell| ReadCell::new(cell, grid.dialect()));
                 // A value that was not measured may stand first, a mean alone does not.
-                let numbers = || cells.iter().filter(|cell| Cell::new(cell, grid.dialect()).is_number()).count();
+                let numbers = || cells.iter().filter(|cell| ReadCell::new(cell, grid.dialect()).is_number()).count();
                 // The corner of a wide table is often empty.
-                let is_corner = cell == Cell::Missing && !has_data;
-                let is_data = cell.is_number() || cell == Cell::Missing && numbers() >= 2 && !is_corner;
+                let is_corner = cell == ReadCell::Missing && !has_data;
+                let is_data = cell.is_number() || cell == ReadCell::Missing && numbers() >= 2 && !is_corner;
                 has_data |= is_data;
                 if !is_data && !is_damaged(cell, &cells, self.width) {
                     self.kinds[row] = RowKind::Skipped;
@@ -121,7 +121,7 @@ impl Layout {
         }
     }
 
-    fn find_sections(&mut self, grid: &Grid) {
+    fn find_sections(&mut self, grid: &CellGrid) {
         let mut row = 0;
         let mut gap = 0..0;
         while row < grid.len() {
@@ -138,7 +138,7 @@ impl Layout {
     }
 
     /// A run of data below a gap: a section of its own where the gap has a header or a title.
-    fn add_run(&mut self, grid: &Grid, gap: Range<usize>, run: Range<usize>) {
+    fn add_run(&mut self, grid: &CellGrid, gap: Range<usize>, run: Range<usize>) {
         let mut cells = Vec::new();
         grid.cells(run.start, &mut cells);
         let width = if filled(&cells) > self.width { filled(&cells) } else { self.width };
@@ -189,9 +189,9 @@ impl Layout {
 impl Section {
     /// Joins names such as `AOI 30` that stand above several columns to the names below, where these
     /// alone don't tell the columns apart.
-    fn join_upper_header(&mut self, grid: &Grid, header: usize, top: usize, kinds: &mut [RowKind]) {
+    fn join_upper_header(&mut self, grid: &CellGrid, header: usize, top: usize, kinds: &mut [RowKind]) {
         let mut seen = Vec::new();
-        let repeats = self.header.iter().map(|name| Heading::new(name)).any(|heading| match heading.meaning {
+        let repeats = self.header.iter().map(|name| ColumnHeading::new(name)).any(|heading| match heading.meaning {
             Meaning::Field(field) if field.is_measured() => {
                 let is_seen = seen.contains(&(field, heading.at.bare, heading.at.theta_i, heading.at.wavelength_nm));
                 seen.push((field, heading.at.bare, heading.at.theta_i, heading.at.wavelength_nm));
@@ -208,8 +208,8 @@ impl Section {
         let mut above = "";
         for (index, name) in self.header.iter_mut().enumerate() {
             above = cells.get(index).copied().filter(|cell| !cell.is_empty()).unwrap_or(above);
-            let is_measured = matches!(Heading::new(name).meaning, Meaning::Field(field) if field.is_measured())
-                || matches!(Heading::new(name).meaning, Meaning::Sigma | Meaning::Value);
+            let is_measured = matches!(ColumnHeading::new(name).meaning, Meaning::Field(field) if field.is_measured())
+                || matches!(ColumnHeading::new(name).meaning, Meaning::Sigma | Meaning::Value);
             if is_measured && !above.is_empty() {
                 *name = format!("{above} {name}");
             }
@@ -232,13 +232,13 @@ fn filled(cells: &[&str]) -> usize {
 
 /// Whether a cell looks like a number with a typing error in a row that is complete otherwise: a fault
 /// to be told, not a line to be skipped.
-fn is_damaged(cell: Cell<'_>, cells: &[&str], width: usize) -> bool {
-    matches!(cell, Cell::Text(text) if text.starts_with(|first: char| first.is_ascii_digit()) && filled(cells) == width && width > 2)
+fn is_damaged(cell: ReadCell<'_>, cells: &[&str], width: usize) -> bool {
+    matches!(cell, ReadCell::Text(text) if text.starts_with(|first: char| first.is_ascii_digit()) && filled(cells) == width && width > 2)
         && measure(cells[0].trim_start_matches(|digit: char| digit.is_ascii_digit())).is_none()
 }
 
 /// What a row is at first sight; rows that look like data are counted by column.
-fn first_kind(grid: &Grid, row: usize, cells: &[&str], columns: &mut Vec<ColumnCount>) -> RowKind {
+fn first_kind(grid: &CellGrid, row: usize, cells: &[&str], columns: &mut Vec<ColumnCount>) -> RowKind {
     if filled(cells) == 0 || cells.iter().all(|cell| cell.chars().all(|letter| "-=_+:*".contains(letter))) {
         return RowKind::Blank;
     }
@@ -248,12 +248,12 @@ fn first_kind(grid: &Grid, row: usize, cells: &[&str], columns: &mut Vec<ColumnC
         return RowKind::Remark;
     }
     let (mut numbers, mut texts) = (0, 0);
-    let kinds: Vec<Cell<'_>> = cells.iter().map(|cell| Cell::new(cell, grid.dialect())).collect();
+    let kinds: Vec<ReadCell<'_>> = cells.iter().map(|cell| ReadCell::new(cell, grid.dialect())).collect();
     for kind in &kinds {
         numbers += usize::from(kind.is_number());
-        texts += usize::from(matches!(kind, Cell::Text(_)));
+        texts += usize::from(matches!(kind, ReadCell::Text(_)));
     }
-    if numbers == 0 || numbers + usize::from(kinds.contains(&Cell::Missing)) < 2 || texts > numbers + 1 {
+    if numbers == 0 || numbers + usize::from(kinds.contains(&ReadCell::Missing)) < 2 || texts > numbers + 1 {
         return RowKind::Skipped;
     }
     if columns.len() < kinds.len() {
@@ -261,20 +261,20 @@ fn first_kind(grid: &Grid, row: usize, cells: &[&str], columns: &mut Vec<ColumnC
     }
     for (count, kind) in columns.iter_mut().zip(&kinds) {
         match kind {
-            Cell::Number(..) => count.numbers += 1,
-            Cell::Text(_) => count.texts += 1,
-            Cell::Missing => count.missing += 1,
+            ReadCell::Number(..) => count.numbers += 1,
+            ReadCell::Text(_) => count.texts += 1,
+            ReadCell::Missing => count.missing += 1,
         }
     }
     RowKind::Data
 }
 
-fn is_semicolon(grid: &Grid) -> bool {
+fn is_semicolon(grid: &CellGrid) -> bool {
     grid.dialect().separator == Separator::Character(';')
 }
 
 /// The row of a gap that names columns best, and the names.
-fn header_of(grid: &Grid, gap: Range<usize>, width: usize, kinds: &[RowKind]) -> Option<(usize, Vec<String>)> {
+fn header_of(grid: &CellGrid, gap: Range<usize>, width: usize, kinds: &[RowKind]) -> Option<(usize, Vec<String>)> {
     let mut best: Option<(usize, usize, Vec<String>)> = None;
     for row in gap.clone().rev().filter(|&row| kinds[row] != RowKind::Blank).take(HEADER_REACH) {
         for names in names_of(grid, row, width) {
@@ -288,7 +288,7 @@ fn header_of(grid: &Grid, gap: Range<usize>, width: usize, kinds: &[RowKind]) ->
 }
 
 /// The ways in which a row may be cut into names for that many columns.
-fn names_of(grid: &Grid, row: usize, width: usize) -> Vec<Vec<String>> {
+fn names_of(grid: &CellGrid, row: usize, width: usize) -> Vec<Vec<String>> {
     let text = grid.text(row);
     if text.len() > 1 << 16 {
         return Vec::new();
@@ -331,7 +331,7 @@ fn joined(words: &[String], width: usize) -> Option<Vec<String>> {
         return None;
     }
     while names.len() > width {
-        let worth = |names: &[String]| names.iter().filter(|name| Heading::new(name).score > 0).count();
+        let worth = |names: &[String]| names.iter().filter(|name| ColumnHeading::new(name).score > 0).count();
         let join = |at: usize| {
             let mut joined = names.clone();
             let next = joined.remove(at + 1);
@@ -345,7 +345,7 @@ fn joined(words: &[String], width: usize) -> Option<Vec<String>> {
 
 /// How well cells name that many columns; 0 where they do not.
 fn header_score(names: &[String], width: usize, separator: Separator) -> usize {
-    let headings: Vec<Heading> = names.iter().map(|name| Heading::new(name)).collect();
+    let headings: Vec<ColumnHeading> = names.iter().map(|name| ColumnHeading::new(name)).collect();
     let known = headings.iter().filter(|heading| heading.meaning != Meaning::Unknown).count();
     let placed = headings.iter().filter(|heading| heading.meaning == Meaning::Unknown && !heading.at.is_anywhere()).count();
     // `AOI; 30` and `Date: 3 May` are a key and a value.
@@ -366,7 +366,7 @@ fn header_score(names: &[String], width: usize, separator: Separator) -> usize {
 }
 
 /// The row of units among the rows between header and data.
-fn units_of(grid: &Grid, rows: Range<usize>, width: usize) -> Option<(usize, Vec<String>)> {
+fn units_of(grid: &CellGrid, rows: Range<usize>, width: usize) -> Option<(usize, Vec<String>)> {
     for row in rows {
         for names in names_of(grid, row, width) {
             let filled = names.iter().filter(|name| !name.is_empty()).count();

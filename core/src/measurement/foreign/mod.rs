@@ -5,6 +5,7 @@
 
 mod assembly;
 mod dialect;
+mod dialect_guess;
 mod doubt;
 mod encoding;
 mod grid;
@@ -25,7 +26,7 @@ use super::Field;
 
 /// The field that the name of a column means, in any laboratory.
 pub(crate) fn field_of(name: &str) -> Option<Field> {
-    match heading::Heading::new(name).meaning {
+    match heading::ColumnHeading::new(name).meaning {
         heading::Meaning::Field(field) => Some(field),
         _ => None,
     }

@@ -6,7 +6,7 @@ use crate::measurement::is_not_measured;
 
 /// What a cell holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cell<'a> {
+pub(crate) enum ReadCell<'a> {
     /// Nothing, or a word for "not measured".
     Missing,
     /// A finite number, and the unit behind it.
@@ -15,7 +15,7 @@ pub(crate) enum Cell<'a> {
     Text(&'a str),
 }
 
-impl<'a> Cell<'a> {
+impl<'a> ReadCell<'a> {
     /// What a cell holds where numbers are written so.
     pub(crate) fn new(cell: &'a str, dialect: Dialect) -> Self {
         if let Some(number) = number(cell, dialect) {
@@ -117,7 +117,7 @@ pub(crate) fn has_fortran_exponent(cell: &str) -> bool {
 mod tests {
     use super::super::dialect::{Decimal, Dialect, Separator};
     use super::super::vocabulary::Measure;
-    use super::{Cell, has_fortran_exponent};
+    use super::{ReadCell, has_fortran_exponent};
 
     #[test]
     fn cells_are_numbers_in_one_notation() {
@@ -134,14 +134,14 @@ mod tests {
             ("1.234.567,5", with(Decimal::Comma, Some('.')), 1_234_567.5, None),
             ("12 345", with(Decimal::Point, Some(' ')), 12345.0, None),
         ] {
-            assert_eq!(Cell::new(cell, dialect), Cell::Number(value, unit), "{cell}");
+            assert_eq!(ReadCell::new(cell, dialect), ReadCell::Number(value, unit), "{cell}");
         }
         for (cell, dialect) in [("1.234", comma), ("1,5", point), ("inf", point), ("1e999", point), ("30 apples", point), ("-x", point)] {
-            assert_eq!(Cell::new(cell, dialect), Cell::Text(cell));
+            assert_eq!(ReadCell::new(cell, dialect), ReadCell::Text(cell));
         }
-        assert_eq!(Cell::new("12,34.5", with(Decimal::Point, Some(','))), Cell::Text("12,34.5"));
+        assert_eq!(ReadCell::new("12,34.5", with(Decimal::Point, Some(','))), ReadCell::Text("12,34.5"));
         for missing in ["", "-", "n.a.", "NaN", "#DIV/0!", "#NV", "k.A.", "未测"] {
-            assert_eq!(Cell::new(missing, point), Cell::Missing);
+            assert_eq!(ReadCell::new(missing, point), ReadCell::Missing);
         }
         assert!(
             has_fortran_exponent("1.5D-03") && has_fortran_exponent("-2d+1") && !has_fortran_exponent("3rd") && !has_fortran_exponent("D")

@@ -1,7 +1,7 @@
 //! Stage 4 of a foreign table: columns with meaning and unit, and what is in doubt.
 
 use super::doubt::Doubt;
-use super::heading::{Heading, Meaning};
+use super::heading::{ColumnHeading, Meaning};
 use super::layout::Section;
 use super::options::TableOptions;
 use super::vocabulary::{Measure, measure};
@@ -87,7 +87,7 @@ impl Plan {
 struct Planner<'a> {
     section: &'a Section,
     options: &'a TableOptions,
-    headings: Vec<Heading>,
+    headings: Vec<ColumnHeading>,
     columns: Vec<PlannedColumn>,
     mueller: Vec<usize>,
     doubts: Vec<Doubt>,
@@ -97,7 +97,7 @@ impl<'a> Planner<'a> {
     fn new(section: &'a Section, width: usize, options: &'a TableOptions) -> Self {
         let count = width.max(section.header.len());
         let name = |index: usize| section.header.get(index).map_or("", String::as_str);
-        let mut headings: Vec<Heading> = (0..count).map(|index| Heading::new(name(index))).collect();
+        let mut headings: Vec<ColumnHeading> = (0..count).map(|index| ColumnHeading::new(name(index))).collect();
         for (heading, unit) in headings.iter_mut().zip(&section.units) {
             heading.measure = heading.measure.or_else(|| measure(unit));
             heading.is_brdf |= heading.measure == Some(Measure::PerSteradian);
@@ -215,7 +215,7 @@ impl<'a> Planner<'a> {
     /// Columns whose names are places: what the places are, and what is measured there.
     fn resolve_wide(&mut self) {
         let across = self.headings.iter().find_map(|heading| heading.across);
-        let is_open = |heading: &Heading| heading.at.bare.is_some();
+        let is_open = |heading: &ColumnHeading| heading.at.bare.is_some();
         let bare: Vec<usize> = (0..self.headings.len()).filter(|&index| is_open(&self.headings[index])).collect();
         let values: Vec<f64> = bare.iter().filter_map(|&index| self.headings[index].at.bare).collect();
         let has_theta_i = self.has(Field::ThetaI) || self.section.title.theta_i.is_some() || self.options.theta_i.is_some();
@@ -383,7 +383,7 @@ impl<'a> Planner<'a> {
 
     /// Converts what headings and the row of units say.
     fn settle_units(&mut self) {
-        let percents: Vec<bool> = self.headings.iter().map(Heading::is_percent).collect();
+        let percents: Vec<bool> = self.headings.iter().map(ColumnHeading::is_percent).collect();
         for index in 0..self.columns.len() {
             let Some(field) = self.columns[index].field else { continue };
             if self.options.columns.is_some() {

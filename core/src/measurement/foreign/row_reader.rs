@@ -1,8 +1,8 @@
 //! Stage 5 of a foreign table: the cells of a row to values.
 
 use super::dialect::{Decimal, Dialect};
-use super::grid::Grid;
-use super::number::{Cell, has_fortran_exponent};
+use super::grid::CellGrid;
+use super::number::{ReadCell, has_fortran_exponent};
 use super::plan::{Group, Plan};
 use super::vocabulary::Measure;
 use crate::measurement::field::hundredth;
@@ -52,8 +52,8 @@ struct Places {
 }
 
 /// Reads the rows of a section.
-pub(crate) struct RowReader<'a> {
-    grid: &'a Grid,
+pub(crate) struct ForeignRowReader<'a> {
+    grid: &'a CellGrid,
     dialect: Dialect,
     plan: &'a Plan,
     places: Places,
@@ -68,8 +68,8 @@ pub(crate) struct RowReader<'a> {
 /// Values of a wide table that are all 0 in one row: the detector was in the way of the light.
 const SHADED_FROM: usize = 3;
 
-impl<'a> RowReader<'a> {
-    pub(crate) fn new(grid: &'a Grid, plan: &'a Plan, is_normalised: bool, fills_down: bool) -> Self {
+impl<'a> ForeignRowReader<'a> {
+    pub(crate) fn new(grid: &'a CellGrid, plan: &'a Plan, is_normalised: bool, fills_down: bool) -> Self {
         let place = |field| plan.column(field);
         let places = Places {
             theta_i: place(Field::ThetaI),
@@ -168,11 +168,11 @@ impl<'a> RowReader<'a> {
     }
 
     fn mask(&self, line: u64, cells: &[&str], column: usize) -> Result<bool, ReadError> {
-        match cells.get(column).map_or(Cell::Missing, |cell| Cell::new(cell, self.dialect)) {
-            Cell::Missing => Ok(false),
-            Cell::Number(number, _) if number == 0.0 || number == 1.0 => Ok(number == 1.0),
-            Cell::Text(text) if ["true", "yes", "x", "ja", "是"].contains(&text.to_lowercase().as_str()) => Ok(true),
-            Cell::Text(text) if ["false", "no", "nein", "否"].contains(&text.to_lowercase().as_str()) => Ok(false),
+        match cells.get(column).map_or(ReadCell::Missing, |cell| ReadCell::new(cell, self.dialect)) {
+            ReadCell::Missing => Ok(false),
+            ReadCell::Number(number, _) if number == 0.0 || number == 1.0 => Ok(number == 1.0),
+            ReadCell::Text(text) if ["true", "yes", "x", "ja", "是"].contains(&text.to_lowercase().as_str()) => Ok(true),
+            ReadCell::Text(text) if ["false", "no", "nein", "否"].contains(&text.to_lowercase().as_str()) => Ok(false),
             _ => Err(self.out_of_range(line, cells, column, Expected::Mask)),
         }
     }
@@ -269,9 +269,9 @@ impl<'a> RowReader<'a> {
     /// A cell as a number in the native unit of its column; none where nothing was measured.
     fn number(&mut self, line: u64, cells: &[&str], column: usize, expected: Expected) -> Result<Option<f64>, ReadError> {
         let Some(&cell) = cells.get(column) else { return Ok(None) };
-        match Cell::new(cell, self.dialect) {
-            Cell::Missing => Ok(None),
-            Cell::Number(number, unit) => {
+        match ReadCell::new(cell, self.dialect) {
+            ReadCell::Missing => Ok(None),
+            ReadCell::Number(number, unit) => {
                 if self.marked.is_none() && cell.contains(if self.dialect.decimal == Decimal::Comma { ',' } else { '.' }) {
                     self.marked = Some((line, cell.to_owned()));
                 }
@@ -290,7 +290,7 @@ impl<'a> RowReader<'a> {
                     _ => number,
                 }))
             }
-            Cell::Text(_) => Err(self.error(line, column, self.fault(cell, expected))),
+            ReadCell::Text(_) => Err(self.error(line, column, self.fault(cell, expected))),
         }
     }
 
@@ -298,7 +298,7 @@ impl<'a> RowReader<'a> {
     fn fault(&self, cell: &str, expected: Expected) -> ReadErrorKind {
         let found = quote(cell);
         let other = if self.dialect.decimal == Decimal::Comma { Decimal::Point } else { Decimal::Comma };
-        let is_other = Cell::new(cell, Dialect { decimal: other, ..self.dialect }).is_number();
+        let is_other = ReadCell::new(cell, Dialect { decimal: other, ..self.dialect }).is_number();
         match &self.marked {
             _ if has_fortran_exponent(cell) => ReadErrorKind::FortranExponent { found },
             Some((other_line, other)) if is_other => {

@@ -1,16 +1,17 @@
 //! Foreign tables: all stages, from bytes to measurements.
 
 use super::assembly::Assembly;
-use super::dialect::{Decimal, Dialect, cells_of};
+use super::dialect::{Decimal, Dialect};
+use super::dialect_guess::cells_of;
 use super::doubt::Doubt;
 use super::encoding::decode;
-use super::grid::Grid;
-use super::layout::{Layout, ROWS_PER_REPORT, RowKind, report};
-use super::number::Cell;
+use super::grid::CellGrid;
+use super::layout::{ROWS_PER_REPORT, RowKind, TableLayout, report};
+use super::number::ReadCell;
 use super::options::TableOptions;
 use super::other_format::OtherFormat;
 use super::plan::{Plan, PlannedColumn};
-use super::row_reader::RowReader;
+use super::row_reader::ForeignRowReader;
 use super::title::{key_and_value, strip_mark};
 use crate::measurement::formats::{ImportError, Imported};
 use crate::measurement::{Field, ImportNote, LineList, Progress, ReadError, ReadErrorKind, Unit, unwatched};
@@ -18,8 +19,8 @@ use crate::measurement::{Field, ImportNote, LineList, Progress, ReadError, ReadE
 /// A foreign table in memory, its regions found.
 #[derive(Debug, Clone)]
 pub struct LabTable {
-    grid: Grid,
-    layout: Layout,
+    grid: CellGrid,
+    layout: TableLayout,
     /// The encoding of a text, or the sheet of a workbook.
     source: String,
 }
@@ -90,8 +91,8 @@ impl LabTable {
     ///
     /// # Errors
     /// No row holds numbers, or `progress` stops the reading.
-    fn new(grid: Grid, source: String, progress: Progress<'_>) -> Result<Self, ReadError> {
-        let layout = Layout::new(&grid, progress)?;
+    fn new(grid: CellGrid, source: String, progress: Progress<'_>) -> Result<Self, ReadError> {
+        let layout = TableLayout::new(&grid, progress)?;
         Ok(Self { grid, layout, source })
     }
 
@@ -153,8 +154,8 @@ impl LabTable {
         let step = (rows.len() / SAMPLE).max(1);
         for row in rows.step_by(step).filter(|&row| self.layout.kinds[row] == RowKind::Data) {
             self.grid.cells(row, &mut cells);
-            let number = |index: usize| match cells.get(index).map(|cell| Cell::new(cell, self.grid.dialect())) {
-                Some(Cell::Number(number, None)) => Some(number),
+            let number = |index: usize| match cells.get(index).map(|cell| ReadCell::new(cell, self.grid.dialect())) {
+                Some(ReadCell::Number(number, None)) => Some(number),
                 _ => None,
             };
             for number in open.iter().filter_map(|&index| number(index)) {
@@ -210,7 +211,7 @@ impl LabTable {
         for (index, (section, plan)) in self.layout.sections.iter().zip(&plans).enumerate() {
             assembly.add_plan(plan);
             let titled = assembly.titled_set(index);
-            let mut reader = RowReader::new(&self.grid, plan, plan.is_normalised == Some(true), self.layout.fills_down);
+            let mut reader = ForeignRowReader::new(&self.grid, plan, plan.is_normalised == Some(true), self.layout.fills_down);
             for row in section.rows.clone().filter(|&row| self.layout.kinds[row] == RowKind::Data) {
                 if done == most {
                     break;

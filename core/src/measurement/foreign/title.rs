@@ -1,8 +1,8 @@
 //! What a line of text says about the rows below: an angle, a wavelength, a sample, a quantity.
 
 use super::dialect::Dialect;
-use super::heading::{At, Heading, Meaning};
-use super::number::Cell;
+use super::heading::{At, ColumnHeading, Meaning};
+use super::number::ReadCell;
 use super::vocabulary::{Measure, Word, meanings, normalised, words};
 use crate::measurement::{BrdfMeaning, Field};
 
@@ -70,17 +70,17 @@ impl Title {
     }
 
     fn add_pair(&mut self, key: &str, value: &str, dialect: Dialect) {
-        let heading = Heading::new(key);
+        let heading = ColumnHeading::new(key);
         if heading.meaning == Meaning::Field(Field::Set) && heading.score >= 7 {
             self.set = Some(value.to_owned());
             return;
         }
         let any = Dialect { decimal: super::dialect::Decimal::Point, ..dialect };
-        let number = match Cell::new(value, dialect) {
-            Cell::Text(_) => Cell::new(value, any),
+        let number = match ReadCell::new(value, dialect) {
+            ReadCell::Text(_) => ReadCell::new(value, any),
             cell => cell,
         };
-        if let Cell::Number(number, unit) = number {
+        if let ReadCell::Number(number, unit) = number {
             self.add(of_number(heading.meaning, number, unit.or(heading.measure)));
         } else {
             self.add_words(&format!("{key} {value}"));
@@ -92,7 +92,7 @@ impl Title {
         let starts = std::iter::once(0).chain(text.char_indices().filter(|(_, letter)| letter.is_whitespace()).map(|(at, _)| at + 1));
         for start in starts.take(12) {
             let Some(rest) = text.get(start..) else { continue };
-            let heading = Heading::new(rest);
+            let heading = ColumnHeading::new(rest);
             let At { theta_i, wavelength_nm, .. } = heading.at;
             // The sample's temperature at an angle is none of this.
             if heading.meaning == Meaning::Unknown && (theta_i.is_some() || wavelength_nm.is_some()) {

@@ -1,7 +1,7 @@
 //! Workbooks: the cells of a sheet as a grid.
 
 use super::dialect::{Decimal, Dialect, Separator, UNIT_SEPARATOR};
-use super::grid::Grid;
+use super::grid::CellGrid;
 use super::layout::report;
 use crate::measurement::formats::ImportError;
 use crate::measurement::{Progress, ReadErrorKind};
@@ -20,7 +20,7 @@ pub(crate) fn sheet_of(
     sheet: Option<&str>,
     thousands: Option<char>,
     progress: Progress<'_>,
-) -> Result<(Grid, String, Vec<String>), ImportError> {
+) -> Result<(CellGrid, String, Vec<String>), ImportError> {
     let damaged = |error: &dyn std::fmt::Display| ImportError::Workbook { reason: error.to_string() };
     let mut workbook: Sheets<Cursor<Vec<u8>>> = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
     let names = workbook.sheet_names();
@@ -55,7 +55,7 @@ pub(crate) fn sheet_of(
         return Err(ReadErrorKind::EmptyText.anywhere().into());
     }
     let dialect = Dialect { thousands, ..decimal_of(&text) };
-    Ok((Grid::new(text, dialect)?, name, names))
+    Ok((CellGrid::new(text, dialect)?, name, names))
 }
 
 /// Numbers of cells have a point; text that is numbers may have a comma.

@@ -3,7 +3,8 @@
 //! S = sin 2ψ sin Δ. The file does not state the angle of incidence.
 
 use super::error::ImportError;
-use super::format::{ForeignFile, Format, Imported};
+use super::format::{ForeignFile, Format};
+use super::imported::Imported;
 use super::question::{ImportOptions, Question};
 use super::text_line::for_each_line;
 use crate::measurement::{Ellipsometry, Expected, Progress, PsiDelta, ReadErrorKind};

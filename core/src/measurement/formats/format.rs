@@ -1,9 +1,10 @@
 //! What every form of foreign file has in common.
 
 use super::error::ImportError;
+use super::imported::Imported;
 use super::question::{ImportOptions, Question};
 use crate::measurement::note::ImportNote;
-use crate::measurement::{Measurement, Progress, unwatched};
+use crate::measurement::{Progress, unwatched};
 
 /// A form of files that is recognised by its content.
 pub trait Format: Sync {
@@ -24,19 +25,6 @@ pub trait Format: Sync {
     /// # Errors
     /// The file is damaged, or `progress` stops the reading.
     fn open(&self, bytes: Vec<u8>, progress: Progress<'_>) -> Result<Box<dyn ForeignFile>, ImportError>;
-}
-
-impl Imported {
-    /// One measurement.
-    pub(crate) fn one(measurement: Measurement, notes: Vec<ImportNote>) -> Self {
-        Self { measurements: vec![measurement], notes }
-    }
-
-    /// Number of rows of all measurements.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.measurements.iter().map(|measurement| measurement.rows.len()).sum()
-    }
 }
 
 /// A foreign file in memory.
@@ -71,13 +59,4 @@ pub trait ForeignFile: Send + Sync {
     fn preview_is_whole(&self) -> bool {
         true
     }
-}
-
-/// The measurements of a file and the notices of its import.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Imported {
-    /// The measurements, in the order of the file.
-    pub measurements: Vec<Measurement>,
-    /// The notices.
-    pub notes: Vec<ImportNote>,
 }

@@ -8,6 +8,7 @@ mod ellipsometer_table;
 mod error;
 mod film_sense;
 mod format;
+mod imported;
 mod native;
 mod pbsdf;
 mod pgii;
@@ -22,7 +23,8 @@ mod zemax;
 
 pub use crate::measurement::note::{ImportNote, LineList};
 pub use error::ImportError;
-pub use format::{ForeignFile, Format, Imported};
+pub use format::{ForeignFile, Format};
+pub use imported::Imported;
 pub use native::{append_columns, shortest, write_measurements};
 pub use pbsdf::{
     TensorAxis, TensorCount, TensorError, TensorErrorKind, TensorGrid, TensorResolution, TensorShape, TensorType, is_tensor, write_tensor,

@@ -8,7 +8,8 @@
 //! `#incident_angle` begins the next scan.
 
 use super::error::ImportError;
-use super::format::{ForeignFile, Format, Imported};
+use super::format::{ForeignFile, Format};
+use super::imported::Imported;
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
 use crate::measurement::note::ImportNote;

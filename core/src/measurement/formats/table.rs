@@ -1,7 +1,8 @@
 //! Tables of other laboratories: by the guess of their columns, or by a mapping.
 
 use super::error::ImportError;
-use super::format::{ForeignFile, Imported};
+use super::format::ForeignFile;
+use super::imported::Imported;
 use super::question::{ImportOptions, Question, TableSample};
 use crate::measurement::foreign::{LabTable, RowKind, TableGuess, TableOptions};
 use crate::measurement::{ColumnChoice, Field, MappedColumn, Mapping, Progress, unwatched};

@@ -9,7 +9,8 @@
 //! - other quantities (`uR`, `pT`, …): counted and named, but not used
 
 use super::error::ImportError;
-use super::format::{ForeignFile, Format, Imported};
+use super::format::{ForeignFile, Format};
+use super::imported::Imported;
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
 use super::wavelength_unit::WavelengthUnit;

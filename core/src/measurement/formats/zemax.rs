@@ -9,7 +9,8 @@
 //! x = sin θi cos r − cos θi sin r cos a, y = sin r sin a, z = cos θi cos r + sin θi sin r cos a.
 
 use super::error::ImportError;
-use super::format::{ForeignFile, Format, Imported};
+use super::format::{ForeignFile, Format};
+use super::imported::Imported;
 use super::question::{ImportOptions, Question};
 use super::text_line::{TextLine, for_each_line};
 use crate::measurement::note::ImportNote;

@@ -2,7 +2,8 @@
 
 use super::read::is_tensor;
 use crate::measurement::formats::error::ImportError;
-use crate::measurement::formats::format::{ForeignFile, Format, Imported};
+use crate::measurement::formats::format::{ForeignFile, Format};
+use crate::measurement::formats::imported::Imported;
 use crate::measurement::formats::question::{ImportOptions, Question};
 use crate::measurement::note::ImportNote;
 use crate::measurement::{Progress, Tensor, TensorSlice, grid_geometries};
