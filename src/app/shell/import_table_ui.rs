@@ -70,7 +70,8 @@ pub(super) fn columns_ui(options: &mut ImportOptions, table: &TableSample, ui: &
     ui.add(Label::new(if is_clear { text } else { text.color(theme::warning(dark)) }).wrap());
     let Some(columns) = table.table.columns.first() else { return };
     let columns = &columns[..columns.len().min(SHOWN_COLUMNS)];
-    ScrollArea::both().id_salt("columns").max_height(TABLE_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
+    // As high whatever is chosen: nothing jumps.
+    ScrollArea::both().id_salt("columns").max_height(TABLE_HEIGHT).auto_shrink([false; 2]).show(ui, |ui| {
         Grid::new("columns").num_columns(columns.len() + 1).spacing([12.0, 2.0]).show(ui, |ui| {
             ui.label("");
             for (index, planned) in columns.iter().enumerate() {

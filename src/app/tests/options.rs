@@ -143,7 +143,8 @@ fn a_click_in_the_history_returns_to_a_fit() {
     fit(&mut harness);
     assert_ne!(explorer(&mut harness).work.surface().parameters, first);
     harness.get_by_label("History of fits (2)").click();
-    harness.run();
+    // The list unfolds, while the intervals of the fit are being found.
+    harness.run_steps(30);
     harness.get_by_label("1. cauchy").click_accesskit();
     harness.run();
     let explorer = explorer(&mut harness);

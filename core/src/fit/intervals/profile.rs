@@ -37,7 +37,7 @@ const POLISHED: usize = 6;
 /// First guesses that fits at a limit are started from.
 const GUESSES: usize = 4;
 /// Fall of the minimum, in units of the first limit's rise, that leaves intervals as they are.
-const SLIGHT: f64 = 1e-3;
+const SLIGHT: f64 = 1e-6;
 /// Other minima that fits at a limit are started from, at most.
 const OTHER_MINIMA: usize = 8;
 
