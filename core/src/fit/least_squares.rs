@@ -48,7 +48,7 @@ pub trait LeastSquares {
     }
 
     /// The value of an unknown, given its [`Self::straight`] coordinate.
-    fn from_straight(&self, _unknown: usize, coordinate: f64) -> f64 {
+    fn at_straight(&self, _unknown: usize, coordinate: f64) -> f64 {
         coordinate
     }
 

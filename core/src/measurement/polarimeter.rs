@@ -88,6 +88,7 @@ fn stokes(s0: f64, s1: f64, s2: f64) -> (f64, [f64; 3]) {
 }
 
 #[cfg(test)]
+#[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
     use super::Polarimeter;
     use crate::measurement::Quantity;

@@ -162,7 +162,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             }
             let step = self.step(here, end);
             let reaches = step.abs() >= 0.999 * (end - here).abs();
-            let value = if reaches { self.bound } else { self.at.problem.from_straight(self.unknown, here + step) };
+            let value = if reaches { self.bound } else { self.at.problem.at_straight(self.unknown, here + step) };
             let fit = self.held_fit(value, &self.predicted(value));
             let rise = self.rise(&fit);
             self.points.push(fit);
@@ -183,7 +183,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     fn step(&self, here: f64, end: f64) -> f64 {
         let away = end - here;
         let [.., before, last] = &self.points[..] else {
-            let unit = self.at.problem.from_straight(self.unknown, here);
+            let unit = self.at.problem.at_straight(self.unknown, here);
             let by_error = self.error.filter(|error| error.is_finite() && *error > 0.0).map(|error| {
                 let there = unit + STEP * error.copysign(away);
                 let inside = if away > 0.0 { there < self.bound } else { there > self.bound };
@@ -223,7 +223,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             let (from, to, aim) = (self.deviance(&below), self.deviance(&above), (limit / self.rises[0]).sqrt());
             // A bisection now and then: false position alone keeps one end.
             let fraction = if round % 3 == 0 { 0.5 } else { ((aim - from) / (to - from)).clamp(0.02, 0.98) };
-            let value = self.at.problem.from_straight(self.unknown, low + fraction * (high - low));
+            let value = self.at.problem.at_straight(self.unknown, low + fraction * (high - low));
             if !(fraction.is_finite()) || value == self.value(&below) || value == self.value(&above) {
                 break;
             }
@@ -267,7 +267,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
             let (from, to) = if end.x[j] <= low { (low, high) } else { (high, low) };
             let (start, stop) = (problem.straight(j, from), problem.straight(j, to));
             let mut x = end.x.clone();
-            x[j] = problem.from_straight(j, start + INSIDE * (stop - start));
+            x[j] = problem.at_straight(j, start + INSIDE * (stop - start));
             x
         };
         let rests = |&j: &usize| {

@@ -131,7 +131,7 @@ impl LeastSquares for Problem {
         self.straight_origin(unknown).map_or(value, |origin| libm::log(value - origin))
     }
 
-    fn from_straight(&self, unknown: usize, coordinate: f64) -> f64 {
+    fn at_straight(&self, unknown: usize, coordinate: f64) -> f64 {
         self.straight_origin(unknown).map_or(coordinate, |origin| origin + libm::exp(coordinate))
     }
 

@@ -78,9 +78,8 @@ impl BoxLeastSquares {
             }
             for row in i + 1..count {
                 let factor = a[row][i] / a[i][i];
-                for column in i..4 {
-                    a[row][column] -= factor * a[i][column];
-                }
+                let pivot = a[i];
+                a[row].iter_mut().zip(pivot).skip(i).for_each(|(value, above)| *value -= factor * above);
             }
         }
         for i in (0..count).rev() {

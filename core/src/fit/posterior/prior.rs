@@ -130,6 +130,7 @@ impl BoundedPrior {
 }
 
 #[cfg(test)]
+#[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
     use super::{BoundedPrior, Prior};
     use crate::fit::bounds::Bounds;

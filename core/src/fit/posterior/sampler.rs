@@ -194,6 +194,7 @@ fn run_all<D: Send>(chains: &mut [Chain<D>], run: impl Fn(&mut Chain<D>) + Send 
 }
 
 #[cfg(test)]
+#[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
     use super::sample;
     use crate::fit::posterior::log_density::LogDensity;

@@ -87,7 +87,7 @@ impl Assembly {
     ///
     /// # Errors
     /// An angle is outside its range, no value is there, or no wavelength is near the one asked for.
-    pub(crate) fn finish(mut self, metadata: Vec<(String, String)>) -> Result<Imported, ImportError> {
+    pub(crate) fn finish(mut self, metadata: &[(String, String)]) -> Result<Imported, ImportError> {
         self.turn_angles()?;
         self.choose_wavelength()?;
         if !self.rows.iter().any(|row| row.dolp.is_some() || row.brdf.is_some()) {
@@ -170,7 +170,7 @@ impl Assembly {
         self.notes.extend(notes);
     }
 
-    fn measurements(&self, metadata: Vec<(String, String)>) -> Result<Vec<Measurement>, ImportError> {
+    fn measurements(&self, metadata: &[(String, String)]) -> Result<Vec<Measurement>, ImportError> {
         let mut places: HashMap<(u32, Option<u64>), usize> = HashMap::new();
         let mut keys: Vec<(u32, Option<f64>)> = Vec::new();
         let mut all: Vec<Measurement> = Vec::new();
@@ -198,7 +198,7 @@ impl Assembly {
             let wavelength = wavelength_nm.filter(|_| shares_set || set_name.is_empty() && !is_single).map(|nm| format!("{nm} nm"));
             measurement.name =
                 [Some(set_name.clone()).filter(|name| !name.is_empty()), wavelength].into_iter().flatten().collect::<Vec<_>>().join(" ");
-            measurement.metadata.clone_from(&metadata);
+            metadata.clone_into(&mut measurement.metadata);
             measurement.metadata.extend(wavelength_nm.map(|nm| ("wavelength_nm".to_owned(), nm.to_string())));
             measurement.metadata.extend(self.polarimeter.map(|of| ("quantity".to_owned(), quantity(of))));
             measurement.metadata.extend(self.brdf_is.map(|is| ("brdf_is".to_owned(), is.to_string())));

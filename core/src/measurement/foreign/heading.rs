@@ -168,11 +168,10 @@ fn without_measure(text: &str) -> (String, Option<Measure>) {
     for (open, close) in [('[', ']'), ('(', ')'), ('{', '}'), ('<', '>')] {
         if let Some(start) = text.find(open)
             && let Some(length) = text[start..].find(close)
+            && let Some(unit) = measure(&text[start..=start + length]).or_else(|| measure(&text[start + 1..start + length]))
         {
-            if let Some(unit) = measure(&text[start..=start + length]).or_else(|| measure(&text[start + 1..start + length])) {
-                found = Some(unit);
-                text.replace_range(start..=start + length, " ");
-            }
+            found = Some(unit);
+            text.replace_range(start..=start + length, " ");
         }
     }
     if found.is_some() {

@@ -29,6 +29,9 @@ pub struct PlannedColumn {
     is_brdf: bool,
 }
 
+/// A column of values, and that of their standard deviations.
+pub(crate) type ValueColumns = (usize, Option<usize>);
+
 /// Values of one row that belong together: those of one place in a wide table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Group {
@@ -36,9 +39,9 @@ pub(crate) struct Group {
     pub(crate) theta_r: Option<f64>,
     pub(crate) wavelength_nm: Option<f64>,
     /// Columns of DoLP and its standard deviation, of BRDF and its.
-    pub(crate) dolp: Option<(usize, Option<usize>)>,
-    pub(crate) brdf: Option<(usize, Option<usize>)>,
-    pub(crate) polarimeter: Option<(Polarimeter, Vec<(usize, Option<usize>)>)>,
+    pub(crate) dolp: Option<ValueColumns>,
+    pub(crate) brdf: Option<ValueColumns>,
+    pub(crate) polarimeter: Option<(Polarimeter, Vec<ValueColumns>)>,
 }
 
 /// What the columns of a section are.
@@ -384,7 +387,7 @@ impl<'a> Planner<'a> {
     /// Converts what headings and the row of units say.
     fn settle_units(&mut self) {
         let percents: Vec<bool> = self.headings.iter().map(ColumnHeading::is_percent).collect();
-        for index in 0..self.columns.len() {
+        for (index, is_percent) in percents.into_iter().enumerate() {
             let Some(field) = self.columns[index].field else { continue };
             if self.options.columns.is_some() {
                 continue;
@@ -401,9 +404,9 @@ impl<'a> Planner<'a> {
                 self.columns[index].unit = unit;
             }
             // An error without a unit has the unit of its value.
-            let value = (0..self.columns.len()).filter(|&other| self.columns[other].field.and_then(Field::sigma) == Some(field));
-            let states = self.headings[index].measure.is_some_and(|unit| unit != Measure::Other) || percents[index];
-            if let Some(value) = value.last().filter(|_| !states) {
+            let value = (0..self.columns.len()).rfind(|&other| self.columns[other].field.and_then(Field::sigma) == Some(field));
+            let states = self.headings[index].measure.is_some_and(|unit| unit != Measure::Other) || is_percent;
+            if let Some(value) = value.filter(|_| !states) {
                 self.columns[index].states_unit = self.columns[value].states_unit;
                 self.columns[index].unit = match self.headings[value].measure {
                     Some(Measure::Percent) if has_unit(Unit::Percent) => Unit::Percent,

@@ -225,7 +225,7 @@ impl LabTable {
                 reader.read(row, &cells, set, &mut assembly.rows)?;
             }
         }
-        let mut imported = assembly.finish(self.metadata())?;
+        let mut imported = assembly.finish(&self.metadata())?;
         let used = |index: usize| plans.iter().any(|plan| plan.columns.get(index).is_some_and(|column| column.field.is_some()));
         let unused: Vec<String> =
             plans[0].columns.iter().enumerate().filter(|(index, _)| !used(*index)).map(|(_, column)| column.name.clone()).collect();

@@ -386,7 +386,7 @@ pub(crate) fn meanings(word: &str) -> Vec<Word> {
     }
     let mut found: Vec<Word> = WORDS.iter().filter(|(_, whole)| whole.contains(&word)).map(|(meaning, _)| *meaning).collect();
     let begins = |beginning: &&str| word.starts_with(*beginning);
-    if let Some((meaning, _)) = BEGINNINGS.iter().find(|(_, beginnings)| beginnings.iter().any(|beginning| begins(&beginning))) {
+    if let Some((meaning, _)) = BEGINNINGS.iter().find(|(_, beginnings)| beginnings.iter().any(begins)) {
         found.push(*meaning);
     }
     // A German compound ends with what it is.

@@ -62,7 +62,7 @@ SENTECH SpectraRay text: psi and delta at the angles of its head; as Woollam tex
 fn pairs(line: &TextLine<'_>, words: &[&str]) -> Result<Vec<f64>, ReadError> {
     let expected = Expected::Line("; WAVELENGTH 55.1 55.1 65.1 65.1");
     let angles: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).filter(|angle| (0.0..90.0).contains(angle)).collect();
-    let is_paired = angles.len() == words.len() && angles.len() % 2 == 0 && angles.chunks(2).all(|pair| pair[0] == pair[1]);
+    let is_paired = angles.len() == words.len() && angles.len().is_multiple_of(2) && angles.chunks(2).all(|pair| pair[0] == pair[1]);
     if is_paired { Ok(angles.into_iter().step_by(2).collect()) } else { Err(line.unexpected(expected)) }
 }
 
