@@ -14,7 +14,7 @@ use super::plan::{Plan, PlannedColumn};
 use super::row_reader::ForeignRowReader;
 use super::title::{key_and_value, strip_mark};
 use crate::measurement::formats::{ImportError, Imported};
-use crate::measurement::{Field, ImportNote, LineList, Progress, ReadError, ReadErrorKind, Unit, unwatched};
+use crate::measurement::{Field, ImportNote, LineList, Progress, ReadError, Unit, unwatched};
 
 /// A foreign table in memory, its regions found.
 #[derive(Debug, Clone)]
@@ -76,7 +76,9 @@ impl LabTable {
     fn of_workbook(bytes: Vec<u8>, options: &TableOptions, progress: Progress<'_>) -> Result<Self, ImportError> {
         let (grid, sheet, names) = super::workbook::sheet_of(bytes, options.sheet.as_deref(), options.thousands, progress)?;
         Self::new(grid, format!("sheet {sheet}"), progress).map_err(|error| match error.kind {
-            ReadErrorKind::NoNumbers if names.len() > 1 && options.sheet.is_none() => ImportError::NoSheet { wanted: String::new(), names },
+            crate::measurement::ReadErrorKind::NoNumbers if names.len() > 1 && options.sheet.is_none() => {
+                ImportError::NoSheet { wanted: String::new(), names }
+            }
             _ => error.into(),
         })
     }
