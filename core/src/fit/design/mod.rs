@@ -1,6 +1,6 @@
 //! What a choice of angles would determine, and which angles to choose.
 //!
-//! [`Design::predict`] says what a measurement would determine before it is made. [`choose`] picks angles from a [`CandidateGrid`]:
+//! [`Design::predict`] says what a measurement would determine before it is made. [`choose()`] picks angles from a [`CandidateGrid`]:
 //! D-optimal or for chosen parameters (Fedorov's exchange), or so that a rival model fits worst (T-optimal).
 
 mod candidates;
