@@ -74,7 +74,9 @@ fn without_times(text: &str) -> String {
                 return format!("{}{:>10}{}", cut(0, end - 10), "[ms]", cut(end, cells.len()));
             }
         }
-        for (key, mark) in [("\"elapsed_ms\": ", "[ms]"), ("\"date\": ", "[date]"), ("\"machine\": ", "[machine]")] {
+        for (key, mark) in
+            [("\"elapsed_ms\": ", "[ms]"), ("\"intervals_ms\": ", "[ms]"), ("\"date\": ", "[date]"), ("\"machine\": ", "[machine]")]
+        {
             if let Some(at) = line.find(key) {
                 let comma = if line.ends_with(',') { "," } else { "" };
                 return format!("{}{mark}{comma}", &line[..at + key.len()]);
