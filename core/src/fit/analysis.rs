@@ -118,8 +118,9 @@ fn on_bounds(problem: &Problem, parameters: Parameters, sum_of_squares: f64) -> 
     })
 }
 
-/// Those parameters on a bound that the data press against it, or that have no slope there. Another one that merely came to lie there, along a direction that the data
-/// leave undetermined, takes part in the analysis of what they determine.
+/// Those parameters on a bound that the data press against it, or that have no slope there. Another
+/// one merely came to lie there, along a direction that the data leave undetermined, and takes part
+/// in the analysis of what they determine.
 fn pressed(problem: &Problem, parameters: &Parameters, at_bound: ParameterSet) -> ParameterSet {
     if at_bound.is_empty() {
         return at_bound;

@@ -43,12 +43,6 @@ impl GeometrySet {
         Self { fresnel: Some((index, fresnel)), ..self }
     }
 
-    /// Without any Fresnel reflection prepared.
-    #[must_use]
-    pub fn without_index(self) -> Self {
-        Self { fresnel: None, ..self }
-    }
-
     /// How many geometries.
     #[must_use]
     pub fn len(&self) -> usize {

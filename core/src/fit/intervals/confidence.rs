@@ -12,7 +12,7 @@ const ROUNDS: usize = 4;
 /// A point lies outside an interval if it does by more than this fraction of the distance of the end from the minimum.
 const OUTSIDE: f64 = 0.01;
 /// A point is better than the minimum if its sum of squares is smaller by this fraction of the first limit's rise.
-pub(crate) const BETTER: f64 = 1e-6;
+const BETTER: f64 = 1e-6;
 
 /// What the walks have found.
 pub(crate) struct Profiles {

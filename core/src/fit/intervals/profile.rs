@@ -36,8 +36,6 @@ const MOST_MINIMA: usize = 4;
 const POLISHED: usize = 6;
 /// First guesses that fits at a limit are started from.
 const GUESSES: usize = 4;
-/// Fall of the minimum, in units of the first limit's rise, that leaves intervals as they are.
-const SLIGHT: f64 = 1e-6;
 /// Other minima that fits at a limit are started from, at most.
 const OTHER_MINIMA: usize = 8;
 
@@ -84,14 +82,9 @@ pub fn with_intervals(problem: &Problem, mut result: FitResult, observer: Observ
         }
         let found = profiles_of(&fitted, &result, fitted.free(), observer);
         result.course.evaluations += found.evaluations;
-        let mut is_settled = found.better.is_empty() || round == MOST_MINIMA || (observer.cancelled)();
+        let is_settled = found.better.is_empty() || round == MOST_MINIMA || (observer.cancelled)();
         if !found.better.is_empty() {
-            let before = result.course.minima.first().and_then(|best| fitted.sum_of_squares(&best.parameters));
             result = with_better_minimum(problem, result, &found.better, observer);
-            let after = fitted.sum_of_squares(&result.parameters);
-            let fall = before.zip(after).map_or(0.0, |(before, after)| before - after);
-            // Limits that have hardly moved leave the intervals as they are.
-            is_settled |= found.is_complete && fall <= SLIGHT * rises(&fitted, &result, after.unwrap_or(0.0), fitted.free()[0])[0];
         }
         if is_settled {
             result.course.intervals_complete = Some(found.is_complete);

@@ -110,7 +110,7 @@ fn bridge(of_draws: &[Vec<f64>], of_gauss: &[f64]) -> Option<LogEvidence> {
 mod tests {
     use super::log_evidence;
     use crate::fit::posterior::log_density::LogDensity;
-    use crate::fit::posterior::sampler::sample;
+    use crate::fit::posterior::sampler::draw_chains;
 
     /// A skewed density with a known integral: `exp(a u − b eᵘ)` in each coordinate, whose integral is `Γ(a)/bᵃ`.
     #[derive(Clone)]
@@ -134,7 +134,7 @@ mod tests {
     fn the_evidence_of_a_known_integral_lies_within_its_error() {
         let mut density = LogGamma(vec![(2.0, 3.0), (5.0, 0.1), (1.0, 1.0)]);
         let expected: f64 = density.0.iter().map(|&(a, b)| libm::lgamma(a) - a * libm::log(b)).sum();
-        let sampled = sample(&density, &vec![vec![0.0; 3]; 4], 1000, 5, &|| false, &mut |_, _| {}).unwrap();
+        let sampled = draw_chains(&density, &vec![vec![0.0; 3]; 4], 1000, 5, &|| false, &mut |_, _| {}).unwrap();
         let evidence = log_evidence(&mut density, &sampled, 1).unwrap();
         // Four standard errors, and those are small: the bridge is short.
         assert!((evidence.value - expected).abs() < 4.0 * evidence.std_error, "{evidence:?} {expected}");

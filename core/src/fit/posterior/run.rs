@@ -11,7 +11,7 @@ use crate::fit::posterior::likelihood::Likelihood;
 use crate::fit::posterior::log_density::LogDensity as _;
 use crate::fit::posterior::prior::{BoundedPrior, Prior, PriorError};
 use crate::fit::posterior::sample::{NoiseQuantiles, PosteriorDraw, PosteriorSample};
-use crate::fit::posterior::sampler::{ChainDraws, Sampled, sample};
+use crate::fit::posterior::sampler::{ChainDraws, Sampled, draw_chains};
 use crate::fit::posterior::transform::{Transform, Transformed};
 use crate::measurement::Deviates;
 use crate::model::{Parameter, Parameters};
@@ -156,7 +156,7 @@ impl Posterior {
         let starts = starts(&mut density, minima).ok_or(PosteriorError::NotFinite)?;
         let starts: Vec<Vec<f64>> = (0..chains).map(|i| starts[i % starts.len()].clone()).collect();
         let mut tell = |share: f64, chains: &[ChainDraws]| progress(share, &|| self.sample(&density, chains));
-        let sampled = sample(&density, &starts, draws, seed, observer.cancelled, &mut tell).ok_or(PosteriorError::NotFinite)?;
+        let sampled = draw_chains(&density, &starts, draws, seed, observer.cancelled, &mut tell).ok_or(PosteriorError::NotFinite)?;
         let mut result = self.sample(&density, &sampled.chains);
         self.conclude(&mut density, &sampled, seed, &mut result);
         result.elapsed_ms = (observer.clock)();

@@ -113,7 +113,7 @@ impl<D: LogDensity> Chain<D> {
 /// Draws so many after the warm-up from each start; none where the density is not finite around the first start.
 ///
 /// Cancelled, it returns the draws so far.
-pub(crate) fn sample<D: LogDensity + Clone + Send>(
+pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
     density: &D,
     starts: &[Vec<f64>],
     draws: usize,
@@ -196,7 +196,7 @@ fn run_all<D: Send>(chains: &mut [Chain<D>], run: impl Fn(&mut Chain<D>) + Send 
 #[cfg(test)]
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
-    use super::sample;
+    use super::draw_chains;
     use crate::fit::posterior::log_density::LogDensity;
     use nalgebra::{DMatrix, DVector};
 
@@ -228,7 +228,7 @@ mod tests {
         let mean = DVector::from_vec(vec![5.0, -1.0, 100.0]);
         let density = Gaussian { mean: mean.clone(), precision: covariance.clone().try_inverse().unwrap() };
         let starts = vec![vec![5.0, -1.0, 100.0], vec![5.1, 1.0, 50.0], vec![4.9, -3.0, 150.0], vec![5.0, 0.0, 90.0]];
-        let chains = sample(&density, &starts, 5000, 7, &|| false, &mut |_, _| {}).unwrap().chains;
+        let chains = draw_chains(&density, &starts, 5000, 7, &|| false, &mut |_, _| {}).unwrap().chains;
         let points: Vec<DVector<f64>> =
             chains.iter().flat_map(|chain| &chain.points).map(|point| DVector::from_column_slice(point)).collect();
         let count = points.len() as f64;
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn the_seed_alone_decides() {
         let density = Gaussian { mean: DVector::zeros(2), precision: DMatrix::identity(2, 2) };
-        let run = |seed| sample(&density, &vec![vec![0.0; 2]; 2], 50, seed, &|| false, &mut |_, _| {}).unwrap().chains;
+        let run = |seed| draw_chains(&density, &vec![vec![0.0; 2]; 2], 50, seed, &|| false, &mut |_, _| {}).unwrap().chains;
         assert_eq!(run(3), run(3));
         assert_ne!(run(3)[0].points, run(4)[0].points);
         assert_ne!(run(3)[0].points, run(3)[1].points);

@@ -77,10 +77,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Undo => app.work.apply(Edit::Undo),
         Action::Redo => app.work.apply(Edit::Redo),
         Action::Toggle(switch) => app.work.apply(Edit::SetSwitch(switch, !switch.is_on(app.work.settings()))),
-        Action::PasteParameters(text) => {
-            let parameters = parameter_text::read(&text, app.work.surface().parameters)?;
-            app.work.apply(Edit::SetParameters(parameters));
-        }
+        Action::PasteParameters(text) => paste_parameters(app, &text)?,
         Action::ResetParameters => app.work.apply(Edit::SetParameters(Parameters::default())),
         Action::UseFinish(index) => use_finish(app, index),
         Action::UseModel(key) => use_model(app, key),
@@ -173,4 +170,10 @@ fn use_case(app: &mut App, index: usize) {
             app.work.apply(Edit::SetSessionFile(None));
         }
     }
+}
+
+fn paste_parameters(app: &mut App, text: &str) -> Result<(), String> {
+    let parameters = parameter_text::read(text, app.work.surface().parameters)?;
+    app.work.apply(Edit::SetParameters(parameters));
+    Ok(())
 }
