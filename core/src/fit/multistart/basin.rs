@@ -27,6 +27,11 @@ pub(crate) const SAME: f64 = 1e-6;
 /// Sums of squares that differ by less than this are the same: of noise-free data, rounding alone is left.
 pub(crate) const SAME_ABSOLUTE: f64 = 1e-20;
 
+/// Whether two sums of squares are those of one minimum.
+pub(crate) fn is_same(value: f64, other: f64) -> bool {
+    (value - other).abs() <= (SAME * other.abs()).max(SAME_ABSOLUTE)
+}
+
 /// The expected share of starts that end in minima not seen yet, `w(w + 1)/(n(n − 1))` of w distinct minima after n starts (Boender
 /// and Kan, Math. Program. 37, 59 (1987)); none after a single start.
 pub(crate) fn unseen_share(minima: usize, starts: usize) -> Option<f64> {
@@ -66,8 +71,7 @@ impl MultistartResult {
     /// Merges a minimum into one already found, or adds it, in the order of sums of squares.
     pub(crate) fn merge(&mut self, new: Basin) {
         let value = new.local_fit.sum_of_squares;
-        let is_same = |other: f64| (value - other).abs() <= (SAME * other.abs()).max(SAME_ABSOLUTE);
-        if let Some(i) = self.basins.iter().position(|basin| is_same(basin.local_fit.sum_of_squares)) {
+        if let Some(i) = self.basins.iter().position(|basin| is_same(value, basin.local_fit.sum_of_squares)) {
             self.basins[i].hits += new.hits;
             if value < self.basins[i].local_fit.sum_of_squares {
                 self.basins[i].local_fit = new.local_fit;

@@ -1,7 +1,5 @@
 //! Linear least squares of three unknowns in a box, by normal equations: good enough for a guess.
 
-/// Sweeps of coordinate descent where the unbounded minimum lies outside the box.
-const SWEEPS: usize = 8;
 /// The determinant, relative to the product of the diagonal, below which the matrix counts as singular.
 const SINGULAR: f64 = 1e-12;
 
@@ -39,25 +37,42 @@ impl BoxLeastSquares {
                 count += 1;
             }
         }
-        let free = &order[..count];
-        let mut x = self.ranges.map(|range| range.0);
-        let inside = self.unbounded(free, x);
-        if let Some(solution) = inside {
-            let is_inside = |&i: &usize| solution[i] >= self.ranges[i].0 && solution[i] <= self.ranges[i].1;
-            if free.iter().all(is_inside) {
-                return solution;
-            }
-            for &i in free {
-                x[i] = solution[i].clamp(self.ranges[i].0, self.ranges[i].1);
+        self.minimum_over(&order[..count], self.ranges.map(|range| range.0))
+    }
+
+    /// The minimum over those unknowns, the others where they are. Where the minimum without the box lies outside, that in the box has
+    /// one of the unknowns that are outside on the bound that it crosses: the sum of squares is convex, and nothing else is in the way.
+    /// A singular matrix has a line of minima, which meets some bound.
+    fn minimum_over(&self, free: &[usize], x: [f64; 3]) -> [f64; 3] {
+        if let &[i] = free {
+            let mut x = x;
+            x[i] = ((self.right[i] - self.held(i, free, &x)) / self.square[i][i]).clamp(self.ranges[i].0, self.ranges[i].1);
+            return x;
+        }
+        let unbounded = self.unbounded(free, x);
+        let mut lowest = (f64::INFINITY, unbounded.unwrap_or(x));
+        for &i in free {
+            let (low, high) = self.ranges[i];
+            let (is_below, is_above) = unbounded.map_or((true, true), |solution| (solution[i] < low, solution[i] > high));
+            for (is_crossed, bound) in [(is_below, low), (is_above, high)] {
+                if is_crossed {
+                    let mut on_bound = x;
+                    on_bound[i] = bound;
+                    let (rest, count) = without(free, i);
+                    let candidate = self.minimum_over(&rest[..count], on_bound);
+                    let value = self.value(candidate);
+                    if value < lowest.0 {
+                        lowest = (value, candidate);
+                    }
+                }
             }
         }
-        for _ in 0..SWEEPS {
-            for &i in free {
-                let others: f64 = (0..3).filter(|&j| j != i).map(|j| self.at(i, j) * x[j]).sum();
-                x[i] = ((self.right[i] - others) / self.square[i][i]).clamp(self.ranges[i].0, self.ranges[i].1);
-            }
-        }
-        x
+        lowest.1
+    }
+
+    /// The part of a row's product that belongs to the unknowns that are not free.
+    fn held(&self, i: usize, free: &[usize], x: &[f64; 3]) -> f64 {
+        (0..3).filter(|j| !free.contains(j)).map(|j| self.at(i, j) * x[j]).sum()
     }
 
     /// The minimum over those unknowns without the box, the others where they are; none where the matrix is singular.
@@ -67,8 +82,7 @@ impl BoxLeastSquares {
             for (column, &j) in free.iter().enumerate() {
                 a[row][column] = self.at(i, j);
             }
-            let held: f64 = (0..3).filter(|j| !free.contains(j)).map(|j| self.at(i, j) * x[j]).sum();
-            a[row][3] = self.right[i] - held;
+            a[row][3] = self.right[i] - self.held(i, free, &x);
         }
         let count = free.len();
         for i in 0..count {
@@ -88,6 +102,17 @@ impl BoxLeastSquares {
         }
         Some(x)
     }
+}
+
+/// Those unknowns but one, and how many they are.
+fn without(free: &[usize], held: usize) -> ([usize; 2], usize) {
+    let mut rest = [0; 2];
+    let mut count = 0;
+    for &i in free.iter().filter(|&&i| i != held) {
+        rest[count] = i;
+        count += 1;
+    }
+    (rest, count)
 }
 
 #[cfg(test)]
@@ -113,6 +138,30 @@ mod tests {
         // Without edges (14, −4) and (10, 4): the second lies on one edge, the first is moved along it to the corner.
         assert_eq!(box_of_two([1.0, 0.5, 0.5], [12.0, 5.0]), (10.0, 0.0));
         assert_eq!(box_of_two([1.0, 0.5, 0.5], [12.0, 7.0]), (10.0, 4.0));
+    }
+
+    /// Three correlated columns: coordinate descent would need many sweeps.
+    const CORRELATED: [[f64; 3]; 3] = [[1.0, 0.9, 0.8], [0.0, 1.0, 0.95], [0.0, 0.0, 1.0]];
+
+    #[test]
+    fn no_point_of_the_box_is_below_the_minimum() {
+        for right in [[1.0, -0.4, 0.3], [0.2, 3.0, -2.0], [-1.0, 2.0, 2.2], [4.0, 3.5, 3.1], [-1.0, -1.0, -1.0]] {
+            let problem = BoxLeastSquares { square: CORRELATED, right, constant: 10.0, ranges: [(0.0, 1.0); 3] };
+            let lowest = problem.value(problem.minimum());
+            for place in 0..11 * 11 * 11 {
+                let x = [place % 11, place / 11 % 11, place / 121].map(|step| f64::from(step) / 10.0);
+                // Rounding of ten.
+                assert!(problem.value(x) >= lowest - 1e-14, "{right:?}: {x:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_has_its_minimum_on_a_bound() {
+        let square = [[0.0; 3], [0.0, 1.0, 1.0], [0.0, 0.0, 1.0]];
+        let problem = BoxLeastSquares { square, right: [0.0, 3.0, 3.0], constant: 9.0, ranges: [(1.0, 1.0), (0.0, 2.0), (0.0, 2.0)] };
+        let found = problem.minimum();
+        assert!(problem.value(found) < 1e-14 && (found[1] + found[2] - 3.0).abs() < 1e-14, "{found:?}");
     }
 
     #[test]

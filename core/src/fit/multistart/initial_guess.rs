@@ -296,6 +296,8 @@ struct DolpRows<'a> {
     limit: &'a [f64],
     /// k_s F^s, above 0.
     specular: Vec<f64>,
+    /// DoLP_s k_s F^s.
+    light: Vec<f64>,
     /// 1/(L k_s F^s); 0 where that is beyond f64, and the row has nothing to say of k_d and k_v.
     scale: Vec<f64>,
 }
@@ -303,23 +305,44 @@ struct DolpRows<'a> {
 impl<'a> DolpRows<'a> {
     fn new(measured: &'a [f64], alone: &'a Radiances) -> Self {
         let scale = alone.dolp.iter().zip(&alone.specular).map(|(limit, specular)| 1.0 / (limit * specular));
+        let specular: Vec<f64> = alone.specular.iter().map(|specular| specular.max(f64::MIN_POSITIVE)).collect();
         Self {
             measured,
             limit: &alone.dolp,
-            specular: alone.specular.iter().map(|specular| specular.max(f64::MIN_POSITIVE)).collect(),
+            light: alone.dolp.iter().zip(&specular).map(|(limit, specular)| limit * specular).collect(),
+            specular,
             scale: scale.map(|scale| if scale < FAINT { scale } else { 0.0 }).collect(),
         }
     }
 
     /// DoLP, given what is added to the specular lobe.
     fn dolp(&self, i: usize, added: f64) -> f64 {
-        self.limit[i] * self.specular[i] / (self.specular[i] + added)
+        self.light[i] / (self.specular[i] + added)
     }
 
-    /// Σ (X − Xm)².
+    /// Σ (X − Xm)², in four running sums that the processor forms side by side.
     fn misfit(&self, [_, kd, kv]: [f64; 3], diffuse: &[f64], volume: &[f64]) -> f64 {
-        let difference = |i: usize| self.dolp(i, kd * diffuse[i] + kv * volume[i]) - self.measured[i];
-        (0..self.measured.len()).map(|i| difference(i) * difference(i)).sum()
+        let square = |light: f64, specular: f64, measured: f64, diffuse: f64, volume: f64| {
+            let difference = light / (specular + (kd * diffuse + kv * volume)) - measured;
+            difference * difference
+        };
+        let (light, rest_light) = self.light.as_chunks::<4>();
+        let (specular, rest_specular) = self.specular.as_chunks::<4>();
+        let (measured, rest_measured) = self.measured.as_chunks::<4>();
+        let (in_fours, rest_diffuse) = diffuse.as_chunks::<4>();
+        let (volume_in_fours, rest_volume) = volume.as_chunks::<4>();
+        let mut sums = [0.0; 4];
+        for ((((light, specular), measured), diffuse), volume) in
+            light.iter().zip(specular).zip(measured).zip(in_fours).zip(volume_in_fours)
+        {
+            for lane in 0..4 {
+                sums[lane] += square(light[lane], specular[lane], measured[lane], diffuse[lane], volume[lane]);
+            }
+        }
+        let rest = rest_light.iter().zip(rest_specular).zip(rest_measured).zip(rest_diffuse).zip(rest_volume);
+        let rest: f64 =
+            rest.map(|((((light, specular), measured), diffuse), volume)| square(*light, *specular, *measured, *diffuse, *volume)).sum();
+        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
     }
 
     /// The normal equations of each pair of lobes, linearised where DoLP is as measured: `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)` with

@@ -8,7 +8,7 @@
 
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
-use crate::fit::multistart::basin::{Basin, MultistartResult, SAME};
+use crate::fit::multistart::basin::{Basin, MultistartResult, SAME, is_same};
 use crate::fit::multistart::initial_guess::lobe_grid_minima;
 use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::objective::Problem;
@@ -205,7 +205,8 @@ impl Search<'_> {
                 return;
             }
             let best = || self.found.basins.iter().take(LOBE_BASINS).map(|basin| &basin.local_fit);
-            let fresh: Vec<Parameters> = best().filter(|end| !seen.contains(&end.sum_of_squares)).map(|end| end.parameters).collect();
+            let is_seen = |end: &&LocalFit| seen.iter().any(|&other| is_same(end.sum_of_squares, other));
+            let fresh: Vec<Parameters> = best().filter(|end| !is_seen(end)).map(|end| end.parameters).collect();
             if fresh.is_empty() {
                 return;
             }
