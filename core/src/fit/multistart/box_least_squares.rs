@@ -1,7 +1,7 @@
 //! Linear least squares of three unknowns in a box, by normal equations: good enough for a guess.
 
 /// The determinant, relative to the product of the diagonal, below which the matrix counts as singular.
-const SINGULAR: f64 = 1e-12;
+pub(crate) const SINGULAR: f64 = 1e-12;
 
 /// `Σ (aᵀx − y)²`, to be minimised over a box.
 #[derive(Debug, Clone, Copy)]

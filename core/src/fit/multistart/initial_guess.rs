@@ -1,14 +1,14 @@
 //! First guesses by variable projection (Golub and Pereyra, SIAM J. Numer. Anal. 10, 413 (1973)) on a grid: the weights from linear least
 //! squares at each point of a grid of the other parameters.
 //!
-//! For fixed shapes (n, k, σ, q, c, σ_v) the BRDF is linear in k_s, k_d and k_v. Of DoLP, `1/X = (1 + g)/L` with the Fresnel limit L and
-//! `g = (k_d F^d + k_v F^v)/(k_s F^s)` is linear in k_d and k_v; linearised about X₀, `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)`. That is solved
-//! about the measured DoLP and, at grid minima, once more about what came of it.
+//! For fixed shapes (n, k, σ, q, c, σ_v) the BRDF is linear in k_s, k_d and k_v. DoLP is linearised in k_d and k_v about the measured
+//! values ([`DolpRows`]) and, at grid minima, once more about what came of it.
 //!
 //! A point of the grid that is lower than its neighbours along each axis is a grid minimum: a minimum of the objective is near.
 
 use crate::fit::local::tall_qr::dot;
 use crate::fit::multistart::box_least_squares::BoxLeastSquares;
+use crate::fit::multistart::dolp_rows::{DolpRows, LobeColumns, LobePairs, Solved};
 use crate::fit::objective::Problem;
 use crate::fit::observations::Kind;
 use crate::model::{Batch, Diffuse, DolpFormula, Model, Parameter, ParameterSet, Parameters, Pbrdf, Radiances};
@@ -33,8 +33,6 @@ const LOBES: [(Parameter, &[f64]); 4] = [
 const ROWS: usize = 32;
 /// The weights, in the order of the unknowns of the least squares.
 const WEIGHTS: [Parameter; 3] = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
-/// Above this, squares of a row's coefficients come near the end of f64.
-const FAINT: f64 = 1e100;
 
 /// A guess, and its sum of squared differences over the rows of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,9 +78,19 @@ struct Grid<'a> {
     fitted: [bool; 3],
 }
 
-/// A lobe of unit weight, or of its weight where that is not fitted: for each shape its value on each row, relative to the measured value
-/// where that is a BRDF.
-type LobeColumns = Vec<Vec<f64>>;
+/// Diffuse lobes of each c, volume lobes of each σ_v, and their pairs.
+struct Lobes {
+    diffuse: LobeColumns,
+    volume: LobeColumns,
+    pairs: LobePairs,
+}
+
+impl Lobes {
+    fn new(diffuse: LobeColumns, volume: LobeColumns) -> Self {
+        let pairs = LobePairs::new(&diffuse, &volume);
+        Self { diffuse, volume, pairs }
+    }
+}
 
 impl<'a> Grid<'a> {
     fn new(problem: &'a Problem, base: &Parameters, values: &[(Parameter, &[f64])], kind: Kind) -> Option<Self> {
@@ -123,11 +131,11 @@ impl<'a> Grid<'a> {
                 }
             }
         }
-        let shared = (self.problem.model().diffuse != Diffuse::Hyde).then(|| self.diffuse(&self.base));
         let volume = self.volume();
+        let shared = (self.problem.model().diffuse != Diffuse::Hyde).then(|| Lobes::new(self.diffuse(&self.base), volume.clone()));
         let all = |point: &Parameters| match &shared {
-            Some(diffuse) => self.guesses_of(point, diffuse, &volume),
-            None => self.guesses_of(point, &self.diffuse(point), &volume),
+            Some(lobes) => self.guesses_of(point, lobes),
+            None => self.guesses_of(point, &Lobes::new(self.diffuse(point), volume.clone())),
         };
         #[cfg(feature = "threads")]
         {
@@ -169,28 +177,26 @@ impl<'a> Grid<'a> {
     }
 
     /// The guesses for one specular lobe.
-    fn guesses_of(&self, optics: &Parameters, diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<Guess> {
+    fn guesses_of(&self, optics: &Parameters, lobes: &Lobes) -> Vec<Guess> {
         let shapes = self.axes[4].iter().flat_map(|&c| self.axes[5].iter().map(move |&sigma_v| Parameters { c, sigma_v, ..*optics }));
         let Some(specular) = self.specular(optics) else {
             return shapes.map(|parameters| Guess { misfit: f64::INFINITY, parameters }).collect();
         };
         let ranges = self.ranges();
-        let lobes = || diffuse.iter().flat_map(|d| volume.iter().map(move |v| (d, v)));
         if self.kind == Kind::Dolp {
-            let rows = DolpRows::new(&self.measured, &specular);
-            let solved = rows.measured_normals(ranges, diffuse, volume).into_iter().map(|normal| normal.minimum());
-            let guess = |parameters, (d, v): (&Vec<f64>, &Vec<f64>), weights| Guess {
-                misfit: rows.misfit(weights, d, v),
-                parameters: self.with_weights(parameters, weights),
+            let solved = DolpRows::new(&self.measured, &specular).solve(ranges, &lobes.pairs);
+            let guess = |(parameters, solved): (Parameters, Solved)| Guess {
+                misfit: solved.misfit,
+                parameters: self.with_weights(parameters, [0.0, solved.kd, solved.kv]),
             };
-            shapes.zip(lobes()).zip(solved).map(|((parameters, pair), weights)| guess(parameters, pair, weights)).collect()
+            shapes.zip(solved).map(guess).collect()
         } else {
             let relative: Vec<f64> = specular.specular.iter().zip(&self.measured).map(|(s, measured)| s / measured).collect();
             let guess = |(parameters, normal): (Parameters, BoxLeastSquares)| {
                 let weights = normal.minimum();
                 Guess { misfit: normal.value(weights), parameters: self.with_weights(parameters, weights) }
             };
-            shapes.zip(brdf_normals(ranges, &relative, diffuse, volume)).map(guess).collect()
+            shapes.zip(brdf_normals(ranges, &relative, lobes)).map(guess).collect()
         }
     }
 
@@ -231,9 +237,9 @@ impl<'a> Grid<'a> {
         };
         let (diffuse, volume) = (alone.diffuse(&guess.parameters), alone.volume());
         let weights = WEIGHTS.map(|weight| guess.parameters[weight]);
-        let held = [0, 1, 2].map(|j| if self.fitted[j] { weights[j] } else { 1.0 });
-        let solved = rows.normal_about(held, self.ranges(), &diffuse[0], &volume[0]).minimum();
-        let misfit = rows.misfit(solved, &diffuse[0], &volume[0]);
+        let [_, kd, kv] = [0, 1, 2].map(|j| if self.fitted[j] { weights[j] } else { 1.0 });
+        let solved = rows.normal_about([kd, kv], self.ranges(), &diffuse[0], &volume[0]).minimum();
+        let misfit = rows.misfit([solved[1], solved[2]], &diffuse[0], &volume[0]);
         if misfit < guess.misfit { Guess { misfit, parameters: self.with_weights(guess.parameters, solved) } } else { guess }
     }
 
@@ -260,112 +266,24 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// The normal equations of relative differences of the BRDF for each pair of lobes, given the specular lobe relative to what is measured.
-fn brdf_normals(ranges: [(f64, f64); 3], specular: &[f64], diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<BoxLeastSquares> {
-    let ones = vec![1.0; specular.len()];
-    normals(ranges, Some(specular), diffuse, volume, &ones)
-}
-
-/// The normal equations of each pair of lobes: products of columns, each formed once.
-fn normals(
-    ranges: [(f64, f64); 3],
-    specular: Option<&[f64]>,
-    diffuse: &LobeColumns,
-    volume: &LobeColumns,
-    right: &[f64],
-) -> Vec<BoxLeastSquares> {
-    let constant = dot(right, right);
-    let with = |column: &[f64]| specular.map_or(0.0, |specular| dot(specular, column));
-    let (ss, sy) = (specular.map_or(0.0, |specular| dot(specular, specular)), with(right));
-    let of_volume: Vec<[f64; 3]> = volume.iter().map(|v| [dot(v, v), with(v), dot(v, right)]).collect();
+/// The normal equations of relative differences of the BRDF for each pair of lobes, given the specular lobe relative to what is measured:
+/// products of columns, each formed once.
+fn brdf_normals(ranges: [(f64, f64); 3], specular: &[f64], Lobes { diffuse, volume, .. }: &Lobes) -> Vec<BoxLeastSquares> {
+    // Each relative difference is one less the sum of the lobes.
+    let sum = |column: &[f64]| column.iter().sum::<f64>();
+    #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
+    let constant = specular.len() as f64;
+    let (ss, sy) = (dot(specular, specular), sum(specular));
+    let of_volume: Vec<[f64; 3]> = volume.iter().map(|v| [dot(v, v), dot(specular, v), sum(v)]).collect();
     let mut normals = Vec::with_capacity(diffuse.len() * volume.len());
     for d in diffuse {
-        let (dd, sd, dy) = (dot(d, d), with(d), dot(d, right));
+        let (dd, sd, dy) = (dot(d, d), dot(specular, d), sum(d));
         for (v, &[vv, sv, vy]) in volume.iter().zip(&of_volume) {
             let square = [[ss, sd, sv], [0.0, dd, dot(d, v)], [0.0, 0.0, vv]];
             normals.push(BoxLeastSquares { square, right: [sy, dy, vy], constant, ranges });
         }
     }
     normals
-}
-
-/// The rows of DoLP under one specular lobe.
-struct DolpRows<'a> {
-    measured: &'a [f64],
-    /// DoLP_s.
-    limit: &'a [f64],
-    /// k_s F^s, above 0.
-    specular: Vec<f64>,
-    /// DoLP_s k_s F^s.
-    light: Vec<f64>,
-    /// 1/(L k_s F^s); 0 where that is beyond f64, and the row has nothing to say of k_d and k_v.
-    scale: Vec<f64>,
-}
-
-impl<'a> DolpRows<'a> {
-    fn new(measured: &'a [f64], alone: &'a Radiances) -> Self {
-        let scale = alone.dolp.iter().zip(&alone.specular).map(|(limit, specular)| 1.0 / (limit * specular));
-        let specular: Vec<f64> = alone.specular.iter().map(|specular| specular.max(f64::MIN_POSITIVE)).collect();
-        Self {
-            measured,
-            limit: &alone.dolp,
-            light: alone.dolp.iter().zip(&specular).map(|(limit, specular)| limit * specular).collect(),
-            specular,
-            scale: scale.map(|scale| if scale < FAINT { scale } else { 0.0 }).collect(),
-        }
-    }
-
-    /// DoLP, given what is added to the specular lobe.
-    fn dolp(&self, i: usize, added: f64) -> f64 {
-        self.light[i] / (self.specular[i] + added)
-    }
-
-    /// Σ (X − Xm)², in four running sums that the processor forms side by side.
-    fn misfit(&self, [_, kd, kv]: [f64; 3], diffuse: &[f64], volume: &[f64]) -> f64 {
-        let square = |light: f64, specular: f64, measured: f64, diffuse: f64, volume: f64| {
-            let difference = light / (specular + (kd * diffuse + kv * volume)) - measured;
-            difference * difference
-        };
-        let (light, rest_light) = self.light.as_chunks::<4>();
-        let (specular, rest_specular) = self.specular.as_chunks::<4>();
-        let (measured, rest_measured) = self.measured.as_chunks::<4>();
-        let (in_fours, rest_diffuse) = diffuse.as_chunks::<4>();
-        let (volume_in_fours, rest_volume) = volume.as_chunks::<4>();
-        let mut sums = [0.0; 4];
-        for ((((light, specular), measured), diffuse), volume) in
-            light.iter().zip(specular).zip(measured).zip(in_fours).zip(volume_in_fours)
-        {
-            for lane in 0..4 {
-                sums[lane] += square(light[lane], specular[lane], measured[lane], diffuse[lane], volume[lane]);
-            }
-        }
-        let rest = rest_light.iter().zip(rest_specular).zip(rest_measured).zip(rest_diffuse).zip(rest_volume);
-        let rest: f64 =
-            rest.map(|((((light, specular), measured), diffuse), volume)| square(*light, *specular, *measured, *diffuse, *volume)).sum();
-        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-    }
-
-    /// The normal equations of each pair of lobes, linearised where DoLP is as measured: `X − Xm = X₀ − Xm − (X₀²/L)(g − g₀)` with
-    /// `(X₀²/L) g₀ = X₀ − X₀²/L`. A dark row has no g₀ and no weight.
-    fn measured_normals(&self, ranges: [(f64, f64); 3], diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<BoxLeastSquares> {
-        let slopes: Vec<f64> = self.measured.iter().zip(&self.scale).map(|(x, scale)| x * x * scale).collect();
-        let reduced = |i: usize| slopes[i] * self.specular[i] * (self.limit[i] / self.measured[i] - 1.0);
-        let right: Vec<f64> = (0..slopes.len()).map(|i| if slopes[i] > 0.0 { reduced(i) } else { 0.0 }).collect();
-        let weighted = |columns: &LobeColumns| -> LobeColumns {
-            columns.iter().map(|column| column.iter().zip(&slopes).map(|(value, slope)| value * slope).collect()).collect()
-        };
-        normals(ranges, None, &weighted(diffuse), &weighted(volume), &right)
-    }
-
-    /// The same for one pair of lobes, linearised where the weights are as given.
-    fn normal_about(&self, [_, kd, kv]: [f64; 3], ranges: [(f64, f64); 3], diffuse: &[f64], volume: &[f64]) -> BoxLeastSquares {
-        let added = |i: usize| kd * diffuse[i] + kv * volume[i];
-        let slopes: Vec<f64> = (0..self.measured.len()).map(|i| self.dolp(i, added(i)).powi(2) * self.scale[i]).collect();
-        let reduced = |i: usize| if slopes[i] > 0.0 { self.dolp(i, added(i)) - self.measured[i] + slopes[i] * added(i) } else { 0.0 };
-        let right: Vec<f64> = (0..slopes.len()).map(reduced).collect();
-        let weighted = |column: &[f64]| vec![column.iter().zip(&slopes).map(|(value, slope)| value * slope).collect()];
-        normals(ranges, None, &weighted(diffuse), &weighted(volume), &right)[0]
-    }
 }
 
 #[cfg(test)]

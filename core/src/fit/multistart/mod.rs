@@ -2,6 +2,7 @@
 
 pub(crate) mod basin;
 pub(crate) mod box_least_squares;
+pub(crate) mod dolp_rows;
 pub(crate) mod initial_guess;
 pub(crate) mod search;
 pub(crate) mod sequence;

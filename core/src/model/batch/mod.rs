@@ -12,8 +12,8 @@ mod coefficients;
 mod elementary;
 mod gradient;
 mod kernels;
-mod lanes;
-mod prepared;
+pub(crate) mod lanes;
+pub(crate) mod prepared;
 pub(crate) mod surface_row;
 
 use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter};
