@@ -100,6 +100,57 @@ pub fn cases(seed: u64, repeats: u64) -> Vec<Case> {
     cases
 }
 
+/// Which angles a BRDF is measured at, the noise of it being relative.
+pub const BRDF_NOISES: [f64; 3] = [0.01, 0.02, 0.03];
+
+/// Simulated problems of BRDF alone: one θi, near normal, both sides, random directions in the plane, out of the plane; `repeats` surfaces
+/// for each layout, noise and distribution.
+pub fn brdf_cases(seed: u64, repeats: u64) -> Vec<Case> {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut cases = Vec::new();
+    for repeat in 0..repeats {
+        for layout in ["single", "normal", "both", "random", "out"] {
+            for noise in BRDF_NOISES {
+                for distribution in SlopeDistribution::ALL {
+                    let truth = surface(&mut random, repeat % 2 == 1);
+                    let (theta_i, theta_r, dphi) = brdf_angles(layout, &mut random);
+                    let noise_seed = u64::from(random.next_u32());
+                    let measurement = Simulation {
+                        model_name: distribution.key().to_owned(),
+                        surface: Pbrdf::new(Model::full(distribution), truth).expect("a valid surface"),
+                        theta_i,
+                        theta_r,
+                        dphi,
+                        columns: Columns::Brdf,
+                        noise: 0.0,
+                        brdf_noise: noise,
+                        seed: noise_seed,
+                    }
+                    .run()
+                    .expect("valid angles");
+                    let name = format!("{seed}-{:03}-{layout}-{}-{noise}", cases.len(), distribution.key());
+                    cases.push(Case { name, layout: Layout::Single, noise, distribution, truth, measurement });
+                }
+            }
+        }
+    }
+    cases
+}
+
+fn brdf_angles(layout: &str, random: &mut Pcg64) -> (Vec<f64>, Vec<f64>, f64) {
+    let grid = |from: i32, to: i32, step: usize| (from..=to).step_by(step).map(f64::from).collect::<Vec<f64>>();
+    match layout {
+        "single" => (vec![20.0 + 50.0 * uniform(random)], grid(0, 80, 5), 180.0),
+        "normal" => (vec![0.0, 5.0, 10.0], grid(0, 60, 5), 180.0),
+        "both" => (grid(20, 60, 20), grid(-70, 70, 10), 180.0),
+        "random" => {
+            let mut some = |count: usize| (0..count).map(|_| 80.0 * uniform(random)).collect::<Vec<f64>>();
+            (some(4), some(10), 180.0)
+        }
+        _ => (grid(20, 60, 20), grid(0, 75, 5), 180.0 - 60.0 * uniform(random)),
+    }
+}
+
 fn uniform(random: &mut Pcg64) -> f64 {
     f64::from(random.next_u32()) / 4_294_967_296.0
 }
