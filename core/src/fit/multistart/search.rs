@@ -68,6 +68,8 @@ const LOBE_BASINS: usize = 14;
 const LOBE_EFFORT: (usize, usize) = (6, 2);
 /// The same where the search has found more distinct minima than `RUGGED`.
 const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
+/// Minima of the lobe grid that are followed: those within this factor of the lowest.
+const NEAR_LOWEST: f64 = 30.0;
 /// Distinct minima beyond which the objective counts as rugged.
 const RUGGED: usize = 5;
 
@@ -211,7 +213,11 @@ impl Search<'_> {
                 return;
             }
             seen.extend(best().map(|end| end.sum_of_squares));
-            let guesses = |at: &Parameters| lobe_grid_minima(self.problem, at).into_iter().take(most).map(|guess| guess.parameters);
+            let guesses = |at: &Parameters| {
+                let guesses = lobe_grid_minima(self.problem, at);
+                let highest = guesses.first().map_or(0.0, |lowest| NEAR_LOWEST * lowest.misfit);
+                guesses.into_iter().take(most).take_while(move |guess| guess.misfit <= highest).map(|guess| guess.parameters)
+            };
             let starts: Vec<Parameters> = fresh.iter().flat_map(guesses).collect();
             self.follow(&starts);
             self.polish(1);
