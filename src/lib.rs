@@ -15,8 +15,8 @@ pub mod report;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Opens the window with a file in it and returns when the user closes it; the error is a sentence.
-type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+/// Opens the window with files in it and returns when the user closes it; the error is a sentence.
+type OpenWindow = fn(Vec<PathBuf>) -> Result<(), String>;
 
 #[cfg(feature = "gui")]
 const WINDOW: Option<OpenWindow> = Some(app::run);
@@ -35,7 +35,7 @@ pub fn run() -> ExitCode {
 #[must_use]
 pub fn run() -> ExitCode {
     use std::io::Write as _;
-    let result = WINDOW.map_or_else(|| Err("This build has neither a window nor a command line.".to_owned()), |open| open(None));
+    let result = WINDOW.map_or_else(|| Err("This build has neither a window nor a command line.".to_owned()), |open| open(Vec::new()));
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(sentence) => {

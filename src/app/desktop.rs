@@ -7,15 +7,17 @@ use crate::app::shell::app::open::begin;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
 use crate::app::text::help::TITLE;
+use crate::app::views::action::Action;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;
 
-/// Opens the window with a measurement in it and returns when the user closes it.
+/// Opens the window with the work of the last time, and with these measurements beside it, and returns
+/// when the user closes it.
 ///
 /// # Errors
 /// The window cannot open; a sentence.
-pub fn run(file: Option<PathBuf>) -> Result<(), String> {
+pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
     if !display_is_named() {
         return Err("No display is available: neither DISPLAY nor WAYLAND_DISPLAY is set.".to_owned());
     }
@@ -34,10 +36,10 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
             app.toasts.error(notice);
         }
         app.persistence.autosave_path = settings_file::working_path();
-        let restores = file.is_none();
-        begin(&mut app, file);
-        if restores {
-            resume(&mut app);
+        begin(&mut app);
+        resume(&mut app);
+        if !files.is_empty() {
+            app.actions.push(Action::OpenMeasurements(files));
         }
         Ok(Box::new(app))
     });

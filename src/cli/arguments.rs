@@ -18,8 +18,9 @@ pub struct Arguments {
     /// What to do without a window.
     #[command(subcommand)]
     pub command: Option<Commands>,
-    /// Measurement to open in the window.
-    pub file: Option<PathBuf>,
+    /// Measurements to open in the window, beside the work of the last time.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
 }
 
 /// The commands.

@@ -31,8 +31,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Opens the window with a file in it and returns when the user closes it; the error is a sentence.
-type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+/// Opens the window with files in it and returns when the user closes it; the error is a sentence.
+type OpenWindow = fn(Vec<PathBuf>) -> Result<(), String>;
 
 /// Runs what the arguments say; without a command opens the window, where this build has one.
 pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
@@ -53,7 +53,7 @@ pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
         Some(Commands::Import(arguments)) => import::run(&arguments),
         Some(Commands::Export(ExportTarget::Mitsuba(arguments))) => mitsuba::run(&arguments),
         Some(Commands::Metals(arguments)) => metals::run(&arguments),
-        None => window(open_window, arguments.file),
+        None => window(open_window, arguments.files),
     };
     match result {
         Ok(code) => code,
@@ -71,10 +71,10 @@ fn sentence(error: &clap::Error) -> String {
     format!("{first}{}.", letters.as_str().trim_end_matches('.'))
 }
 
-fn window(open: Option<OpenWindow>, file: Option<PathBuf>) -> Result<ExitCode, Failure> {
-    match (open, file) {
-        (Some(open), file) => {
-            open(file).map_err(|reason| {
+fn window(open: Option<OpenWindow>, files: Vec<PathBuf>) -> Result<ExitCode, Failure> {
+    match (open, files.first()) {
+        (Some(open), _) => {
+            open(files).map_err(|reason| {
                 Failure::usage(format!(
                     "{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help."
                 ))

@@ -48,6 +48,8 @@ pub struct FileDialog {
 pub enum PathPurpose {
     /// The file exists and is read.
     Open,
+    /// The same of one file or several.
+    OpenSeveral,
     /// The file is written; the dialog suggests a name and asks before an existing file is
     /// replaced.
     Save { suggested_name: String },
@@ -65,11 +67,11 @@ pub struct FileFilter {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DialogUnavailable;
 
-/// Shows a dialog and waits for the answer; `None` where the user cancels.
+/// Shows a dialog and waits for the answer; empty where the user cancels.
 ///
 /// # Errors
 /// No dialog can open.
-pub fn show_file_dialog(dialog: FileDialog) -> Result<Option<PathBuf>, DialogUnavailable> {
+pub fn show_file_dialog(dialog: FileDialog) -> Result<Vec<PathBuf>, DialogUnavailable> {
     // A program has one logger. Where another one is installed, a dialog that cannot open counts as
     // cancelled.
     let _ = log::set_logger(&RFD_LOG).map(|()| log::set_max_level(log::LevelFilter::Error));
@@ -78,11 +80,12 @@ pub fn show_file_dialog(dialog: FileDialog) -> Result<Option<PathBuf>, DialogUna
     let dialog = filters
         .iter()
         .fold(rfd::FileDialog::new().set_title(title), |dialog, FileFilter { name, extensions }| dialog.add_filter(name, extensions));
-    let path = match purpose {
-        PathPurpose::Open => dialog.pick_file(),
-        PathPurpose::Save { suggested_name } => dialog.set_file_name(suggested_name).save_file(),
+    let paths: Vec<PathBuf> = match purpose {
+        PathPurpose::Open => dialog.pick_file().into_iter().collect(),
+        PathPurpose::OpenSeveral => dialog.pick_files().unwrap_or_default(),
+        PathPurpose::Save { suggested_name } => dialog.set_file_name(suggested_name).save_file().into_iter().collect(),
     };
-    if path.is_none() && DIALOG_FAILED.get() { Err(DialogUnavailable) } else { Ok(path) }
+    if paths.is_empty() && DIALOG_FAILED.get() { Err(DialogUnavailable) } else { Ok(paths) }
 }
 
 thread_local! {

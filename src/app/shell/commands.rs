@@ -148,7 +148,7 @@ const fn row(
 /// follow from their own tables.
 #[rustfmt::skip]
 static ENTRIES: &[Entry] = &[
-    row(Action::ChooseMeasurement, Menu::File, "Open measurement…", "A table of DoLP or BRDF against angles", ctrl(Key::O), always),
+    row(Action::ChooseMeasurement, Menu::File, "Open measurements…", "Tables of DoLP or BRDF against angles, beside those that are open", ctrl(Key::O), always),
     row(Action::ChooseSave, Menu::File, "Save measurement as…", "The table with its masks, as CSV", ctrl(Key::S), always),
     row(Action::ChooseSession, Menu::File, "Open session…", "Sliders, data, masks, fits and layout as they were saved", ctrl_shift(Key::O),
         always),
@@ -273,7 +273,13 @@ pub fn items(app: &App) -> Vec<Command> {
     });
     let recent = app.window.recent.iter().map(|path| {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-        item(Action::OpenMeasurement(path.clone()), Menu::Recent, name.into(), path.display().to_string().into(), Availability::Possible)
+        item(
+            Action::OpenMeasurements(vec![path.clone()]),
+            Menu::Recent,
+            name.into(),
+            path.display().to_string().into(),
+            Availability::Possible,
+        )
     });
     let forget = item(
         Action::ForgetRecent,

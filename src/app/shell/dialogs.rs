@@ -5,6 +5,7 @@ use crate::app::shell::import_dialog::{ImportDialog, ImportMemory};
 use crate::app::shell::path_entry::PathEntry;
 use crate::app::text::help::Help;
 use crate::app::views::action::Action;
+use std::collections::VecDeque;
 use std::path::PathBuf;
 
 /// The dialogs that are open.
@@ -15,6 +16,8 @@ pub struct Dialogs {
     pub help: Option<Help>,
     /// A foreign file that waits for answers.
     pub import: Option<ImportDialog>,
+    /// Those that ask after it.
+    pub imports_waiting: VecDeque<ImportDialog>,
     /// The answers that the last foreign files were opened with.
     pub import_memory: ImportMemory,
     /// A file that is asked about before it is replaced.

@@ -18,10 +18,14 @@ pub fn request_for(document: &OpenMeasurement, command: &Action) -> Option<FileR
     }
 }
 
-/// The command that uses the chosen path.
-pub fn command_for(request: &FileRequest, path: PathBuf) -> Action {
-    match request {
-        FileRequest::Open => Action::OpenMeasurement(path),
+/// The command that uses the chosen paths.
+pub fn command_for(request: &FileRequest, mut paths: Vec<PathBuf>) -> Option<Action> {
+    if matches!(request, FileRequest::Open) {
+        return (!paths.is_empty()).then_some(Action::OpenMeasurements(paths));
+    }
+    let path = paths.pop()?;
+    Some(match request {
+        FileRequest::Open => Action::OpenMeasurements(vec![path]),
         FileRequest::OpenSession => Action::OpenSession(path),
         FileRequest::Save(_) => Action::SaveMeasurement(path),
         FileRequest::Export(kind, _) => {
@@ -29,7 +33,7 @@ pub fn command_for(request: &FileRequest, path: PathBuf) -> Action {
             // The desktop asked about the name without the extension.
             if complete == path { Action::Export(*kind, path) } else { Action::ExportNew(*kind, complete) }
         }
-    }
+    })
 }
 
 /// What is missing where no dialog opens, and where the user can type a path instead.

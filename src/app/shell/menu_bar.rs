@@ -88,7 +88,7 @@ fn file_ui(app: &mut App, ui: &mut Ui) {
     if is_entered(&field, ui)
         && let Some(path) = path_in(&path_entry.open)
     {
-        actions.push(Action::OpenMeasurement(path));
+        actions.push(Action::OpenMeasurements(vec![path]));
         ui.close();
     }
     let label = ui.label(tr!("Save to a path (.csv the measurement, .json the session), Enter:"));

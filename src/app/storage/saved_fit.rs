@@ -49,7 +49,19 @@ pub struct SavedMeasurement {
     /// Of an open one that is not active.
     pub surface: Option<Surface>,
     pub style: MeasurementStyle,
+    /// Which fit is shown while it is active, if it is not now.
+    pub shown_fit: Option<usize>,
+    /// Whether the program opened it by itself and nothing was done with it yet.
+    pub is_placeholder: bool,
     pub measurement: Arc<Measurement>,
+}
+
+impl SavedMeasurement {
+    /// An open one, without what may be known of it.
+    pub fn of(measurement: Arc<Measurement>) -> Self {
+        let (name, style) = (String::new(), MeasurementStyle::default());
+        Self { name, sha256: None, is_open: true, surface: None, style, shown_fit: None, is_placeholder: false, measurement }
+    }
 }
 
 /// A fit of a session, made again.

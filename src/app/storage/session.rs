@@ -115,6 +115,12 @@ struct Table {
     surface: Option<Surface>,
     #[serde(default, skip_serializing_if = "is_default")]
     style: MeasurementStyle,
+    /// Which fit is shown while it is active, from 0, if it is not now.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shown: Option<usize>,
+    /// Whether the next measurement that is opened takes its place.
+    #[serde(default, skip_serializing_if = "is_default")]
+    placeholder: bool,
     /// The lines of a measurement file.
     table: Vec<String>,
 }
@@ -165,8 +171,17 @@ impl Session {
         let (mut measurements, mut numbers) = (Vec::new(), Vec::new());
         for (index, open) in list.iter().enumerate().filter(|(_, open)| !open.measurement.rows.is_empty()) {
             let surface = (index != list.active_index()).then(|| open.surface.clone());
-            let (name, sha256, measurement) = (open.name.clone(), open.sha256.clone(), open.measurement.clone());
-            measurements.push(SavedMeasurement { name, sha256, is_open: true, surface, style: open.style, measurement });
+            let OpenMeasurement { name, sha256, measurement, style, is_placeholder, .. } = open.clone();
+            measurements.push(SavedMeasurement {
+                name,
+                sha256,
+                is_open: true,
+                surface,
+                style,
+                shown_fit: None,
+                is_placeholder,
+                measurement,
+            });
             numbers.push(open.number);
         }
         let (mut fits, mut shown, mut rows) = (Vec::new(), None, 0);
@@ -181,11 +196,12 @@ impl Session {
                     break;
                 }
                 let (name, sha256, measurement) = (fit.document.clone(), fit.sha256.clone(), fit.data.clone());
-                let style = MeasurementStyle::default();
-                measurements.push(SavedMeasurement { name, sha256, is_open: false, surface: None, style, measurement });
+                let closed = SavedMeasurement { name, sha256, is_open: false, ..SavedMeasurement::of(measurement) };
+                measurements.push(closed);
             }
-            if work.shown_fit().is_some_and(|shown| Arc::ptr_eq(fit, shown)) {
-                shown = Some(fits.len());
+            if work.shown_fit_of(fit.number).is_some_and(|shown| Arc::ptr_eq(fit, shown)) {
+                let is_active = fit.number == work.active().number;
+                *(if is_active { &mut shown } else { &mut measurements[index].shown_fit }) = Some(fits.len());
             }
             fits.push(SavedFit::new(fit, index));
         }
@@ -206,11 +222,12 @@ impl Session {
     /// The work that it holds, with its fits restored.
     pub fn into_work(self, fits: Vec<RestoredFit>) -> Workspace {
         let SavedSettings { settings, surface } = self.settings;
+        let shown: Vec<Option<usize>> = self.measurements.iter().map(|saved| saved.shown_fit).chain([self.shown]).collect();
         let opened = |saved: SavedMeasurement| {
             let opened = OpenMeasurement::new(saved.name, Arc::unwrap_or_clone(saved.measurement)).of_file(saved.sha256);
             let surface = saved.surface.unwrap_or_else(|| surface.clone());
             let mut opened = opened.with_surface(surface);
-            opened.style = saved.style;
+            (opened.style, opened.is_placeholder) = (saved.style, saved.is_placeholder);
             (saved.is_open, opened)
         };
         let measurements: Vec<(bool, OpenMeasurement)> = self.measurements.into_iter().map(opened).collect();
@@ -223,8 +240,8 @@ impl Session {
             let (document, sha256, data) = (name.clone(), sha256.clone(), measurement.clone());
             FitEntry { id: 0, report, problem, before, document, sha256, data, number, generation, mask }
         };
-        let shown = self.shown;
-        let entries = fits.into_iter().enumerate().rev().map(|(index, fit)| (entry(fit), shown == Some(index)));
+        let is_shown = |index| shown.contains(&Some(index));
+        let entries = fits.into_iter().enumerate().rev().map(|(index, fit)| (entry(fit), is_shown(index)));
         let entries: Vec<(FitEntry, bool)> = entries.collect();
         let active = measurements.iter().take(self.active).filter(|(is_open, _)| *is_open).count();
         let open: Vec<OpenMeasurement> = measurements.into_iter().filter(|(is_open, _)| *is_open).map(|(_, open)| open).collect();
@@ -240,8 +257,9 @@ impl Session {
             Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
         };
         let measurements = self.measurements.iter().map(|saved| -> io::Result<Table> {
-            let SavedMeasurement { name, sha256, is_open, surface, style, measurement } = saved.clone();
-            Ok(Table { name, sha256, open: is_open, surface, style, table: table(&measurement)? })
+            let SavedMeasurement { name, sha256, is_open, surface, style, shown_fit, is_placeholder, measurement } = saved.clone();
+            let (open, shown, placeholder, table) = (is_open, shown_fit, is_placeholder, table(&measurement)?);
+            Ok(Table { name, sha256, open, surface, style, shown, placeholder, table })
         });
         let lesson = self.lesson.as_ref().map(|lesson| -> io::Result<_> {
             Ok(LessonContents { title: lesson.title.clone(), step: lesson.step, work: Box::new(lesson.work.contents()?) })
@@ -292,23 +310,27 @@ impl Session {
         from_json::<EarlierFile>(text)?.apply(&mut surface);
         surface.validate().and_then(|()| settings.validate()).map_err(SessionError::Settings)?;
         let tables = measurement.into_iter().chain(measurements);
-        let measurements = tables.map(|Table { name, sha256, open, surface, style, table }| -> Result<SavedMeasurement, ReadError> {
+        let measurements = tables.map(|table| -> Result<SavedMeasurement, ReadError> {
+            let Table { name, sha256, open: is_open, surface, style, shown: shown_fit, placeholder: is_placeholder, table } = table;
             let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
-            Ok(SavedMeasurement { name, sha256, is_open: open, surface, style, measurement })
+            Ok(SavedMeasurement { name, sha256, is_open, surface, style, shown_fit, is_placeholder, measurement })
         });
-        let measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
+        let mut measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
         let mut others = measurements.iter().filter_map(|saved| saved.surface.as_ref());
         others.try_for_each(Surface::validate).map_err(SessionError::Settings)?;
-        let (mut fits, mut shown, mut left_out) = (Vec::new(), None, Vec::new());
+        let (mut fits, mut places, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
         for (index, value) in stored.into_iter().enumerate() {
             match SavedFit::read(value, &measurements) {
                 Ok(recipe) => {
-                    shown = shown.or_else(|| (stored_shown == Some(index)).then_some(fits.len()));
+                    places.push(index);
                     fits.push(recipe);
                 }
                 Err(error) => left_out.push((index + 1, error)),
             }
         }
+        let place_of = |stored: Option<usize>| places.iter().position(|place| Some(*place) == stored);
+        measurements.iter_mut().for_each(|saved| saved.shown_fit = place_of(saved.shown_fit));
+        let shown = place_of(stored_shown);
         // The user's own work opens also where that of the lesson does not.
         let lesson = lesson.and_then(|LessonContents { title, step, work }| {
             let work = Self::read(&work.to_string()).ok()?;

@@ -9,7 +9,7 @@ use tr::tr;
 /// What a dialog asks for.
 #[derive(Debug, Clone)]
 pub enum FileRequest {
-    /// The measurement to open.
+    /// The measurements to open.
     Open,
     /// Where to save the measurement, with a suggested name.
     Save(String),
@@ -19,8 +19,8 @@ pub enum FileRequest {
     Export(ExportKind, String),
 }
 
-/// The chosen path, or `None` where the user cancels.
-pub type FileReply = Result<Option<PathBuf>, DialogUnavailable>;
+/// The chosen paths; none where the user cancels.
+pub type FileReply = Result<Vec<PathBuf>, DialogUnavailable>;
 
 /// Asks in a dialog and waits for the answer.
 ///
@@ -34,8 +34,8 @@ fn dialog(request: FileRequest) -> FileDialog {
     let filter = |name: String, extensions| FileFilter { name, extensions };
     match request {
         FileRequest::Open => FileDialog {
-            title: tr!("Open measurement"),
-            purpose: PathPurpose::Open,
+            title: tr!("Open measurements"),
+            purpose: PathPurpose::OpenSeveral,
             filters: vec![filter(tr!("Measurements"), extensions()), filter(tr!("All files"), vec!["*"])],
         },
         FileRequest::OpenSession => {

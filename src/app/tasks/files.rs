@@ -16,11 +16,11 @@ use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::advised;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
-use pbrdf::measurement::Measurement;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported};
+use pbrdf::measurement::{Measurement, Progress};
 use std::io::Read;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tr::tr;
 
@@ -54,8 +54,10 @@ pub struct FileJobs {
     /// Asks for a path; tests answer without a dialog.
     pub ask: fn(FileRequest) -> FileReply,
     pub dialog: Slot<DialogAnswer>,
-    /// Reads a file or an example; the progress is a fraction.
-    pub load: Slot<LoadedFile, f64>,
+    /// Reads files or an example; the progress is a fraction.
+    pub load: Slot<Vec<LoadedFile>, f64>,
+    /// Files that are read after those that are being read.
+    pub waiting: Vec<PathBuf>,
     /// Reads a foreign file with the user's options; the progress is a fraction.
     pub import: Slot<Result<Imported, ImportError>, f64>,
     pub session: Slot<LoadedSession>,
@@ -73,6 +75,7 @@ impl FileJobs {
             ask: |_| Ok(None),
             dialog: Slot::default(),
             load: Slot::default(),
+            waiting: Vec::new(),
             import: Slot::default(),
             session: Slot::default(),
             save: Slot::default(),
@@ -84,7 +87,7 @@ impl FileJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, ask: _, dialog, load, import, session, save, export, autosave } = self;
+        let Self { spawner: _, ask: _, waiting: _, dialog, load, import, session, save, export, autosave } = self;
         vec![dialog, load, import, session, save, export, autosave]
     }
 
@@ -102,17 +105,13 @@ impl FileJobs {
             .map_err(start_error)
     }
 
-    /// Reads a file.
+    /// Reads files, one after the other.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn open(&mut self, path: PathBuf) -> Result<(), String> {
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-        self.read(name, Some(path.clone()), move || {
-            let file = open_file(&path).map_err(|reason| tr!("{0}: {1}.", path.display(), reason.localized()))?;
-            let length = file.metadata().ok().map(|data| data.len());
-            Ok((path, file, length))
-        })
+    pub fn open(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
+        self.abandon_reading();
+        self.load.start(&self.spawner, "read measurements", move |context| read_files(&paths, context)).map_err(start_error)
     }
 
     /// Reads a text that is in memory.
@@ -120,31 +119,18 @@ impl FileJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn open_text(&mut self, name: String, text: &'static str) -> Result<(), String> {
-        let path = PathBuf::from(&name);
-        self.read(name, None, move || Ok((path, text.as_bytes(), None)))
-    }
-
-    fn read<R: Read>(
-        &mut self,
-        name: String,
-        path: Option<PathBuf>,
-        source: impl FnOnce() -> Result<(PathBuf, R, Option<u64>), String> + Send + 'static,
-    ) -> Result<(), String> {
         self.abandon_reading();
         let job = move |context: &JobContext<f64>| {
             let mut progress = reading_progress(context);
-            let mut sha256 = None;
-            let result = source().and_then(|(at, source, length)| {
-                let mut source = Hashing::new(source);
-                let sentence = |reason: String| tr!("{0}: {1}.", at.display(), reason);
-                let bytes = import::bytes_of(&mut source, length, &mut progress).map_err(|error| sentence(error.localized()))?;
-                sha256 = Some(source.finish());
-                import::read(bytes, &mut progress).map_err(|error| sentence(advised(&error, error.hint())))
-            });
-            let sha256 = sha256.filter(|_| path.is_some());
-            LoadedFile { origin: Origin { name, path, sha256 }, result }
+            let (at, source) = (PathBuf::from(&name), text.as_bytes());
+            vec![read(name, None, Ok((&at, source, None)), &mut progress)]
         };
-        self.load.start(&self.spawner, "read measurement", job).map_err(start_error)
+        self.load.start(&self.spawner, "read example", job).map_err(start_error)
+    }
+
+    /// Whether files or a session are being read: further files wait.
+    pub fn is_reading(&self) -> bool {
+        self.load.is_running() || self.import.is_running() || self.session.is_running()
     }
 
     /// Reads a foreign file, which is in memory, with the user's options.
@@ -215,13 +201,15 @@ impl FileJobs {
     }
 
     /// Asks the job that reads a measurement to stop; it ends with an error.
-    pub fn cancel_load(&self) {
+    pub fn cancel_load(&mut self) {
+        self.waiting.clear();
         self.load.cancel();
         self.import.cancel();
     }
 
     /// Stops reading a measurement.
     pub fn abandon_load(&mut self) {
+        self.waiting.clear();
         self.load.abandon();
         self.import.abandon();
     }
@@ -231,6 +219,49 @@ impl FileJobs {
         self.abandon_load();
         self.session.abandon();
     }
+}
+
+/// The files, until the reading is cancelled.
+fn read_files(paths: &[PathBuf], context: &JobContext<f64>) -> Vec<LoadedFile> {
+    let mut files = Vec::new();
+    for path in paths {
+        #[expect(clippy::cast_precision_loss, reason = "a number of files")]
+        let (before, of) = (files.len() as f64, paths.len() as f64);
+        let mut progress = |done: f64| {
+            context.report((before + done) / of);
+            if context.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let source = open_file(path).map_err(|reason| tr!("{0}: {1}.", path.display(), reason.localized()));
+        let source = source.map(|file| {
+            let length = file.metadata().ok().map(|data| data.len());
+            (path.as_path(), file, length)
+        });
+        files.push(read(name, Some(path.clone()), source, &mut progress));
+        if context.is_cancelled() {
+            break;
+        }
+    }
+    files
+}
+
+/// A measurement out of a source at that path, of that length.
+fn read<R: Read>(
+    name: String,
+    path: Option<PathBuf>,
+    source: Result<(&Path, R, Option<u64>), String>,
+    progress: Progress<'_>,
+) -> LoadedFile {
+    let mut sha256 = None;
+    let result = source.and_then(|(at, source, length)| {
+        let mut source = Hashing::new(source);
+        let sentence = |reason: String| tr!("{0}: {1}.", at.display(), reason);
+        let bytes = import::bytes_of(&mut source, length, progress).map_err(|error| sentence(error.localized()))?;
+        sha256 = Some(source.finish());
+        import::read(bytes, progress).map_err(|error| sentence(advised(&error, error.hint())))
+    });
+    let sha256 = sha256.filter(|_| path.is_some());
+    LoadedFile { origin: Origin { name, path, sha256 }, result }
 }
 
 /// Reports the fraction that is read; breaks where the job is cancelled.

@@ -9,21 +9,12 @@ use crate::app::platform::Instant;
 use crate::app::tasks::start_error::start_error;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::ModelFit;
-use crate::app::work::open_measurement::{Mask, OpenMeasurement};
+use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{
     BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile, with_intervals,
 };
 use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
-
-/// A fit with the data that it is made from.
-pub struct FinishedFit {
-    pub report: Box<FitResult>,
-    pub problem: Arc<Problem>,
-    /// Of the document.
-    pub generation: u64,
-    pub mask: Mask,
-}
 
 /// A fit with the intervals of its parameters.
 pub struct FinishedIntervals {
@@ -42,14 +33,17 @@ pub struct FinishedBootstrap {
 /// Slots of the jobs around fits.
 pub struct FitJobs {
     spawner: Spawner,
-    pub fit: Slot<FinishedFit, TracePoint>,
+    /// The history numbers the fit.
+    pub fit: Slot<Box<FitEntry>, TracePoint>,
     pub intervals: Slot<FinishedIntervals>,
     /// Fits from the sliders while they move.
     pub refit: Slot<Box<FitResult>>,
+    /// The number of the measurement that refits and scans are about.
+    pub active: u64,
     /// The revision at which the user had moved the sliders that the last refit began at.
     pub refitted_at: u64,
-    /// Fits several models; the progress is the name of the model.
-    pub compare: Slot<Vec<ModelFit>, &'static str>,
+    /// Fits several models to the measurement of a number; the progress is the name of the model.
+    pub compare: Slot<(u64, Vec<ModelFit>), &'static str>,
     pub profile: Slot<Profile>,
     pub bootstrap: Slot<FinishedBootstrap>,
 }
@@ -61,6 +55,7 @@ impl FitJobs {
             fit: Slot::default(),
             intervals: Slot::default(),
             refit: Slot::default(),
+            active: 0,
             refitted_at: 0,
             compare: Slot::default(),
             profile: Slot::default(),
@@ -71,7 +66,7 @@ impl FitJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, refitted_at: _, fit, intervals, refit, compare, profile, bootstrap } = self;
+        let Self { spawner: _, active: _, refitted_at: _, fit, intervals, refit, compare, profile, bootstrap } = self;
         vec![fit, intervals, refit, compare, profile, bootstrap]
     }
 
@@ -80,7 +75,8 @@ impl FitJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn fit(&mut self, problem: Problem, document: &OpenMeasurement, starts: Starts, seed: u64) -> Result<(), String> {
-        let (generation, mask) = (document.generation, document.mask().clone());
+        let OpenMeasurement { name, sha256, measurement, number, generation, surface, .. } = document.clone();
+        let mask = document.mask().clone();
         let job = move |context: &JobContext<TracePoint>| {
             let begun = Instant::now();
             let observer = Observer {
@@ -88,8 +84,9 @@ impl FitJobs {
                 cancelled: &|| context.is_cancelled(),
                 progress: &|point| context.report(point),
             };
-            let report = Box::new(fit(&problem, starts, seed, observer));
-            FinishedFit { report, problem: Arc::new(problem), generation, mask }
+            let report = fit(&problem, starts, seed, observer);
+            let (document, data, problem, before) = (name, measurement, Arc::new(problem), surface.parameters);
+            Box::new(FitEntry { id: 0, report, problem, before, document, sha256, data, number, generation, mask })
         };
         self.fit.start(&self.spawner, "fit", job).map_err(start_error)
     }
@@ -124,6 +121,7 @@ impl FitJobs {
     /// The job does not start; a sentence.
     pub fn compare(
         &mut self,
+        number: u64,
         problems: Vec<(&'static Preset, Result<Problem, ProblemError>)>,
         starts: Starts,
         seed: u64,
@@ -143,7 +141,7 @@ impl FitJobs {
                 };
                 fits.push(ModelFit { preset, result: problem.map(fitted) });
             }
-            fits
+            (number, fits)
         };
         self.compare.start(&self.spawner, "compare models", job).map_err(start_error)
     }
@@ -188,7 +186,7 @@ impl FitJobs {
         self.bootstrap.abandon();
     }
 
-    /// Stops all work on a measurement that is being replaced.
+    /// Stops all work that is about other work than what is shown next.
     pub fn abandon(&mut self) {
         self.fit.abandon();
         self.intervals.abandon();

@@ -18,8 +18,8 @@ const DESKTOP: &str = "PBRDF_TEST_DESKTOP";
 fn asker() {
     let expected: FileReply = match std::env::var(DESKTOP).as_deref() {
         Ok("empty") => Err(DialogUnavailable),
-        Ok("cancelled") => Ok(None),
-        Ok(path) => Ok(Some(path.into())),
+        Ok("cancelled") => Ok(Vec::new()),
+        Ok(path) => Ok(vec![path.into()]),
         Err(_) => return,
     };
     for question in [FileRequest::Open, FileRequest::Save("a.csv".to_owned()), FileRequest::OpenSession] {
@@ -60,7 +60,8 @@ fn a_dialog_that_cannot_open_is_told_from_one_that_is_cancelled() {
 
 #[test]
 fn an_ending_that_the_desktop_did_not_see_is_asked_about() {
-    let export = |path: &str| command_for(&FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()), path.into());
+    let export =
+        |path: &str| command_for(&FileRequest::Export(ExportKind::Plot(PaneId::Dolp), String::new()), vec![path.into()]).expect("a path");
     assert_eq!(export("/a/plot.png"), Action::Export(ExportKind::Plot(PaneId::Dolp), "/a/plot.png".into()));
     assert_eq!(export("/a/plot"), Action::ExportNew(ExportKind::Plot(PaneId::Dolp), Path::new("/a/plot.svg").into()));
 }

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 #[derive(Debug)]
-struct Dropped(PathBuf);
+pub struct Dropped(pub PathBuf);
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {
@@ -55,9 +55,9 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
     let mut harness = harness();
     let rows = explorer(&mut harness).work.active().measurement.rows.clone();
     for (command, expected) in [
-        (Action::OpenMeasurement(path), "line 3, column 3 (dolp)"),
-        (Action::OpenMeasurement(folder.path().to_owned()), "directory"),
-        (Action::OpenMeasurement(folder.path().join("none.csv")), "no such file"),
+        (Action::OpenMeasurements(vec![path]), "line 3, column 3 (dolp)"),
+        (Action::OpenMeasurements(vec![folder.path().to_owned()]), "directory"),
+        (Action::OpenMeasurements(vec![folder.path().join("none.csv")]), "no such file"),
     ] {
         explorer(&mut harness).actions.push(command);
         wait(&mut harness);
@@ -120,7 +120,7 @@ fn lobes_over_many_decades_are_shown_on_a_logarithmic_axis() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = file(&folder, "peak.csv", "theta_i,theta_r,brdf\n35,35,5000\n35,-20,0.25\n");
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![path]));
     wait(&mut harness);
     assert!(explorer(&mut harness).work.settings().log_brdf);
 }

@@ -2,7 +2,6 @@
 //! open measurement where it fails.
 
 use crate::app::shell::app::App;
-use crate::app::shell::app::open::begin;
 use crate::app::storage::import::bytes_of;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::views::action::Action;
@@ -22,7 +21,7 @@ fn opened(name: &str, contents: &[u8]) -> (Harness<'static, Option<App>>, tempfi
     let path = folder.path().join(name);
     std::fs::write(&path, contents).expect("a writable folder for temporary files");
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![path]));
     wait(&mut harness);
     (harness, folder)
 }
@@ -264,7 +263,7 @@ fn the_command_line_opens_foreign_files_too() {
     let path: PathBuf = folder.path().join("al.dat");
     std::fs::write(&path, ELLIPSOMETRY).expect("a writable folder for temporary files");
     let mut harness = harness();
-    begin(explorer(&mut harness), Some(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![path]));
     wait(&mut harness);
     assert!(explorer(&mut harness).dialogs.import.is_some());
 }
@@ -275,7 +274,7 @@ fn enter_opens_a_table_whose_columns_are_guessed() {
     let path = folder.path().join("lab.csv");
     std::fs::write(&path, "inc,view,dolp\n30,20,0.1\n30,40,0.2\n40,40,0.3\n").expect("a writable folder");
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::OpenMeasurement(path));
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![path]));
     wait(&mut harness);
     harness.get_by_label_contains("The columns are taken as follows");
     harness.key_press(egui::Key::Enter);

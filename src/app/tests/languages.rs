@@ -245,7 +245,7 @@ fn questions_and_refusals_are_in_chinese() {
     for (name, contents) in foreign() {
         let path = folder.path().join(name);
         std::fs::write(&path, contents).expect("a file");
-        order(&mut harness, Action::OpenMeasurement(path));
+        order(&mut harness, Action::OpenMeasurements(vec![path]));
         // The name of the file stands in the texts.
         let all = written(&harness).into_iter().map(|text| text.replace(&folder.path().display().to_string(), ""));
         english.extend(all.filter(|text| is_english(text)).map(|text| format!("{name}: {text}")));

@@ -260,6 +260,6 @@ fn a_file_is_known_by_its_hash() {
     std::fs::write(&path, text).expect("a writable folder");
     let mut harness = harness();
     assert_eq!(explorer(&mut harness).work.active().sha256, None);
-    order(&mut harness, Action::OpenMeasurement(path));
+    order(&mut harness, Action::OpenMeasurements(vec![path]));
     assert_eq!(explorer(&mut harness).work.active().sha256, Some(crate::files::export::sha256(text.as_bytes())));
 }

@@ -353,7 +353,7 @@ fn a_file_opened_in_a_lesson_ends_it_and_stays() {
     std::fs::write(&path, "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n").expect("a file");
     let mut harness = worked_in();
     order(&mut harness, Action::ShowStep(0, 0));
-    order(&mut harness, Action::OpenMeasurement(path));
+    order(&mut harness, Action::OpenMeasurements(vec![path]));
     let notice = explorer(&mut harness).toasts.text().expect("a sentence");
     assert!(notice.contains("The lesson has ended") && notice.contains("mine.csv"), "{notice}");
     assert_eq!((explorer(&mut harness).lessons.open(), explorer(&mut harness).work.surface().parameters.k), (None, 4.25));
@@ -421,7 +421,7 @@ fn foreign(folder: &std::path::Path) -> std::path::PathBuf {
 fn no_lesson_begins_under_a_question() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::OpenMeasurement(foreign(folder.path())));
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![foreign(folder.path())]));
     wait(&mut harness);
     assert!(explorer(&mut harness).dialogs.import.is_some());
     explorer(&mut harness).actions.push(Action::ShowStep(0, 0));

@@ -18,6 +18,7 @@ mod languages;
 mod leaving;
 mod lessons;
 mod masks;
+mod measurements;
 mod menus;
 mod messages;
 mod metals;
@@ -56,7 +57,7 @@ fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
     let frame = move |screen: &mut egui::Ui, state: &mut Option<App>| {
         let explorer = state.get_or_insert_with(|| {
             let mut explorer = App::new(screen.ctx(), stored.clone());
-            begin(&mut explorer, None);
+            begin(&mut explorer);
             explorer
         });
         logic(explorer, &screen.ctx().clone());

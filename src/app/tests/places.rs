@@ -66,7 +66,7 @@ fn a_measurement_without_dolp_has_no_strip_under_it() {
     let mut bytes = Vec::new();
     measurement.write(&mut bytes).expect("a table");
     std::fs::write(&path, bytes).expect("a writable folder");
-    order(&mut harness, Action::OpenMeasurement(path));
+    order(&mut harness, Action::OpenMeasurements(vec![path]));
     assert!(explorer(&mut harness).dock.is_on_screen(PaneId::Dolp));
     assert!(harness.query_by_label("Plot: residuals of DoLP against θr").is_none());
 }

@@ -191,7 +191,7 @@ fn a_session_whose_sliders_are_no_surface_opens_again() {
     order(&mut source, Action::UseValuesBeforeFit);
     let path = saved(&mut source, folder.path());
     let mut other = harness();
-    order(&mut other, Action::OpenMeasurement(path));
+    order(&mut other, Action::OpenMeasurements(vec![path]));
     let explorer = explorer(&mut other);
     assert_eq!(explorer.toasts.text(), None);
     assert_eq!((explorer.work.surface().parameters.n, explorer.work.surface().parameters.k), (0.0, 0.0));
@@ -256,7 +256,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         assert_ne!(text, good, "{expected}: the damage is there");
         let path = folder.path().join("bad.pbrdf.json");
         std::fs::write(&path, &text).expect("a writable folder");
-        order(&mut harness, Action::OpenMeasurement(path));
+        order(&mut harness, Action::OpenMeasurements(vec![path]));
         let explorer = explorer(&mut harness);
         let notice = explorer.toasts.take().expect("a sentence");
         assert!(notice.contains("bad.pbrdf.json: ") && notice.contains(expected) && notice.ends_with('.'), "{expected}: {notice}");

@@ -14,10 +14,10 @@ use std::path::PathBuf;
 /// next frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Ask the desktop for a file.
+    /// Ask the desktop for files.
     ChooseMeasurement,
-    /// Read that file.
-    OpenMeasurement(PathBuf),
+    /// Read these files, measurements and sessions.
+    OpenMeasurements(Vec<PathBuf>),
     /// Ask the desktop where to save.
     ChooseSave,
     /// Write the measurement, masks and all, into that file.

@@ -19,13 +19,10 @@ pub struct Bootstrap {
     pub scatter: Vec<BootstrapEstimate>,
 }
 
-impl Default for Diagnostics {
-    fn default() -> Self {
-        Self { parameter: None, profile: None, replicates: 200, scatter: None }
-    }
-}
-
 impl Diagnostics {
+    /// Before anything was asked.
+    pub const NONE: Self = Self { parameter: None, profile: None, replicates: 200, scatter: None };
+
     /// Lets go of what belongs to another fit.
     pub fn forget(&mut self) {
         self.profile = None;

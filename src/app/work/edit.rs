@@ -5,7 +5,7 @@ use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
-use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::Surface;
 use pbrdf::fit::{FitOptions, FitResult, Starts};
@@ -55,8 +55,26 @@ pub enum Edit {
         rows: Vec<usize>,
         masked: bool,
     },
-    /// Puts a measurement in the place of the active one.
+    /// Adds a measurement to those that are open; it becomes the active one.
     Open(Box<OpenMeasurement>),
+    /// Closes the measurement of that number.
+    Close(u64),
+    /// Shows the measurement of that number; no step of undo.
+    Activate(u64),
+    /// Moves a measurement so many places down the list, or up.
+    MoveMeasurement {
+        number: u64,
+        by: isize,
+    },
+    RenameMeasurement {
+        number: u64,
+        name: String,
+    },
+    /// Colour and marker of a measurement, and whether it is shown.
+    SetMeasurementStyle {
+        number: u64,
+        style: MeasurementStyle,
+    },
     /// Adds a finished fit to the history, shows it and takes its values.
     AddFit(Box<FitEntry>),
     /// Puts a report with intervals in the place of that of the fit with this id. If its minimum is a
@@ -76,10 +94,14 @@ pub enum Edit {
     UseFit,
     /// Takes the values from before the shown fit.
     UseValuesBeforeFit,
-    /// Takes the values and the model of an earlier fit, 0 the newest, and shows it.
+    /// Takes the values and the model of an earlier fit, 0 the newest, and shows it with its
+    /// measurement.
     ReturnToFit(usize),
-    /// The fits of all presets to the active measurement.
-    SetModelComparison(Vec<ModelFit>),
+    /// The fits of all presets to the measurement of that number.
+    SetModelComparison {
+        number: u64,
+        fits: Vec<ModelFit>,
+    },
     /// Takes the values and the model of that row of the comparison.
     UseModelFit(usize),
     /// The parameter that the next profile is of.

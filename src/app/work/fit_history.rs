@@ -1,6 +1,6 @@
 //! The fits of this session, to look back at and to return to.
 
-use crate::app::work::open_measurement::Mask;
+use crate::app::work::open_measurement::{Mask, OpenMeasurement};
 use pbrdf::fit::{FitResult, Problem};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::Parameters;
@@ -29,6 +29,16 @@ pub struct FitEntry {
     pub generation: u64,
     /// The rows that were masked.
     pub mask: Mask,
+}
+
+impl FitEntry {
+    /// The measurement that it was made from, as it was then.
+    pub fn measurement(&self) -> OpenMeasurement {
+        let mut open = OpenMeasurement::new(self.document.clone(), Measurement::clone(&self.data)).of_file(self.sha256.clone());
+        open.restore_mask(&self.mask);
+        (open.number, open.generation) = (self.number, self.generation);
+        open
+    }
 }
 
 /// Fits that are kept.

@@ -51,6 +51,11 @@ impl<S: PartialEq + Clone> History<S> {
         Some(after)
     }
 
+    /// All that undo and redo lead to, and where they stand.
+    pub fn steps(&self) -> impl Iterator<Item = &S> {
+        self.past.iter().chain(&self.current).chain(&self.future)
+    }
+
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
     }

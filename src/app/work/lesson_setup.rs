@@ -39,7 +39,7 @@ impl Workspace {
             let read = |text: &str| pbrdf::measurement::Measurement::read(text.as_bytes());
             // A test reads every bundled example.
             let measurement = text.and_then(|text| read(text).ok()).unwrap_or_default();
-            self.open(OpenMeasurement::new(name.to_owned(), measurement));
+            self.open_alone(OpenMeasurement::new(name.to_owned(), measurement));
         }
         let mut settings = Settings::default();
         settings.adapt_to(self.active());

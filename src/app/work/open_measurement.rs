@@ -43,6 +43,19 @@ impl Default for MeasurementStyle {
     }
 }
 
+/// Colours, by their number among those of series, and markers of measurements in the order in which
+/// they are opened: those that the few series of the active one do not have come first.
+pub const STYLES: [(usize, Symbol); 8] = [
+    (10, Symbol::Disc),
+    (8, Symbol::Square),
+    (9, Symbol::Cross),
+    (5, Symbol::Circle),
+    (7, Symbol::Disc),
+    (11, Symbol::Square),
+    (4, Symbol::Cross),
+    (6, Symbol::Circle),
+];
+
 /// A measurement with its name, its groups and its surface.
 #[derive(Debug, Clone)]
 pub struct OpenMeasurement {
@@ -59,6 +72,8 @@ pub struct OpenMeasurement {
     pub generation: u64,
     pub surface: Surface,
     pub style: MeasurementStyle,
+    /// Whether the program opened it by itself and nothing was done with it yet.
+    pub is_placeholder: bool,
     mask: Mask,
 }
 
@@ -79,8 +94,14 @@ impl OpenMeasurement {
         let series = IncidenceSeries::of(&measurement.rows);
         let mask = masked_rows(&measurement.rows);
         let surface = Surface::for_measurement(&measurement);
-        let style = MeasurementStyle::default();
-        Self { name, sha256: None, measurement: Arc::new(measurement), series, number, generation: number, surface, style, mask }
+        let (style, measurement) = (MeasurementStyle::default(), Arc::new(measurement));
+        let is_placeholder = false;
+        Self { name, sha256: None, measurement, series, number, generation: number, surface, style, is_placeholder, mask }
+    }
+
+    /// No measurement: what the sliders move where nothing is open.
+    pub fn nothing() -> Self {
+        Self { is_placeholder: true, ..Self::new(String::new(), Measurement::default()) }
     }
 
     /// The same, read from a file with that SHA-256.

@@ -199,14 +199,19 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What a measurement that was just opened decides: where to look first.
+    /// What the first measurement that is opened decides: where to look.
     pub fn adapt_to(&mut self, opened: &OpenMeasurement) {
-        if opened.brdf_spans_decades() {
-            self.log_brdf = true;
-        }
         if let Some(first) = opened.series.first() {
             self.theta_i = first.theta_i;
             self.dphi = first.plane;
+        }
+        self.adapt_beside_others(opened);
+    }
+
+    /// What a further measurement decides; the lobes are looked at where they were.
+    pub fn adapt_beside_others(&mut self, opened: &OpenMeasurement) {
+        if opened.brdf_spans_decades() {
+            self.log_brdf = true;
         }
         if let Some(wavelength_nm) = opened.wavelength_nm() {
             self.metal_selection.wavelength_nm = wavelength_nm;

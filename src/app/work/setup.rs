@@ -10,46 +10,57 @@ use pbrdf::model::ParameterSet;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     settings: Settings,
+    /// The open ones in their order.
     measurements: Vec<MeasurementSetup>,
+    /// The number of the active one.
+    active: u64,
     shared: ParameterSet,
     pinned: Vec<PinnedSurface>,
 }
 
-/// What a step of undo restores of the measurement at a place of the list.
+/// What a step of undo restores of an open measurement.
 #[derive(Debug, Clone, PartialEq)]
 struct MeasurementSetup {
+    number: u64,
+    name: String,
     surface: Surface,
     style: MeasurementStyle,
     mask: Mask,
-    /// Whose mask and style those are.
-    number: u64,
 }
 
 impl Setup {
     /// What is set now.
     pub fn of(settings: &Settings, measurements: &MeasurementList, pinned: &[PinnedSurface]) -> Self {
         let of = |open: &OpenMeasurement| MeasurementSetup {
+            number: open.number,
+            name: open.name.clone(),
             surface: open.surface.clone(),
             style: open.style,
             mask: open.mask().clone(),
-            number: open.number,
         };
         Self {
             settings: settings.clone(),
             measurements: measurements.iter().map(of).collect(),
+            active: measurements.active().number,
             shared: measurements.shared(),
             pinned: pinned.to_vec(),
         }
     }
 
-    /// Sets surfaces, masks and styles as they were; settings and pinned surfaces are the answer.
+    /// Whether it holds the measurement of that number.
+    pub fn holds(&self, number: u64) -> bool {
+        self.measurements.iter().any(|setup| setup.number == number)
+    }
+
+    /// Opens the measurements that were open, and sets names, surfaces, masks and styles as they were;
+    /// settings and pinned surfaces are the answer.
     pub fn restore(self, measurements: &mut MeasurementList) -> (Settings, Vec<PinnedSurface>) {
+        let numbers: Vec<u64> = self.measurements.iter().map(|setup| setup.number).collect();
+        measurements.arrange(&numbers, self.active);
         measurements.share(self.shared);
-        for (open, setup) in measurements.iter_mut().zip(self.measurements) {
-            open.surface = setup.surface;
-            // The rows of another measurement are other rows.
-            if open.number == setup.number {
-                open.style = setup.style;
+        for setup in self.measurements {
+            if let Some(open) = measurements.get_mut(setup.number) {
+                (open.name, open.surface, open.style) = (setup.name, setup.surface, setup.style);
                 open.restore_mask(&setup.mask);
             }
         }

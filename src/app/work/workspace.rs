@@ -1,5 +1,9 @@
 //! The user's work as one value: what is open, what is set, and what was fitted.
 
+mod fits;
+mod measurements;
+mod results;
+
 use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::{FitEntry, FitHistory};
@@ -11,8 +15,8 @@ use crate::app::work::open_measurement::{Mask, OpenMeasurement};
 use crate::app::work::settings::Settings;
 use crate::app::work::setup::Setup;
 use crate::app::work::surface::{PinnedSurface, Surface};
+use crate::app::work::workspace::results::ResultsByMeasurement;
 use pbrdf::fit::FitResult;
-use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,10 +28,8 @@ pub struct Workspace {
     measurements: MeasurementList,
     pinned: Vec<PinnedSurface>,
     layout: Layout,
-    shown_fit: Option<Arc<FitEntry>>,
     fit_history: FitHistory,
-    model_comparison: Vec<ModelFit>,
-    diagnostics: Diagnostics,
+    results: ResultsByMeasurement,
     session_file: Option<PathBuf>,
     undo: History<Setup>,
     revision: u64,
@@ -54,17 +56,15 @@ impl Default for Workspace {
 impl Workspace {
     /// Work without a measurement.
     pub fn new(settings: Settings, surface: Surface, layout: Layout) -> Self {
-        let nothing = OpenMeasurement::new(String::new(), Measurement::default()).with_surface(surface);
+        let nothing = OpenMeasurement::nothing().with_surface(surface);
         let revision = next_revision();
         Self {
             settings,
             measurements: MeasurementList::single(nothing),
             pinned: Vec::new(),
             layout,
-            shown_fit: None,
             fit_history: FitHistory::default(),
-            model_comparison: Vec::new(),
-            diagnostics: Diagnostics::default(),
+            results: ResultsByMeasurement::default(),
             session_file: None,
             undo: History::default(),
             revision,
@@ -100,7 +100,7 @@ impl Workspace {
         for (fit, is_shown) in fits {
             let fit = work.fit_history.push(fit);
             if is_shown {
-                work.shown_fit = Some(fit);
+                work.show_fit(fit);
             }
         }
         work.record_step();
@@ -134,9 +134,14 @@ impl Workspace {
         &self.layout
     }
 
-    /// The fit that is shown.
+    /// The fit that is shown of the active measurement.
     pub fn shown_fit(&self) -> Option<&Arc<FitEntry>> {
-        self.shown_fit.as_ref()
+        self.results.of(self.active().number).shown_fit.as_ref()
+    }
+
+    /// The fit that is shown of the measurement of that number while it is active.
+    pub fn shown_fit_of(&self, number: u64) -> Option<&Arc<FitEntry>> {
+        self.results.of(number).shown_fit.as_ref()
     }
 
     /// The fits of this session, the newest first.
@@ -146,12 +151,12 @@ impl Workspace {
 
     /// The presets fitted to the active measurement.
     pub fn model_comparison(&self) -> &[ModelFit] {
-        &self.model_comparison
+        &self.results.of(self.active().number).model_comparison
     }
 
     /// Profile and bootstrap of the shown fit.
     pub fn diagnostics(&self) -> &Diagnostics {
-        &self.diagnostics
+        &self.results.of(self.active().number).diagnostics
     }
 
     /// The file of the session that is open.
@@ -204,46 +209,44 @@ impl Workspace {
             Edit::SetMetalSelection(selection) => self.settings.metal_selection = selection,
             Edit::SetDesign(design) => self.settings.design = design,
             Edit::Mask { rows, masked } => {
-                self.measurements.active_mut().set_masked(&rows, masked);
+                let active = self.measurements.active_mut();
+                active.set_masked(&rows, masked);
+                active.is_placeholder = false;
                 (self.moved_at, self.moved) = (self.revision, ParameterSet::EMPTY);
             }
             Edit::Open(opened) => self.open(*opened),
-            Edit::SetProfiled(parameter) => self.diagnostics.parameter = Some(parameter),
-            Edit::SetProfile(profile) => self.diagnostics.profile = profile,
-            Edit::SetReplicates(replicates) => self.diagnostics.replicates = replicates,
-            Edit::SetBootstrap(scatter) => self.diagnostics.scatter = scatter,
-            Edit::SetModelComparison(fits) => self.model_comparison = fits,
+            Edit::Close(number) => self.close(number),
+            Edit::Activate(number) => self.activate(number),
+            Edit::MoveMeasurement { number, by } => self.measurements.move_by(number, by),
+            Edit::RenameMeasurement { number, name } => self.rename(number, name),
+            Edit::SetMeasurementStyle { number, style } => self.set_style(number, style),
+            Edit::SetProfiled(parameter) => self.active_results().diagnostics.parameter = Some(parameter),
+            Edit::SetProfile(profile) => self.active_results().diagnostics.profile = profile,
+            Edit::SetReplicates(replicates) => self.active_results().diagnostics.replicates = replicates,
+            Edit::SetBootstrap(scatter) => self.active_results().diagnostics.scatter = scatter,
+            Edit::SetModelComparison { number, fits } => self.results.of_mut(number).model_comparison = fits,
             Edit::SetLayout(layout) => self.layout = layout,
             Edit::SetSessionFile(file) => self.session_file = file,
             Edit::Undo => self.restore(History::undo),
             Edit::Redo => self.restore(History::redo),
-            Edit::AddFit(fit) => {
-                self.take_values(fit.report.parameters, self.surface().model);
-                let fit = self.fit_history.push(*fit);
-                self.show_fit(Some(fit));
-            }
+            Edit::AddFit(fit) => self.add_fit(*fit),
             Edit::SetFitReport { id, report } => self.set_fit_report(id, *report),
             Edit::Refit(report) => self.take_refit(&report),
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
             Edit::UseFit => {
-                if let Some(fit) = self.shown_fit.clone() {
+                if let Some(fit) = self.shown_fit().cloned() {
                     self.measurements.active_mut().surface.model = fit.report.model;
                     self.move_to(fit.report.parameters);
                 }
             }
             Edit::UseValuesBeforeFit => {
-                if let Some(fit) = self.shown_fit.clone() {
+                if let Some(fit) = self.shown_fit().cloned() {
                     self.move_to(fit.before);
                 }
             }
-            Edit::ReturnToFit(index) => {
-                if let Some(fit) = self.fit_history.get(index) {
-                    self.take_values(fit.report.parameters, fit.report.model);
-                    self.show_fit(Some(fit).filter(|fit| fit.number == self.active().number));
-                }
-            }
+            Edit::ReturnToFit(index) => self.return_to_fit(index),
             Edit::UseModelFit(index) => {
-                if let Some(ModelFit { result: Ok(report), .. }) = self.model_comparison.get(index) {
+                if let Some(ModelFit { result: Ok(report), .. }) = self.model_comparison().get(index) {
                     let (parameters, model) = (report.parameters, report.model);
                     self.take_values(parameters, model);
                 }
@@ -257,6 +260,8 @@ impl Workspace {
         if self.recorded_at != self.revision {
             self.recorded_at = self.revision;
             self.undo.record(self.setup());
+            let Self { measurements, undo, .. } = self;
+            measurements.forget_closed(|number| undo.steps().any(|setup| setup.holds(number)));
         }
     }
 
@@ -266,9 +271,11 @@ impl Workspace {
         self.undo.replace(self.setup());
     }
 
-    /// Takes over the steps of undo of other work: the work as it is now becomes the next one.
+    /// Takes over the steps of undo of other work, with the measurements that they lead to: the work
+    /// as it is now becomes the next one.
     pub fn continue_undo_of(&mut self, other: Self) {
         self.undo = other.undo;
+        self.measurements.keep_closed(other.measurements);
         self.recorded_at = 0;
     }
 
@@ -283,17 +290,6 @@ impl Workspace {
             (self.settings, self.pinned) = setup.restore(&mut self.measurements);
             self.replace_step();
         }
-    }
-
-    /// Puts a measurement in the place of all that are open, without its fits; no step of undo of
-    /// its own. The sliders stay.
-    pub(super) fn open(&mut self, mut opened: OpenMeasurement) {
-        opened.surface = self.surface().clone();
-        opened.surface.adapt_to(&opened.measurement);
-        self.settings.adapt_to(&opened);
-        self.measurements = MeasurementList::single(opened);
-        self.forget_fits();
-        self.replace_step();
     }
 
     /// Sets up settings, surface and mask as a lesson wants them.
@@ -333,37 +329,6 @@ impl Workspace {
         }
         self.measurements.set_parameters(parameters);
     }
-
-    fn set_fit_report(&mut self, id: usize, report: FitResult) {
-        let Some(before) = self.fit_history.iter().find(|fit| fit.id == id).map(|fit| fit.report.parameters) else { return };
-        let (after, model) = (report.parameters, report.model);
-        let Some(fit) = self.fit_history.replace_report(id, report) else { return };
-        let surface = self.surface();
-        if after != before && fit.number == self.active().number && (surface.parameters, surface.model) == (before, model) {
-            self.record_step();
-            self.take_values(after, model);
-            // Undo goes from the better minimum to what was before the fit.
-            self.replace_step();
-        }
-        if self.shown_fit.as_ref().is_some_and(|shown| shown.id == id) {
-            self.shown_fit = Some(fit);
-            if after != before {
-                self.diagnostics.forget();
-            }
-        }
-    }
-
-    /// Shows a fit; profile and bootstrap of another one are dropped.
-    fn show_fit(&mut self, fit: Option<Arc<FitEntry>>) {
-        self.shown_fit = fit;
-        self.diagnostics.forget();
-    }
-
-    /// Shows no fit, and no comparison of models.
-    pub(super) fn forget_fits(&mut self) {
-        self.show_fit(None);
-        self.model_comparison.clear();
-    }
 }
 
 /// Tests set things without a widget.
@@ -388,121 +353,9 @@ impl Workspace {
 
     pub fn set_shown_fit(&mut self, fit: FitEntry) {
         self.revision = next_revision();
-        self.shown_fit = Some(Arc::new(fit));
+        self.active_results().shown_fit = Some(Arc::new(fit));
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Layout, MeasurementList, Settings, Workspace};
-    use crate::app::work::edit::{Edit, Switch};
-    use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
-    use pbrdf::measurement::Measurement;
-    use pbrdf::model::{Parameter, ParameterSet, Parameters};
-
-    fn example(name: &str) -> Edit {
-        let measurement = Measurement::read(EXAMPLES[0].text.as_bytes()).expect("an example is a measurement");
-        Edit::Open(Box::new(OpenMeasurement::new(name.to_owned(), measurement)))
-    }
-
-    /// Work on an example that holds as many rows as a user would mask by hand.
-    fn opened() -> Workspace {
-        let mut work = Workspace::default();
-        work.apply(example("first"));
-        work
-    }
-
-    #[test]
-    fn work_can_be_sent_to_another_thread() {
-        fn assert_send<T: Send + Sync>() {}
-        assert_send::<Workspace>();
-    }
-
-    #[test]
-    fn every_edit_has_a_revision_of_its_own_and_undo_restores_what_was_recorded() {
-        let mut work = opened();
-        let mut revisions = vec![work.revision()];
-        let before = work.setup();
-        let mut surface = work.surface().clone();
-        surface.parameters.n = 2.5;
-        surface.locked = ParameterSet::EMPTY.with(Parameter::K);
-        surface.set_bounds(Parameter::K, 0.5, 4.0).expect("sound bounds");
-        for edit in [
-            Edit::SetParameters(Parameters { n: 2.5, ..Parameters::default() }),
-            Edit::Mask { rows: vec![0, 3], masked: true },
-            Edit::SetSwitch(Switch::LogBrdf, true),
-            Edit::SetSurface(Box::new(surface.clone())),
-        ] {
-            work.apply(edit);
-            revisions.push(work.revision());
-            work.record_step();
-        }
-        assert!(revisions.is_sorted_by(|one, next| one < next), "{revisions:?}");
-        let after = work.setup();
-        assert_eq!((work.active().mask().to_vec(), work.surface(), work.settings().log_brdf), (vec![0, 3], &surface, true));
-        for _ in 0..4 {
-            assert!(work.can_undo());
-            work.apply(Edit::Undo);
-        }
-        assert_eq!(work.setup(), before);
-        assert!(!work.can_undo());
-        for _ in 0..4 {
-            work.apply(Edit::Redo);
-        }
-        assert_eq!(work.setup(), after);
-    }
-
-    #[test]
-    fn undo_takes_a_shared_parameter_back_on_every_surface() {
-        let open = ["a", "b"].map(|name| OpenMeasurement::new(name.to_owned(), Measurement::default())).to_vec();
-        let list = MeasurementList::several(open, 0, ParameterSet::EMPTY.with(Parameter::Sigma));
-        let mut work = Workspace::restored(Settings::default(), Layout::default(), list, Vec::new(), []);
-        let sigmas = |work: &Workspace| -> Vec<f64> { work.measurements().iter().map(|open| open.surface.parameters.sigma).collect() };
-        let before = sigmas(&work);
-        work.apply(Edit::SetParameters(Parameters { sigma: 0.125, ..Parameters::default() }));
-        work.record_step();
-        assert_eq!(sigmas(&work), [0.125, 0.125]);
-        work.apply(Edit::Undo);
-        assert_eq!(sigmas(&work), before);
-    }
-
-    #[test]
-    fn a_change_that_is_taken_back_is_no_step() {
-        let mut work = opened();
-        work.record_step();
-        for value in [2.5, work.surface().parameters.n] {
-            work.apply(Edit::SetParameters(Parameters { n: value, ..Parameters::default() }));
-        }
-        work.record_step();
-        assert!(!work.can_undo());
-    }
-
-    #[test]
-    fn opening_a_measurement_is_no_step_and_undo_leaves_its_rows_alone() {
-        let mut work = opened();
-        work.record_step();
-        work.apply(Edit::Mask { rows: vec![1], masked: true });
-        work.record_step();
-        work.apply(example("second"));
-        work.apply(Edit::Mask { rows: vec![2], masked: true });
-        work.record_step();
-        for _ in 0..2 {
-            work.apply(Edit::Undo);
-        }
-        assert_eq!((work.active().name.as_str(), work.active().mask().len(), work.can_undo()), ("second", 0, false));
-    }
-
-    #[test]
-    fn a_live_refit_is_out_of_date_when_the_user_moves_something_and_not_when_a_fit_does() {
-        let mut work = opened();
-        let (parameters, model) = (work.surface().parameters, work.surface().model);
-        work.apply(Edit::TakeValues { parameters: Parameters { n: 3.5, ..parameters }, model });
-        work.apply(Edit::SetSwitch(Switch::Limit, false));
-        work.apply(Edit::SetParameters(Parameters { n: 3.5, ..parameters }));
-        assert_eq!(work.moved_at(), 0);
-        work.apply(Edit::SetParameters(parameters));
-        assert_eq!(work.moved_at(), work.revision());
-        work.apply(Edit::Mask { rows: vec![1], masked: true });
-        assert_eq!(work.moved_at(), work.revision());
-    }
-}
+mod tests;

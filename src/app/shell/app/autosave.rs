@@ -42,7 +42,8 @@ impl App {
 /// The file of the working state, if it is to be written: not while a job is about to replace what
 /// there is.
 fn due(app: &App) -> Option<(PathBuf, AutosaveRevision)> {
-    let path = app.persistence.autosave_path.clone().filter(|_| app.own_work().active().measurement.rows.len() <= MOST_ROWS)?;
+    let rows: usize = app.own_work().measurements().iter().map(|open| open.measurement.rows.len()).sum();
+    let path = app.persistence.autosave_path.clone().filter(|_| rows <= MOST_ROWS)?;
     let is_waiting = app.jobs.files.session.is_running() || app.jobs.files.autosave.is_running();
     let revision = app.autosave_revision();
     (!is_waiting && app.persistence.autosaved_revision != Some(revision)).then_some((path, revision))

@@ -3,7 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::{compare_models, find_intervals, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
-use crate::app::shell::app::open::{cancel_import, open, start_import};
+use crate::app::shell::app::open::{cancel_import, open, open_files, start_import};
 use crate::app::shell::dialogs::OverwritePrompt;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::file_dialogs::request_for;
@@ -29,8 +29,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::ChooseMeasurement | Action::ChooseSession | Action::ChooseSave | Action::ChooseExport(_) => {
             request_for(app.work.active(), &action).map_or(Ok(()), |request| app.jobs.files.ask(request))?;
         }
-        Action::OpenMeasurement(path) if ExportKind::Session.check(&path).is_ok() => app.jobs.files.open_session(path)?,
-        Action::OpenMeasurement(path) => app.jobs.files.open(path)?,
+        Action::OpenMeasurements(paths) => open_files(app, paths)?,
         Action::OpenSession(path) => app.jobs.files.open_session(path)?,
         Action::SaveSession => return execute(app, ctx, saving_session(app)),
         Action::Export(kind, path) => export(app, kind, path)?,
@@ -167,7 +166,6 @@ fn use_case(app: &mut App, index: usize) {
         Setting::Fit { model, start, measurement } => {
             open(app, OpenMeasurement::new(case.to_string(), measurement));
             app.work.apply(Edit::TakeValues { parameters: start, model });
-            app.work.apply(Edit::SetSessionFile(None));
         }
     }
 }

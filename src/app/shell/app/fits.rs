@@ -1,13 +1,12 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fits::{FinishedBootstrap, FinishedFit, FinishedIntervals};
+use crate::app::tasks::fits::{FinishedBootstrap, FinishedIntervals};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{explain, fit_problem};
-use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
 use pbrdf::fit::{FitOptions, FitResult, Problem, Profile, free_by_default};
@@ -25,26 +24,42 @@ pub fn start_fit(app: &mut App) -> Result<(), String> {
     }
 }
 
-pub fn fitted(app: &mut App, FinishedFit { report, problem, generation, mask }: FinishedFit) {
-    let OpenMeasurement { name, sha256, measurement, number, surface, .. } = app.work.active();
-    let (document, sha256, data, number) = (name.clone(), sha256.clone(), measurement.clone(), *number);
-    let before = surface.parameters;
-    // The history numbers its fits.
-    let fit = FitEntry { id: 0, report: *report, problem, before, document, sha256, data, number, generation, mask };
-    app.work.apply(Edit::AddFit(Box::new(fit)));
-    app.jobs.fits.abandon_scan();
-    if let Err(sentence) = find_intervals(app) {
+pub fn fitted(app: &mut App, mut fit: Box<FitEntry>) {
+    let number = fit.number;
+    if let Some(open) = app.work.measurements().get(number) {
+        fit.before = open.surface.parameters;
+        fit.document.clone_from(&open.name);
+    }
+    app.work.apply(Edit::AddFit(fit));
+    if number == app.work.active().number {
+        app.jobs.fits.abandon_scan();
+    }
+    if let Err(sentence) = find_intervals_of(app, number) {
         app.toasts.error(sentence);
     }
 }
 
 /// Finds the intervals of the shown fit where it has none yet.
 pub fn find_intervals(app: &mut App) -> Result<(), String> {
-    let Some(fit) = app.work.shown_fit().filter(|fit| fit.report.course.intervals_complete.is_none()) else { return Ok(()) };
-    if fit.problem.is_empty() || fit.problem.free().is_empty() {
-        return Ok(());
+    find_intervals_of(app, app.work.active().number)
+}
+
+/// The same of the fit that is shown of a measurement.
+fn find_intervals_of(app: &mut App, number: u64) -> Result<(), String> {
+    let fit = app.work.shown_fit_of(number).filter(|fit| fit.report.course.intervals_complete.is_none());
+    match fit {
+        Some(fit) if !fit.problem.is_empty() && !fit.problem.free().is_empty() => app.jobs.fits.intervals(fit),
+        _ => Ok(()),
     }
-    app.jobs.fits.intervals(fit)
+}
+
+/// Stops what is about the sliders and the shown fit where another measurement has become active.
+pub fn follow_active(app: &mut App) {
+    let number = app.work.active().number;
+    if std::mem::replace(&mut app.jobs.fits.active, number) != number {
+        app.jobs.fits.refit.abandon();
+        app.jobs.fits.abandon_scan();
+    }
 }
 
 pub fn intervals_found(app: &mut App, FinishedIntervals { id, report }: FinishedIntervals) {
@@ -84,8 +99,9 @@ pub fn compare_models(app: &mut App) -> Result<(), String> {
         (preset, fit_problem(surface, measurement, model, free, fit_options))
     });
     let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
-    app.work.apply(Edit::SetModelComparison(Vec::new()));
-    app.jobs.fits.compare(problems, starts, seed)
+    let number = app.work.active().number;
+    app.work.apply(Edit::SetModelComparison { number, fits: Vec::new() });
+    app.jobs.fits.compare(number, problems, starts, seed)
 }
 
 pub fn start_profile(app: &mut App, parameter: Parameter) -> Result<(), String> {

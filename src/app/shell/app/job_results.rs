@@ -6,7 +6,7 @@ use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::autosaved;
 use crate::app::shell::app::fits::{bootstrapped, fitted, intervals_found, profiled};
-use crate::app::shell::app::open::{file_loaded, imported};
+use crate::app::shell::app::open::{files_loaded, imported};
 use crate::app::shell::app::session::{exported, session_read};
 use crate::app::shell::file_dialogs::{command_for, unavailable_text};
 use crate::app::tasks::benchmarks::FinishedBenchmark;
@@ -34,7 +34,7 @@ fn poll<T, P>(
 #[rustfmt::skip]
 pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.dialog, dialog_answered, || tr!("The file dialog ended unexpectedly; nothing was lost."));
-    poll(app, |jobs| &mut jobs.files.load, file_loaded, reading_panicked);
+    poll(app, |jobs| &mut jobs.files.load, files_loaded, reading_panicked);
     poll(app, |jobs| &mut jobs.files.import, imported, reading_panicked);
     poll(app, |jobs| &mut jobs.files.session, |app, loaded| session_read(app, &loaded.path, loaded.result), reading_panicked);
     poll(app, |jobs| &mut jobs.files.save, measurement_saved, writing_panicked);
@@ -44,7 +44,7 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);
     poll(app, |jobs| &mut jobs.fits.intervals, intervals_found, || tr!("The intervals ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.refit, |app, report| app.work.apply(Edit::Refit(report)), fit_panicked);
-    poll(app, |jobs| &mut jobs.fits.compare, |app, fits| app.work.apply(Edit::SetModelComparison(fits)),
+    poll(app, |jobs| &mut jobs.fits.compare, |app, (number, fits)| app.work.apply(Edit::SetModelComparison { number, fits }),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.profile, |app, profile| profiled(app, &profile), || tr!("The profile ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.bootstrap, bootstrapped, || tr!("The bootstrap ended unexpectedly; nothing was lost."));
@@ -67,7 +67,7 @@ pub fn dialog_answered(app: &mut App, answer: DialogAnswer) {
     match answer.reply {
         // Before the queued actions: the user chose the path for the work as it was when the dialog
         // opened.
-        Ok(path) => drop(app.actions.splice(..0, path.map(|path| command_for(&answer.request, path)))),
+        Ok(paths) => drop(app.actions.splice(..0, command_for(&answer.request, paths))),
         Err(DialogUnavailable) => app.toasts.error(unavailable_text(&answer.request)),
     }
 }

@@ -50,6 +50,7 @@ fn set_up_step(app: &mut App, steps: &[Step], begins: bool) {
     app.work.set_up_lesson(steps, begins);
     if app.work.active().number != open {
         app.dialogs.import = None;
+        app.dialogs.imports_waiting.clear();
         app.views = Views::default();
     }
     let mut dock = Dock::new(app.own_work().layout());

@@ -4,27 +4,32 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{autosave_when_rested, save_when_rested};
 use crate::app::shell::app::execute::execute;
-use crate::app::shell::app::fits::refit_if_moved;
+use crate::app::shell::app::fits::{follow_active, refit_if_moved};
 use crate::app::shell::app::job_results::poll_jobs;
+use crate::app::shell::app::open::open_waiting;
 use crate::app::shell::commands;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
+use std::path::PathBuf;
 
 /// Before each frame.
 pub fn logic(app: &mut App, ctx: &egui::Context) {
-    for file in ctx.input(|input| input.raw.dropped_files.clone()) {
-        app.actions.push(Action::OpenMeasurement(file.path().to_owned()));
+    let dropped: Vec<PathBuf> = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
+    if !dropped.is_empty() {
+        app.actions.push(Action::OpenMeasurements(dropped));
     }
     i18n::set(app.window.language);
     listen_to_keys(app, ctx);
     app.jobs.spawner.begin_frame();
     poll_jobs(app);
+    open_waiting(app);
     for action in std::mem::take(&mut app.actions) {
         if let Err(sentence) = execute(app, ctx, action) {
             app.toasts.error(sentence);
         }
     }
     app.interacting = ctx.input(|input| input.pointer.any_down());
+    follow_active(app);
     refit_if_moved(app);
     if !app.interacting && !app.jobs.fits.refit.is_running() {
         app.work.record_step();

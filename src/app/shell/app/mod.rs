@@ -121,6 +121,7 @@ impl App {
     pub fn show_work(&mut self, work: Workspace) -> Workspace {
         self.dock = Dock::new(work.layout());
         self.dialogs.import = None;
+        self.dialogs.imports_waiting.clear();
         self.views = Views::default();
         self.jobs.fits.abandon();
         std::mem::replace(&mut self.work, work)

@@ -5,11 +5,11 @@ use crate::app::shell::app::App;
 use crate::app::shell::app::lesson::close_lesson;
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::lessons::{Lessons, own_folder};
+use crate::app::storage::export::ExportKind;
 use crate::app::storage::import::{Loaded, Origin};
 use crate::app::tasks::files::LoadedFile;
 use crate::app::text::localized::Localized;
 use crate::app::views::Views;
-use crate::app::views::action::Action;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
 use pbrdf::measurement::Measurement;
@@ -18,20 +18,43 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tr::tr;
 
-/// Opens the first example, and then the file if there is one: if that cannot be read, the example
-/// stays.
-pub fn begin(app: &mut App, file: Option<PathBuf>) {
+/// Opens the first example, in whose place the first measurement comes.
+pub fn begin(app: &mut App) {
     // Tests read no folders of the user.
     let own = app.persistence.settings_path.as_ref().and_then(|_| own_folder());
     read_lessons(app, own.as_deref());
     let example = &EXAMPLES[0];
     match Measurement::read(example.text.as_bytes()) {
-        Ok(measurement) => open(app, OpenMeasurement::new(example.name.to_owned(), measurement)),
+        Ok(measurement) => {
+            let opened = OpenMeasurement::new(example.name.to_owned(), measurement);
+            open(app, OpenMeasurement { is_placeholder: true, ..opened });
+        }
         Err(error) => app.toasts.error(tr!("The bundled example cannot be read: {}.", error.localized())),
     }
     // The settings file knows this.
     app.persistence.saved_settings = Some((app.work.revision(), app.window.clone()));
-    app.actions.extend(file.map(Action::OpenMeasurement));
+}
+
+/// Reads files: a session first, then the measurements, beside what is open by then.
+pub fn open_files(app: &mut App, paths: Vec<PathBuf>) -> Result<(), String> {
+    let (sessions, mut measurements): (Vec<PathBuf>, Vec<PathBuf>) =
+        paths.into_iter().partition(|path| ExportKind::Session.check(path).is_ok());
+    if let Some(session) = sessions.into_iter().next() {
+        app.jobs.files.open_session(session)?;
+    }
+    app.jobs.files.waiting.append(&mut measurements);
+    open_waiting(app);
+    Ok(())
+}
+
+/// Reads the files that wait, once nothing else is being read.
+pub fn open_waiting(app: &mut App) {
+    if !app.jobs.files.waiting.is_empty() && !app.jobs.files.is_reading() {
+        let paths = std::mem::take(&mut app.jobs.files.waiting);
+        if let Err(sentence) = app.jobs.files.open(paths) {
+            app.toasts.error(sentence);
+        }
+    }
 }
 
 /// The bundled lessons and those of a folder, and a sentence for each that is none.
@@ -41,9 +64,8 @@ pub fn read_lessons(app: &mut App, own: Option<&Path>) {
     faults.into_iter().for_each(|sentence| app.toasts.error(sentence));
 }
 
-/// Puts a measurement in the place of the active one.
+/// Adds a measurement to those that are open.
 pub fn open(app: &mut App, opened: OpenMeasurement) {
-    app.dialogs.import = None;
     for note in &opened.measurement.notes {
         app.toasts.error(format!("{}: {}", opened.name, note.localized()));
     }
@@ -53,23 +75,42 @@ pub fn open(app: &mut App, opened: OpenMeasurement) {
     }
     app.work.apply(Edit::Open(Box::new(opened)));
     app.views = Views::default();
-    app.jobs.fits.abandon();
 }
 
-/// What a file holds has been read.
-pub fn file_loaded(app: &mut App, LoadedFile { origin, result }: LoadedFile) {
-    match result {
-        Ok(Loaded::Measurement(imported)) => loaded(app, origin, *imported),
-        Ok(Loaded::Foreign(file)) => {
-            origin.path.iter().for_each(|path| app.dialogs.path_entry.clear_if(path));
-            let mut import = ImportDialog::new(origin, file);
-            app.dialogs.import_memory.recall(&mut import);
-            app.dialogs.import = Some(import);
+/// What files hold has been read: measurements open at once, foreign files ask one after the other,
+/// what cannot be read is named.
+pub fn files_loaded(app: &mut App, files: Vec<LoadedFile>) {
+    let (mut first, mut errors) = (None, Vec::new());
+    for LoadedFile { origin, result } in files {
+        match result {
+            Ok(Loaded::Measurement(imported)) => {
+                let opened = loaded(app, origin, *imported);
+                first = first.or(opened);
+            }
+            Ok(Loaded::Foreign(file)) => {
+                origin.path.iter().for_each(|path| app.dialogs.path_entry.clear_if(path));
+                app.dialogs.imports_waiting.push_back(ImportDialog::new(origin, file));
+            }
+            Err(sentence) => {
+                origin.path.iter().for_each(|path| app.window.forget(path));
+                errors.push(sentence);
+            }
         }
-        Err(sentence) => {
-            origin.path.iter().for_each(|path| app.window.forget(path));
-            app.toasts.load_error(sentence);
-        }
+    }
+    if let Some(number) = first {
+        app.work.apply(Edit::Activate(number));
+    }
+    errors.into_iter().for_each(|sentence| app.toasts.load_error(sentence));
+    ask_next(app);
+}
+
+/// Shows the questions of the next foreign file, if none are on screen.
+fn ask_next(app: &mut App) {
+    if app.dialogs.import.is_none()
+        && let Some(mut import) = app.dialogs.imports_waiting.pop_front()
+    {
+        app.dialogs.import_memory.recall(&mut import);
+        app.dialogs.import = Some(import);
     }
 }
 
@@ -81,10 +122,11 @@ pub fn start_import(app: &mut App) -> Result<(), String> {
     }
 }
 
-/// Closes the dialog; the open measurement stays.
+/// Closes the dialog; what is open stays, and the next foreign file asks.
 pub fn cancel_import(app: &mut App) {
     if app.dialogs.import.take().is_some() {
-        app.jobs.files.abandon_load();
+        app.jobs.files.import.abandon();
+        ask_next(app);
     }
 }
 
@@ -95,7 +137,10 @@ pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
             let name = import.origin.name.replace(char::is_control, " ");
             let source = ("imported_from".to_owned(), name);
             imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
-            loaded(app, import.origin, imported);
+            if let Some(number) = loaded(app, import.origin, imported) {
+                app.work.apply(Edit::Activate(number));
+            }
+            ask_next(app);
         }
         (Err(error), Some(import)) => app.dialogs.import = Some(ImportDialog { error: Some(error), ..import }),
         // The dialog was closed meanwhile.
@@ -103,8 +148,8 @@ pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
     }
 }
 
-/// Replaces the open measurement by one that was read.
-fn loaded(app: &mut App, origin: Origin, imported: Imported) {
+/// Adds the measurements that were read; the answer is the number of the first.
+fn loaded(app: &mut App, origin: Origin, imported: Imported) -> Option<u64> {
     let Origin { name, path, sha256 } = origin;
     app.toasts.dismiss_load_errors();
     // A file is the user's own work, and takes the place of what was set aside.
@@ -121,10 +166,12 @@ fn loaded(app: &mut App, origin: Origin, imported: Imported) {
         app.toasts.error(format!("{name}: {about}"));
     }
     let is_single = imported.measurements.len() == 1;
-    // The first is opened last, and so is the active one.
-    for measurement in imported.measurements.into_iter().rev() {
+    let mut first = None;
+    for measurement in imported.measurements {
         let own = if is_single || measurement.name.is_empty() { name.clone() } else { format!("{name} – {}", measurement.name) };
-        open(app, OpenMeasurement::new(own, measurement).of_file(sha256.clone()));
+        let opened = OpenMeasurement::new(own, measurement).of_file(sha256.clone());
+        first = first.or(Some(opened.number));
+        open(app, opened);
     }
-    app.work.apply(Edit::SetSessionFile(None));
+    first
 }

@@ -1,0 +1,65 @@
+//! Measurements are opened, closed, named and chosen.
+
+use super::Workspace;
+use crate::app::work::measurement_list::MeasurementList;
+use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+
+impl Workspace {
+    /// Adds a measurement to those that are open, and makes it the active one. Its sliders begin
+    /// where those of the active one stand.
+    pub(super) fn open(&mut self, mut opened: OpenMeasurement) {
+        opened.surface = self.surface().clone();
+        opened.surface.adapt_to(&opened.measurement);
+        if self.measurements.is_placeholder() {
+            self.settings.adapt_to(&opened);
+        } else {
+            self.settings.adapt_beside_others(&opened);
+        }
+        self.measurements.add(opened);
+        self.moved_at = 0;
+    }
+
+    /// Puts a measurement in the place of all that are open; no step of undo of its own. The sliders
+    /// stay.
+    pub(in crate::app::work) fn open_alone(&mut self, mut opened: OpenMeasurement) {
+        opened.surface = self.surface().clone();
+        opened.surface.adapt_to(&opened.measurement);
+        self.settings.adapt_to(&opened);
+        self.measurements = MeasurementList::single(opened);
+        self.replace_step();
+    }
+
+    /// Takes a measurement off the list; undo brings it back with its results.
+    pub(super) fn close(&mut self, number: u64) {
+        self.record_step();
+        self.measurements.close(number);
+        self.moved_at = 0;
+    }
+
+    /// Shows another measurement. That is no step of undo; a step leads back to the measurement that
+    /// it was made on.
+    pub(super) fn activate(&mut self, number: u64) {
+        if number == self.active().number || self.measurements.get(number).is_none() {
+            return;
+        }
+        let revision = self.revision;
+        self.undo.record(self.setup());
+        self.measurements.activate(number);
+        self.moved_at = 0;
+        self.revision = revision;
+        self.replace_step();
+    }
+
+    pub(super) fn rename(&mut self, number: u64, name: String) {
+        if let Some(open) = self.measurements.get_mut(number) {
+            open.name = name;
+            open.is_placeholder = false;
+        }
+    }
+
+    pub(super) fn set_style(&mut self, number: u64, style: MeasurementStyle) {
+        if let Some(open) = self.measurements.get_mut(number) {
+            open.style = style;
+        }
+    }
+}
