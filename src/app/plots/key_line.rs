@@ -2,7 +2,7 @@
 //! is told from a whole one.
 
 use crate::figure::Symbol;
-use egui::{Align2, Color32, CursorIcon, FontId, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::LineStyle;
 use std::collections::BTreeSet;
 use tr::tr;
@@ -43,17 +43,11 @@ impl KeyEntry {
         let color = self.color.gamma_multiply(strength);
         let stroke = Stroke::new(self.width, color);
         let middle = rect.left_center() + vec2(0.5 * SAMPLE, 0.0);
-        let cross = [vec2(3.0, 3.0), vec2(3.0, -3.0)].map(|arm| Shape::line_segment([middle - arm, middle + arm], (1.5, color)));
-        let shapes = match self.style {
-            _ if self.symbol == Some(Symbol::Disc) => vec![Shape::circle_filled(middle, 3.0, color)],
-            _ if self.symbol == Some(Symbol::Circle) => vec![Shape::circle_stroke(middle, 3.0, (1.0, color))],
-            _ if self.symbol == Some(Symbol::Square) => {
-                vec![Shape::rect_filled(Rect::from_center_size(middle, vec2(5.0, 5.0)), 0.0, color)]
-            }
-            _ if self.symbol == Some(Symbol::Cross) => cross.into(),
-            LineStyle::Solid => vec![Shape::line_segment(ends, stroke)],
-            LineStyle::Dashed { length } => Shape::dashed_line(&ends, stroke, length, GAP_OVER_DASH * length),
-            LineStyle::Dotted { spacing } => Shape::dotted_line(&ends, color, spacing, self.width),
+        let shapes = match (self.symbol, self.style) {
+            (Some(symbol), _) => symbol_shapes(symbol, middle, color),
+            (None, LineStyle::Solid) => vec![Shape::line_segment(ends, stroke)],
+            (None, LineStyle::Dashed { length }) => Shape::dashed_line(&ends, stroke, length, GAP_OVER_DASH * length),
+            (None, LineStyle::Dotted { spacing }) => Shape::dotted_line(&ends, color, spacing, self.width),
         };
         if self.on_map {
             let plate = Rect::from_center_size(middle, vec2(SAMPLE + 4.0, rect.height()));
@@ -62,6 +56,16 @@ impl KeyEntry {
         ui.painter().extend(shapes);
         let ink = ui.visuals().text_color().gamma_multiply(strength);
         ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, &self.name, FontId::proportional(LETTERS), ink);
+    }
+}
+
+/// A measured point as plots have it.
+pub fn symbol_shapes(symbol: Symbol, at: Pos2, color: Color32) -> Vec<Shape> {
+    match symbol {
+        Symbol::Disc => vec![Shape::circle_filled(at, 3.0, color)],
+        Symbol::Circle => vec![Shape::circle_stroke(at, 3.0, (1.0, color))],
+        Symbol::Square => vec![Shape::rect_filled(Rect::from_center_size(at, vec2(5.0, 5.0)), 0.0, color)],
+        Symbol::Cross => [vec2(3.0, 3.0), vec2(3.0, -3.0)].map(|arm| Shape::line_segment([at - arm, at + arm], (1.5, color))).into(),
     }
 }
 

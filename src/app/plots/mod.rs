@@ -16,6 +16,6 @@ pub mod theme;
 
 pub use color_scale::ColorScale;
 pub use figure_plot::{FigurePlot, PanelPlot, PanelStyle};
-pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui};
+pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui, symbol_shapes};
 pub use polyline::{Polyline, finite, line};
 pub use range::{AutoRange, Range, nice_ceiling};

@@ -28,6 +28,7 @@ pub enum Menu {
     Recent,
     Export,
     Edit,
+    Measurement,
     Fit,
     Pane,
     View,
@@ -48,6 +49,7 @@ impl Menu {
             Self::Recent => tr!("Recent"),
             Self::Export => tr!("Export"),
             Self::Edit => tr!("Edit"),
+            Self::Measurement => tr!("Measurements"),
             Self::Fit => tr!("Fitting"),
             Self::Pane => tr!("Panes"),
             Self::View => tr!("View"),
@@ -119,6 +121,18 @@ const fn plain(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::NONE, key))
 }
 
+const fn alt(key: Key) -> Option<KeyboardShortcut> {
+    Some(KeyboardShortcut::new(Modifiers::ALT, key))
+}
+
+fn has_rows(app: &App) -> Availability {
+    only_if(app.work.measurements().has_rows())
+}
+
+fn has_several(app: &App) -> Availability {
+    only_if(app.work.measurements().iter().count() > 1)
+}
+
 fn always(_: &App) -> Availability {
     Availability::Possible
 }
@@ -172,6 +186,19 @@ static ENTRIES: &[Entry] = &[
         ctrl_shift(Key::V), always),
     row(Action::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
     row(Action::CopyTable, Menu::Edit, "Copy data table", "Every row as the pane Data shows it, with tabs between cells as spreadsheets want them", None, always),
+    row(Action::StepMeasurement(1), Menu::Measurement, "Next measurement", "The measurement below the active one to the sliders", ctrl(Key::PageDown),
+        has_several),
+    row(Action::StepMeasurement(-1), Menu::Measurement, "Previous measurement", "The measurement above the active one to the sliders",
+        ctrl(Key::PageUp), has_several),
+    row(Action::RenameMeasurement, Menu::Measurement, "Rename measurement", "Another name for the active measurement", plain(Key::F2), has_rows),
+    row(Action::MoveMeasurement(-1), Menu::Measurement, "Move measurement up", "One place up the list", alt(Key::ArrowUp),
+        |app| only_if(app.work.measurements().active_index() > 0)),
+    row(Action::MoveMeasurement(1), Menu::Measurement, "Move measurement down", "One place down the list", alt(Key::ArrowDown),
+        |app| only_if(app.work.measurements().active_index() + 1 < app.work.measurements().iter().count())),
+    row(Action::ShowMeasurements(true), Menu::Measurement, "Show all measurements", "Draw every open measurement", None, has_several),
+    row(Action::ShowMeasurements(false), Menu::Measurement, "Show the active measurement alone", "Draw no other measurement", None, has_several),
+    row(Action::CloseMeasurement(None), Menu::Measurement, "Close measurement", "Take the active measurement off the list; undo brings it back",
+        ctrl(Key::W), has_rows),
     row(Action::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
         plain(Key::F5), |app| only_if(!app.jobs.fits.fit.is_running())),
     row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |app| only_if(app.jobs.fits.fit.is_running())),
@@ -281,6 +308,11 @@ pub fn items(app: &App) -> Vec<Command> {
             Availability::Possible,
         )
     });
+    let active = app.work.active().number;
+    let measurements = app.work.measurements().iter().filter(|open| !open.measurement.rows.is_empty()).map(|open| {
+        let (text, status) = (tr!("Measurement: {}", open.title()), switch(open.number == active));
+        item(Action::ActivateMeasurement(open.number), Menu::None, text.into(), open.description().into(), status)
+    });
     let forget = item(
         Action::ForgetRecent,
         Menu::Recent,
@@ -319,6 +351,7 @@ pub fn items(app: &App) -> Vec<Command> {
     });
     fixed
         .chain(plots(&on_screen))
+        .chain(measurements)
         .chain(examples)
         .chain(lessons)
         .chain(recent)

@@ -13,7 +13,7 @@ use tr::tr;
 pub fn menu_ui(app: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
         bar_menu_ui(tr!("File"), ui, |ui| file_ui(app, ui));
-        for (name, menu) in [(tr!("Edit"), Menu::Edit), (tr!("Fitting"), Menu::Fit)] {
+        for (name, menu) in [Menu::Edit, Menu::Measurement, Menu::Fit].map(|menu| (menu.name(), menu)) {
             bar_menu_ui(name, ui, |ui| {
                 let items = commands::items(app);
                 items_ui(&items, menu, &mut app.actions, ui);

@@ -7,6 +7,8 @@ use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
+use crate::app::views::choice_ui;
+use crate::app::views::curves::Decimation;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
 use std::time::Duration;
@@ -18,7 +20,7 @@ const HEIGHT: f32 = 96.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
-    let App { work, derived, jobs, actions, window, frame_times, .. } = app;
+    let App { work, derived, jobs, actions, edits, window, frame_times, .. } = app;
     let open = work.active();
     ui.horizontal(|ui| {
         ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
@@ -45,7 +47,11 @@ pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
         }
         if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out) {
             ui.separator();
-            ui.label(left_out.text());
+            if matches!(left_out, Decimation::Series { .. }) {
+                ui.menu_button(left_out.text(), |ui| choice_ui(open, edits, ui));
+            } else {
+                ui.label(left_out.text());
+            }
         }
     });
 }

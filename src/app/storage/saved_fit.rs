@@ -49,6 +49,8 @@ pub struct SavedMeasurement {
     /// Of an open one that is not active.
     pub surface: Option<Surface>,
     pub style: MeasurementStyle,
+    /// The series that plots show, if not those that they show at first.
+    pub drawn: Option<Vec<usize>>,
     /// Which fit is shown while it is active, if it is not now.
     pub shown_fit: Option<usize>,
     /// Whether the program opened it by itself and nothing was done with it yet.
@@ -60,7 +62,8 @@ impl SavedMeasurement {
     /// An open one, without what may be known of it.
     pub fn of(measurement: Arc<Measurement>) -> Self {
         let (name, style) = (String::new(), MeasurementStyle::default());
-        Self { name, sha256: None, is_open: true, surface: None, style, shown_fit: None, is_placeholder: false, measurement }
+        let (drawn, shown_fit, is_placeholder) = (None, None, false);
+        Self { name, sha256: None, is_open: true, surface: None, style, drawn, shown_fit, is_placeholder, measurement }
     }
 }
 

@@ -14,13 +14,14 @@
 //! Version 1 has one `measurement` instead of the list, and all fits are about it.
 
 use crate::app::storage::earlier_keys::EarlierFile;
+use crate::app::storage::fit_record::on_one_line;
 use crate::app::storage::saved_fit::{RestoredFit, SavedFit, SavedMeasurement};
 use crate::app::storage::session_error::{SESSION_FORMAT, SESSION_VERSION, SavedFitError, SessionError};
 use crate::app::storage::settings_file::{SavedSettings, SurfaceOfFile};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement, drawn_at_first};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use crate::app::work::workspace::Workspace;
@@ -115,6 +116,9 @@ struct Table {
     surface: Option<Surface>,
     #[serde(default, skip_serializing_if = "is_default")]
     style: MeasurementStyle,
+    /// The series that plots show, from 0, if not those that they show at first.
+    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
+    drawn: Option<Vec<usize>>,
     /// Which fit is shown while it is active, from 0, if it is not now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shown: Option<usize>,
@@ -172,16 +176,9 @@ impl Session {
         for (index, open) in list.iter().enumerate().filter(|(_, open)| !open.measurement.rows.is_empty()) {
             let surface = (index != list.active_index()).then(|| open.surface.clone());
             let OpenMeasurement { name, sha256, measurement, style, is_placeholder, .. } = open.clone();
-            measurements.push(SavedMeasurement {
-                name,
-                sha256,
-                is_open: true,
-                surface,
-                style,
-                shown_fit: None,
-                is_placeholder,
-                measurement,
-            });
+            let drawn = (*open.drawn() != drawn_at_first(open.series.len())).then(|| open.drawn().to_vec());
+            let saved = SavedMeasurement { name, sha256, surface, style, drawn, is_placeholder, ..SavedMeasurement::of(measurement) };
+            measurements.push(saved);
             numbers.push(open.number);
         }
         let (mut fits, mut shown, mut rows) = (Vec::new(), None, 0);
@@ -228,6 +225,9 @@ impl Session {
             let surface = saved.surface.unwrap_or_else(|| surface.clone());
             let mut opened = opened.with_surface(surface);
             (opened.style, opened.is_placeholder) = (saved.style, saved.is_placeholder);
+            if let Some(drawn) = saved.drawn {
+                opened.set_drawn(&drawn.into());
+            }
             (saved.is_open, opened)
         };
         let measurements: Vec<(bool, OpenMeasurement)> = self.measurements.into_iter().map(opened).collect();
@@ -257,9 +257,9 @@ impl Session {
             Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
         };
         let measurements = self.measurements.iter().map(|saved| -> io::Result<Table> {
-            let SavedMeasurement { name, sha256, is_open, surface, style, shown_fit, is_placeholder, measurement } = saved.clone();
+            let SavedMeasurement { name, sha256, is_open, surface, style, drawn, shown_fit, is_placeholder, measurement } = saved.clone();
             let (open, shown, placeholder, table) = (is_open, shown_fit, is_placeholder, table(&measurement)?);
-            Ok(Table { name, sha256, open, surface, style, shown, placeholder, table })
+            Ok(Table { name, sha256, open, surface, style, drawn, shown, placeholder, table })
         });
         let lesson = self.lesson.as_ref().map(|lesson| -> io::Result<_> {
             Ok(LessonContents { title: lesson.title.clone(), step: lesson.step, work: Box::new(lesson.work.contents()?) })
@@ -311,9 +311,9 @@ impl Session {
         surface.validate().and_then(|()| settings.validate()).map_err(SessionError::Settings)?;
         let tables = measurement.into_iter().chain(measurements);
         let measurements = tables.map(|table| -> Result<SavedMeasurement, ReadError> {
-            let Table { name, sha256, open: is_open, surface, style, shown: shown_fit, placeholder: is_placeholder, table } = table;
+            let Table { name, sha256, open: is_open, surface, style, drawn, shown: shown_fit, placeholder: is_placeholder, table } = table;
             let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
-            Ok(SavedMeasurement { name, sha256, is_open, surface, style, shown_fit, is_placeholder, measurement })
+            Ok(SavedMeasurement { name, sha256, is_open, surface, style, drawn, shown_fit, is_placeholder, measurement })
         });
         let mut measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
         let mut others = measurements.iter().filter_map(|saved| saved.surface.as_ref());

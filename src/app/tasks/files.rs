@@ -72,7 +72,7 @@ impl FileJobs {
     pub fn new(spawner: Spawner) -> Self {
         Self {
             spawner,
-            ask: |_| Ok(None),
+            ask: |_| Ok(Vec::new()),
             dialog: Slot::default(),
             load: Slot::default(),
             waiting: Vec::new(),

@@ -44,7 +44,7 @@ fn what_panicked_can_start_again() {
     wait(&mut harness);
     let toasts = explorer(&mut harness).toasts.take().expect("two sentences");
     assert!(toasts.contains("Writing the file ended") && toasts.contains("The file dialog ended"), "{toasts}");
-    explorer(&mut harness).jobs.files.ask = |_| Ok(Some("/no/such/file.csv".into()));
+    explorer(&mut harness).jobs.files.ask = |_| Ok(vec!["/no/such/file.csv".into()]);
     explorer(&mut harness).actions.extend([Action::Export(ExportKind::Curves, path.clone()), Action::ChooseMeasurement]);
     wait(&mut harness);
     assert!(path.exists() && explorer(&mut harness).toasts.take().is_some_and(|toast| toast.contains("/no/such/file.csv")));

@@ -445,7 +445,7 @@ fn an_answer_is_about_the_work_it_was_asked_for() {
     // The lesson is asked for in the very frame in which the answer comes.
     let request = FileRequest::Export(ExportKind::Session, String::new());
     explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
-    dialog_answered(explorer(&mut harness), DialogAnswer { request, reply: Ok(Some(path.clone())) });
+    dialog_answered(explorer(&mut harness), DialogAnswer { request, reply: Ok(vec![path.clone()]) });
     wait(&mut harness);
     let text = std::fs::read_to_string(&path).expect("a file");
     assert_eq!(Session::read(&text).expect("a session").settings.surface.parameters.k, 4.5);

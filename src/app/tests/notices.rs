@@ -124,7 +124,7 @@ fn where_no_dialog_opens_it_is_said_what_is_missing_and_where_to_type() {
         assert!(sentence.contains("xdg-desktop-portal") && sentence.contains("zenity") && sentence.contains(place), "{sentence}");
     }
     // A dialog that was cancelled needs no word.
-    explorer(&mut harness).jobs.files.ask = |_| Ok(None);
+    explorer(&mut harness).jobs.files.ask = |_| Ok(Vec::new());
     explorer(&mut harness).actions.push(Action::ChooseMeasurement);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).toasts.text(), None);

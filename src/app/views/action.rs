@@ -42,6 +42,18 @@ pub enum Action {
     CopyPlot(PaneId),
     /// The measurement to the clipboard, as text.
     CopyTable,
+    /// The measurement of that number to the sliders.
+    ActivateMeasurement(u64),
+    /// The measurement so many places down the list, around its ends.
+    StepMeasurement(isize),
+    /// Another name for the active measurement.
+    RenameMeasurement,
+    /// The active measurement so many places down the list.
+    MoveMeasurement(isize),
+    /// Draw all measurements or the active one alone.
+    ShowMeasurements(bool),
+    /// Close the measurement of that number, or the active one.
+    CloseMeasurement(Option<u64>),
     /// Load the bundled example of that number.
     OpenExample(usize),
     /// The lesson of that number at the step of that number: sliders and views as it wants them.

@@ -18,7 +18,7 @@ pub type Band = Vec<[f64; 3]>;
 /// The key of the fit's band, if it is of the open measurement and to be shown.
 pub fn band_key(fit: Option<&FitEntry>, document: &OpenMeasurement, backscatter: bool, times_cosine: bool, shown: bool) -> BandKey {
     let fit = fit.filter(|fit| shown && fit.number == document.number)?;
-    Some((fit.id, document.generation, backscatter, times_cosine))
+    Some((fit.id, document.plotted, backscatter, times_cosine))
 }
 
 /// Around the fitted DoLP along each series.

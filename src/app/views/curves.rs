@@ -13,10 +13,30 @@ use tr::tr;
 
 pub use crate::report::directions;
 
-/// ModelCurves that are drawn at most, and points: more cannot be told apart, and would make the
-/// window slow.
-pub const MOST_SERIES: usize = 12;
+/// Points that are drawn at most: more cannot be told apart, and would make the window slow.
 pub const MOST_POINTS: usize = 20_000;
+
+/// Anchors of the colours of many series, from the smallest angle of incidence to the largest: they
+/// are read on a light and on a dark page.
+const MANY: [Rgb; 4] = [Rgb(50, 110, 220), Rgb(150, 80, 210), Rgb(205, 60, 140), Rgb(215, 90, 30)];
+
+/// The colour of a series of so many: one of a kind, or where there are too many for that, one that
+/// goes with the order.
+pub fn series_ink(index: usize, of: usize) -> Rgb {
+    if of <= SERIES.len() {
+        return SERIES[index % SERIES.len()];
+    }
+    #[expect(clippy::cast_precision_loss, reason = "numbers of series")]
+    let place = (MANY.len() - 1) as f64 * index as f64 / (of - 1).max(1) as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place among anchors")]
+    let below = (place as usize).min(MANY.len() - 2);
+    #[expect(clippy::cast_precision_loss, reason = "a place among anchors")]
+    let share = place - below as f64;
+    let (Rgb(r, g, b), Rgb(r2, g2, b2)) = (MANY[below], MANY[below + 1]);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+    let between = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
+    Rgb(between(r, r2), between(g, g2), between(b, b2))
+}
 
 /// Decades below its top that a logarithmic axis shows at most.
 pub const DECADES: f64 = 8.0;
@@ -57,8 +77,8 @@ impl DataPoints {
     }
 
     /// The points in a figure, masked ones as grey circles.
-    pub fn series(&self, name: &str, color: Rgb) -> impl Iterator<Item = figure::Series> {
-        let used = figure::Series::measured(name, self.used.clone(), Symbol::Disc).colored(color);
+    pub fn series(&self, name: &str, color: Rgb, marker: Symbol) -> impl Iterator<Item = figure::Series> {
+        let used = figure::Series::measured(name, self.used.clone(), marker).colored(color);
         let masked = figure::Series::measured(tr!("masked"), self.masked.clone(), Symbol::Circle).colored(MUTED);
         [used, masked].into_iter().zip([&self.used, &self.masked]).filter(|(_, points)| !points.is_empty()).map(|(series, _)| series)
     }
@@ -67,7 +87,10 @@ impl DataPoints {
 /// What is drawn of one measured θi.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesMarks {
+    /// Its place among all series of the measurement.
+    pub index: usize,
     pub name: String,
+    pub ink: Rgb,
     pub dolp: DataPoints,
     pub brdf: DataPoints,
 }
@@ -126,7 +149,7 @@ pub struct CurveKey {
     pub times_cosine: bool,
     /// Whether the backscatter side is drawn.
     pub backscatter: bool,
-    pub generation: u64,
+    pub plotted: u64,
 }
 
 impl CurveKey {
@@ -138,8 +161,8 @@ impl CurveKey {
             theta_i: settings.theta_i,
             dphi: settings.dphi,
             times_cosine: settings.view_options.times_cosine,
-            backscatter: settings.show_backscatter || document.has_backscatter(),
-            generation: document.generation,
+            backscatter: settings.show_backscatter || work.measurements().shown().any(OpenMeasurement::has_backscatter),
+            plotted: document.plotted,
         }
     }
 
@@ -195,15 +218,15 @@ pub struct MarkSet {
 pub enum Decimation {
     /// Of so many points one in `step` is drawn.
     Points { step: usize, of: usize },
-    /// Of so many series the first are drawn.
-    Series { of: usize },
+    /// So many series of so many are drawn.
+    Series { drawn: usize, of: usize },
 }
 
 impl Decimation {
     pub fn text(self) -> String {
         match self {
             Self::Points { step, of } => tr!("every {0}th of {1} points is drawn", step, of),
-            Self::Series { of } => tr!("{0} of {1} angles of incidence are drawn", MOST_SERIES, of),
+            Self::Series { drawn, of } => tr!("{0} of {1} angles of incidence are drawn", drawn, of),
         }
     }
 }
@@ -212,16 +235,20 @@ impl MarkSet {
     pub fn new(document: &OpenMeasurement, times_cosine: bool) -> Self {
         let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
         let step = total.div_ceil(MOST_POINTS).max(1);
-        let series = drawn(document).map(|series| SeriesMarks {
+        let of = document.series.len();
+        let series = document.drawn().iter().map(|&index| (index, &document.series[index]));
+        let series = series.map(|(index, series)| SeriesMarks {
+            index,
             name: series.name(),
+            ink: series_ink(index, of),
             dolp: DataPoints::new(&series.dolp, step, |_, value| value),
             brdf: DataPoints::new(&series.brdf, step, |theta_r, value| drawn_brdf(theta_r, value, times_cosine)),
         });
-        let hidden = document.series.len().saturating_sub(MOST_SERIES);
-        let left_out = match (hidden, step) {
+        let drawn = document.drawn().len();
+        let left_out = match (of - drawn, step) {
             (0, 1) => None,
             (0, _) => Some(Decimation::Points { step, of: total }),
-            _ => Some(Decimation::Series { of: document.series.len() }),
+            _ => Some(Decimation::Series { drawn, of }),
         };
         Self { series: series.collect(), left_out }
     }
@@ -234,7 +261,7 @@ pub fn axis_values(curve: &Polyline) -> impl Iterator<Item = f64> {
 
 /// The series that are drawn.
 pub fn drawn(document: &OpenMeasurement) -> impl Iterator<Item = &IncidenceSeries> {
-    document.series.iter().take(MOST_SERIES)
+    document.drawn().iter().filter_map(|&index| document.series.get(index))
 }
 
 impl ModelCurves {

@@ -2,22 +2,29 @@
 //! ΔE, what the data determine.
 
 use crate::app::jobs::memo::Memo;
+use crate::app::views::companions::Companions;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
 use crate::app::work::fit_setup::fit_problem;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
 use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights, is_determined};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
+use std::collections::BTreeMap;
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
 pub struct Derived {
-    /// Measured points, by generation of the document and whether a BRDF is multiplied by cos θr.
+    /// Measured points, by the state of the document and whether a BRDF is multiplied by cos θr.
     pub marks: Memo<(u64, bool), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
-    problem: Memo<(u64, Model), Option<Problem>>,
-    delta_e: Memo<(Parameters, u64, Model), Option<f64>>,
+    /// What is drawn beside the active measurement and its surface.
+    pub companions: Companions,
+    /// How far the surface of each open measurement is from its data, by the number of the
+    /// measurement.
+    misfits: BTreeMap<u64, Misfit>,
+    active: u64,
     /// Whether every value that counts comes with its standard deviation, by generation of the
     /// document.
     states_sigmas: Memo<u64, bool>,
@@ -25,6 +32,25 @@ pub struct Derived {
     /// Whether the panel of fits shows what the data determine.
     pub is_outlook_shown: bool,
     outlook: Memo<OutlookKey, Option<Identifiability>>,
+}
+
+/// How far a surface is from its data.
+#[derive(Default)]
+struct Misfit {
+    problem: Memo<(u64, Model), Option<Problem>>,
+    delta_e: Memo<(Parameters, u64, Model), Option<f64>>,
+}
+
+impl Misfit {
+    fn refresh(&mut self, open: &OpenMeasurement) {
+        let Surface { parameters, model, .. } = open.surface;
+        // ΔE does not depend on the options of a fit.
+        self.problem.refresh((open.generation, model), |_| {
+            fit_problem(&open.surface, &open.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
+        });
+        let problem = self.problem.get().and_then(Option::as_ref);
+        self.delta_e.refresh((parameters, open.generation, model), |_| problem?.delta_e(&parameters));
+    }
 }
 
 /// Surface, free parameters, options of the fit, generation of the measurement.
@@ -35,8 +61,11 @@ impl Derived {
     pub fn refresh_curves(&mut self, work: &Workspace) {
         let (settings, document) = (work.settings(), work.active());
         let times_cosine = settings.view_options.times_cosine;
-        self.marks.refresh((document.generation, times_cosine), |_| MarkSet::new(document, times_cosine));
+        self.marks.refresh((document.plotted, times_cosine), |_| MarkSet::new(document, times_cosine));
         self.curves.refresh(CurveKey::new(work), |key| CurveSet::new(key, document));
+        if let Some(key) = self.curves.key() {
+            self.companions.refresh(work, key);
+        }
     }
 
     /// What is on screen whatever the panes are: ΔE, and why there is no curve.
@@ -44,13 +73,12 @@ impl Derived {
         let (surface, document) = (work.surface(), work.active());
         let Surface { parameters, model, .. } = *surface;
         self.fault.refresh((parameters, model), |_| Pbrdf::new(model, parameters).err());
-        // ΔE does not depend on the options of a fit.
-        self.problem.refresh((document.generation, model), |_| {
-            fit_problem(surface, &document.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
-        });
+        self.active = document.number;
+        self.misfits.retain(|number, _| work.measurements().get(*number).is_some());
+        for open in work.measurements().iter() {
+            self.misfits.entry(open.number).or_default().refresh(open);
+        }
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
-        let problem = self.problem.get().and_then(Option::as_ref);
-        self.delta_e.refresh((parameters, document.generation, model), |_| problem?.delta_e(&parameters));
     }
 
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
@@ -65,12 +93,17 @@ impl Derived {
 
     /// ΔE of the sliders.
     pub fn delta_e(&self) -> Option<f64> {
-        self.delta_e.get().copied().flatten()
+        self.delta_e_of(self.active)
+    }
+
+    /// ΔE of the surface of the open measurement of that number.
+    pub fn delta_e_of(&self, number: u64) -> Option<f64> {
+        self.misfits.get(&number)?.delta_e.get().copied().flatten()
     }
 
     /// How many measured values a fit has; none where the model predicts nothing of them.
     pub fn values(&self) -> Option<usize> {
-        Some(self.problem.get()?.as_ref()?.len())
+        Some(self.misfits.get(&self.active)?.problem.get()?.as_ref()?.len())
     }
 
     /// Whether every value that counts comes with its standard deviation.

@@ -6,17 +6,19 @@ use crate::app::plots::theme::FOREGROUND;
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, Range, nice_ceiling, switching_key_line_ui, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
+use crate::app::views::companions::{CompanionId, Companions};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn};
 use crate::app::views::facets::{another, sigma_of_equal_median};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
 use crate::app::views::residuals::ResidualStrip;
+use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::{Overlay, Settings, ViewOptions};
 use crate::app::work::workspace::Workspace;
-use crate::figure::{Axis, Dash, Figure, Panel, Rgb, SERIES, Series};
+use crate::figure::{Axis, Dash, Figure, Panel, Rgb, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
 use pbrdf::model::{Model, Parameters, Pbrdf};
@@ -46,13 +48,15 @@ pub struct DolpView {
     pub residuals: ResidualStrip,
     plot: FigurePlot<FigureKey>,
     hidden: BTreeSet<Line>,
+    /// The measurement whose series are hidden.
+    hidden_of: u64,
 }
 
-/// What the figure depends on: curves, points, last fit, other distribution and band, each by its
-/// stamp; what is shown and what hidden; the axis; the language.
-type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
+/// What the figure depends on: curves, points, last fit, other distribution, band and companions, each
+/// by its stamp; what is shown and what hidden; the axis; the language.
+type FigureKey = ([u64; 6], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
-/// Another surface than the sliders', the generation of the document, whether the backscatter side
+/// Another surface than the sliders', the state of the document, whether the backscatter side
 /// is drawn.
 type SurfaceKey = (Parameters, Model, u64, bool);
 
@@ -76,7 +80,7 @@ impl DolpView {
     /// ModelCurves of other surfaces than the sliders', and the band.
     fn refresh_others(&mut self, cx: &Cx<'_>, backscatter: bool) {
         let (settings, surface, document) = (cx.work.settings(), cx.work.surface(), cx.work.active());
-        let key_of = |parameters, model| (parameters, model, document.generation, backscatter);
+        let key_of = |parameters, model| (parameters, model, document.plotted, backscatter);
         let of_sliders = key_of(surface.parameters, surface.model);
         let fitted = cx.work.shown_fit().map(|fit| key_of(fit.report.parameters, fit.report.model));
         self.ghost.refresh(fitted.filter(|key| *key != of_sliders), |key| along_series(key.as_ref(), document));
@@ -95,7 +99,9 @@ impl DolpView {
         let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
         let points = marks.series.iter().flat_map(|marks| &marks.dolp.used).map(|point| point.bar.map_or(point.y, |bar| bar.1));
         let ghost = self.ghost.get().into_iter().flatten().flat_map(axis_values);
-        let top = values.chain(ghost).chain(points).fold(0.0, f64::max);
+        let others = cx.derived.companions.iter().flat_map(|companion| &companion.drawn.dolp_points);
+        let others = others.map(|point| point.bar.map_or(point.y, |bar| bar.1));
+        let top = values.chain(ghost).chain(points).chain(others).fold(0.0, f64::max);
         let high = if cx.work.settings().view_options.share { 1.05 } else { nice_ceiling(top).min(1.05) };
         self.range.follow(Range { low: 0.0, high }, cx.interacting);
     }
@@ -103,10 +109,15 @@ impl DolpView {
     fn describe(&self, curves: &CurveSet, key: &CurveKey, marks: &MarkSet, cx: &Cx<'_>) -> Figure {
         let names = Names::new(cx.work);
         let mut series = Vec::new();
-        for (i, ((curves, marks), color)) in curves.series.iter().zip(&marks.series).zip(SERIES).enumerate() {
-            if !self.shows(Line::Series(i)) {
+        let marker = cx.work.active().style.marker;
+        for companion in cx.derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id))) {
+            series.extend(companion.dolp());
+        }
+        for (i, (curves, marks)) in curves.series.iter().zip(&marks.series).enumerate() {
+            if !self.shows(Line::Series(marks.index)) {
                 continue;
             }
+            let color = marks.ink;
             let of_series = |along: &Memo<Option<SurfaceKey>, Vec<Polyline>>| along.get().and_then(|curves| curves.get(i)).cloned();
             self.push_limit(&mut series, curves, &names, color, cx.work.settings());
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)).filter(|_| self.shows(Line::Band)) {
@@ -119,7 +130,7 @@ impl DolpView {
                 series.push(Series::dashed(&names.ghost, curve, Dash::Dotted).colored(color).faded(GHOST));
             }
             series.push(Series::line(&marks.name, curves.dolp.clone()).colored(color));
-            series.extend(marks.dolp.series(&marks.name, color));
+            series.extend(marks.dolp.series(&marks.name, color, marker));
             self.push_share(&mut series, curves, &names, color, cx.work.settings());
         }
         if curves.own_is_series.is_none() && self.shows(Line::Own) {
@@ -156,9 +167,14 @@ impl View for DolpView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let derived = cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+        let number = cx.work.active().number;
+        if std::mem::replace(&mut self.hidden_of, number) != number {
+            self.hidden.retain(|line| !matches!(line, Line::Series(_)));
+        }
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);
-        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.ghost.stamp(), self.overlay.stamp(), self.band.stamp()];
+        let [curve_stamp, mark_stamp, companion_stamp] = [derived.curves.stamp(), derived.marks.stamp(), derived.companions.stamp()];
+        let stamps = [curve_stamp, mark_stamp, self.ghost.stamp(), self.overlay.stamp(), self.band.stamp(), companion_stamp];
         let figure_key = (
             stamps,
             cx.work.settings().view_options,
@@ -170,8 +186,9 @@ impl View for DolpView {
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
-        let hidden: Vec<bool> = (0..marks.series.len()).map(|i| !self.shows(Line::Series(i))).collect();
-        self.residuals.refresh(key, marks, hidden, cx);
+        let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
+        let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id))).collect();
+        self.residuals.refresh(key, marks, hidden, companions, cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -186,6 +203,7 @@ impl View for DolpView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        series_choice_ui(cx.work.active(), cx.edits, ui);
         cx.view_options_ui(|shown| {
             ui.checkbox(&mut shown.share, tr!("Specular share"))
                 .on_hover_text(tr!("Specular part of the radiance, 0 to 1: DoLP is the Fresnel limit times this share"));
@@ -218,7 +236,7 @@ impl View for DolpView {
 impl DolpView {
     fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32) {
         let Some(marks) = cx.derived.marks.get() else { return };
-        let entries = self.key_entries(marks, cx.work, ui.visuals().dark_mode);
+        let entries = self.key_entries(marks, &cx.derived.companions, cx.work, ui.visuals().dark_mode);
         let top = ui.cursor().top();
         switching_key_line_ui(&entries, &mut self.hidden, ui);
         let height = height - (ui.cursor().top() - top);
@@ -238,12 +256,12 @@ impl DolpView {
 
     /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot
     /// keeps its height while one moves.
-    fn key_entries(&self, marks: &MarkSet, work: &Workspace, dark: bool) -> Vec<(Line, KeyEntry)> {
+    fn key_entries(&self, marks: &MarkSet, companions: &Companions, work: &Workspace, dark: bool) -> Vec<(Line, KeyEntry)> {
         let (names, settings, is_fitted) = (Names::new(work), work.settings(), work.shown_fit().is_some());
         let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
         let curve = (LineStyle::Solid, 2.0);
-        let series = marks.series.iter().enumerate();
-        let series = series.map(|(i, marks)| (Line::Series(i), marks.name.clone(), theme::series(i, dark), curve));
+        let series = marks.series.iter();
+        let series = series.map(|marks| (Line::Series(marks.index), marks.name.clone(), theme::on_screen(marks.ink, dark), curve));
         let band = (Line::Band, tr!("± 1 standard error"), quiet.gamma_multiply(0.5), (LineStyle::Solid, BAND));
         let is_overlaid = self.overlay.get().is_some_and(|overlay| !overlay.is_empty());
         let others = [
@@ -255,10 +273,11 @@ impl DolpView {
             (settings.view_options.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
         ];
         let others = others.into_iter().filter(|(is_shown, _)| *is_shown).map(|(_, entry)| entry);
-        series
-            .chain(others)
-            .map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width, symbol: None, on_map: false }))
-            .collect()
+        let lines = series.chain(others);
+        let lines =
+            lines.map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width, symbol: None, on_map: false }));
+        let companions = companions.iter().map(|companion| (Line::Companion(companion.id), companion.key_entry(dark)));
+        lines.chain(companions).collect()
     }
 }
 
@@ -290,8 +309,9 @@ const STRIP: f32 = 0.25;
 /// What can be hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Line {
-    /// All of a measured series, by its number.
+    /// All of a measured series, by its place in the measurement.
     Series(usize),
+    Companion(CompanionId),
     /// All at the sliders' own θi.
     Own,
     Limit,

@@ -6,13 +6,15 @@ use crate::app::plots::theme::FOREGROUND;
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Range, nice_ceiling, switching_key_line_ui, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
+use crate::app::views::companions::{Companion, CompanionId, Companions};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, brdf_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
+use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::settings::ViewOptions;
-use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
+use crate::figure::{Axis, Dash, Figure, Panel, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
 use std::collections::BTreeSet;
@@ -37,17 +39,20 @@ pub struct LobesView {
     plot: FigurePlot<FigureKey>,
     /// The curves that are not drawn.
     hidden: BTreeSet<Line>,
+    /// The measurement whose series are hidden.
+    hidden_of: u64,
 }
 
-/// What the figure depends on: curves, points and band by their stamps; what is shown and what
+/// What the figure depends on: curves, points, band and companions by their stamps; what is shown and what
 /// hidden; the axis; the language.
-type FigureKey = ([u64; 3], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
+type FigureKey = ([u64; 4], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
 /// A curve of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Line {
-    /// A measured series by its number, with its points.
+    /// A measured series by its place in the measurement, with its points.
     Series(usize),
+    Companion(CompanionId),
     Term(Term),
     Total,
 }
@@ -71,7 +76,8 @@ impl LobesView {
     fn follow(&mut self, curves: &CurveSet, marks: &MarkSet, cx: &Cx<'_>) {
         let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| !marks.brdf.is_empty()).map(|(curves, _)| curves);
         let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
-        let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y));
+        let others = cx.derived.companions.iter().flat_map(|companion| companion.drawn.brdf_points.iter().map(|point| point.y));
+        let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y)).chain(others);
         let log = cx.work.settings().log_brdf;
         let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in of_curves.chain(of_marks).map(|value| if log { libm::log10(value) } else { value }).filter(|value| value.is_finite()) {
@@ -96,13 +102,18 @@ impl LobesView {
             range.on(Axis::linear(quantity, unit))
         };
         let mut series = Vec::new();
-        let all = curves.series.iter().zip(&marks.series).zip(SERIES).enumerate();
-        for (i, ((curves, marks), color)) in all.filter(|(i, ((_, marks), _))| !marks.brdf.is_empty() && self.shows(Line::Series(*i))) {
+        let marker = cx.work.active().style.marker;
+        for companion in cx.derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id))) {
+            series.extend(companion.brdf());
+        }
+        let all = curves.series.iter().zip(&marks.series).enumerate();
+        for (i, (curves, marks)) in all.filter(|(_, (_, marks))| !marks.brdf.is_empty() && self.shows(Line::Series(marks.index))) {
+            let color = marks.ink;
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)) {
                 series.push(Series::band(&marks.name, band.clone()).colored(color));
             }
             series.push(Series::line(&marks.name, curves.total.clone()).colored(color));
-            series.extend(marks.brdf.series(&marks.name, color));
+            series.extend(marks.brdf.series(&marks.name, color, marker));
         }
         for (term, curve) in curves.own.terms().filter(|(term, _)| self.shows(Line::Term(*term))) {
             if settings.view_options.filled {
@@ -120,14 +131,17 @@ impl LobesView {
     }
 
     /// The measured series, then the terms.
-    fn key_entries(curves: &CurveSet, marks: &MarkSet, dark: bool) -> Vec<(Line, KeyEntry)> {
+    fn key_entries(curves: &CurveSet, marks: &MarkSet, companions: &Companions, dark: bool) -> Vec<(Line, KeyEntry)> {
         let entry = |line, name: &str, color, width| {
             (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width, symbol: None, on_map: false })
         };
-        let measured = marks.series.iter().enumerate().filter(|(_, marks)| !marks.brdf.is_empty());
-        let measured = measured.map(|(i, marks)| entry(Line::Series(i), &marks.name, theme::series(i, dark), 2.0));
+        let measured = marks.series.iter().filter(|marks| !marks.brdf.is_empty());
+        let measured = measured.map(|marks| entry(Line::Series(marks.index), &marks.name, theme::on_screen(marks.ink, dark), 2.0));
+        let companions = companions.iter().filter(Companion::has_brdf);
+        let companions = companions.map(|companion| (Line::Companion(companion.id), companion.key_entry(dark)));
         let terms = curves.own.terms().map(|(term, _)| entry(Line::Term(term), &term.name(), theme::on_screen(term.ink(), dark), 1.5));
-        measured.chain(terms).chain([entry(Line::Total, &tr!("total"), theme::foreground(dark), 2.0)]).collect()
+        let total = entry(Line::Total, &tr!("total"), theme::foreground(dark), 2.0);
+        measured.chain(terms).chain([total]).chain(companions).collect()
     }
 }
 
@@ -144,6 +158,10 @@ impl View for LobesView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let derived = cx.derived;
         let (Some(curves), Some(key), Some(marks)) = (derived.curves.get(), derived.curves.key(), derived.marks.get()) else { return };
+        let number = cx.work.active().number;
+        if std::mem::replace(&mut self.hidden_of, number) != number {
+            self.hidden.retain(|line| !matches!(line, Line::Series(_)));
+        }
         self.follow(curves, marks, cx);
         // Where no BRDF was measured there is no fitted lobe.
         let shown = cx.work.settings().show_band && cx.work.active().measurement.has_brdf();
@@ -153,7 +171,7 @@ impl View for LobesView {
             (Some((_, _, backscatter, times_cosine)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *times_cosine),
             _ => Vec::new(),
         });
-        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp()];
+        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp(), derived.companions.stamp()];
         let figure_key =
             (stamps, cx.work.settings().view_options, cx.work.settings().log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
@@ -163,7 +181,7 @@ impl View for LobesView {
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
-        switching_key_line_ui(&Self::key_entries(curves, marks, ui.visuals().dark_mode), &mut self.hidden, ui);
+        switching_key_line_ui(&Self::key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
         let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
         let quantity = quantity(times_cosine);
         let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr\n{}", translated(MASK_HINT));
@@ -184,6 +202,7 @@ impl View for LobesView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        series_choice_ui(cx.work.active(), cx.edits, ui);
         cx.switch_ui(Switch::LogBrdf, tr!("Logarithmic BRDF"), ui);
         cx.view_options_ui(|shown| {
             ui.checkbox(&mut shown.filled, tr!("Filled lobes")).on_hover_text(tr!("Each term filled down to the axis"));

@@ -7,6 +7,7 @@
 pub mod action;
 mod audit;
 pub mod benchmarks;
+mod companions;
 pub mod confidence_band;
 pub mod context;
 mod convergence;
@@ -29,12 +30,14 @@ mod polar_lobes;
 mod report;
 mod residuals;
 mod residuals_against_angle;
+mod series_choice;
 mod stability;
 
 pub use context::{Cx, PaneSpec, View};
 pub use data::table_text;
 pub use metals::values;
 pub use models::running_model_ui;
+pub use series_choice::choice_ui;
 
 #[cfg(test)]
 pub use {

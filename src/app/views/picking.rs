@@ -1,6 +1,5 @@
 //! Clicks on measured points.
 
-use crate::app::views::curves::drawn;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use egui::Ui;
@@ -13,7 +12,7 @@ const NEAR: f32 = 12.0;
 pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
 
 /// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks`
-/// gives the points that are drawn of a series, by its number, and `coordinate` their height in the
+/// gives the points that are drawn of a series, by its place in the measurement, and `coordinate` their height in the
 /// plot.
 pub fn clicked_mask(
     response: &PlotResponse<()>,
@@ -28,7 +27,8 @@ pub fn clicked_mask(
         let point = PlotPoint::new(mark.theta_r, coordinate(mark)?);
         Some(response.transform.position_from_point(&point).distance(at))
     };
-    let near = drawn(document).enumerate().flat_map(|(i, series)| marks(i, series).iter().map(move |mark| (series, mark)));
+    let series = document.drawn().iter().map(|&index| (index, &document.series[index]));
+    let near = series.flat_map(|(index, series)| marks(index, series).iter().map(move |mark| (series, mark)));
     let near = near.filter_map(|(series, mark)| Some((series, mark, distance(mark)?))).filter(|(.., distance)| *distance < NEAR);
     let (series, mark, _) = near.min_by(|a, b| a.2.total_cmp(&b.2))?;
     let rows = if modifiers.shift { series.rows.clone() } else { vec![mark.row] };

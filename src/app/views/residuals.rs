@@ -5,11 +5,12 @@ use crate::app::plots::theme::MUTED;
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range, nice_ceiling};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
+use crate::app::views::companions::{Companion, CompanionId};
 use crate::app::views::context::Cx;
-use crate::app::views::curves::{CurveKey, MOST_POINTS, MOST_SERIES, MarkSet, drawn};
+use crate::app::views::curves::{CurveKey, MOST_POINTS, MarkSet, drawn};
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::app::work::surface::Surface;
-use crate::figure::{Axis, Figure, Panel, SERIES, Series};
+use crate::figure::{Axis, Figure, Panel, Series};
 use egui::Ui;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -28,21 +29,23 @@ pub struct ResidualStrip {
 /// θr in degrees and the residual of DoLP, point by point.
 type Curve = Vec<[f64; 2]>;
 
-/// Stamp of the residuals, which series are hidden, the axis of θr, that of the residuals, the
-/// language.
-type PlotKey = (u64, Vec<bool>, Range, Option<Range>, Language);
+/// Stamp of the residuals, which series are hidden, stamp of the companions and which of them are
+/// drawn, the axis of θr, that of the residuals, the language.
+type PlotKey = (u64, Vec<bool>, (u64, Vec<CompanionId>), Range, Option<Range>, Language);
 
 /// Half the axis where a fit has been exact from the first.
 const EXACT: f64 = 0.01;
 
 impl ResidualStrip {
-    pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, cx: &Cx<'_>) {
+    pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, companions: Vec<Companion<'_>>, cx: &Cx<'_>) {
         let (surface, document) = (cx.work.surface(), cx.work.active());
-        let key = (surface.parameters, surface.model, document.generation);
+        let key = (surface.parameters, surface.model, document.plotted);
         self.of_series.refresh(key, |_| of_all(surface, document));
         self.is_there = document.series.iter().any(|series| !series.dolp.is_empty());
         let Some(residuals) = self.of_series.get() else { return };
-        let largest = residuals.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
+        let others = companions.iter().flat_map(|companion| &companion.drawn.dolp_residuals);
+        let others = others.map(|residual| residual.value.abs());
+        let largest = residuals.iter().flatten().map(|point| point[1].abs()).chain(others).fold(0.0, f64::max);
         if largest > 0.0 {
             let end = 1.08 * nice_ceiling(largest);
             self.range.follow(Range { low: -end, high: end }, cx.interacting);
@@ -51,12 +54,14 @@ impl ResidualStrip {
             self.range.follow(Range { low: -EXACT, high: EXACT }, cx.interacting);
         }
         let range = &self.range;
-        let key = (self.of_series.stamp(), hidden, curves.x(), range.get(), i18n::current());
-        self.plot.refresh(key, |(_, hidden, x, ..)| {
+        let beside = (cx.derived.companions.stamp(), companions.iter().map(|companion| companion.id).collect());
+        let key = (self.of_series.stamp(), hidden, beside, curves.x(), range.get(), i18n::current());
+        self.plot.refresh(key, |(_, hidden, _, x, ..)| {
             let mut series = vec![Series::level("", 0.0).colored(MUTED)];
-            let all = residuals.iter().zip(&marks.series).zip(hidden).zip(SERIES);
-            for (((residuals, marks), _), color) in all.filter(|(((residuals, _), hidden), _)| !residuals.is_empty() && !**hidden) {
-                series.push(Series::points(&marks.name, residuals.iter().copied()).colored(color));
+            series.extend(companions.iter().filter_map(|companion| companion.residuals(&companion.drawn.dolp_residuals, false)));
+            let all = residuals.iter().zip(&marks.series).zip(hidden);
+            for ((residuals, marks), _) in all.filter(|((residuals, _), hidden)| !residuals.is_empty() && !**hidden) {
+                series.push(Series::points(&marks.name, residuals.iter().copied()).colored(marks.ink));
             }
             let (x, y) = (x.on(Axis::default()), range.on(Axis::linear(tr!("model − meas."), "")));
             Some(Figure { panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() })
@@ -85,7 +90,7 @@ const LOW: f32 = 100.0;
 fn of_all(surface: &Surface, document: &OpenMeasurement) -> Vec<Vec<[f64; 2]>> {
     let Ok(surface) = Pbrdf::new(surface.model, surface.parameters) else { return Vec::new() };
     let of_one = |series: &IncidenceSeries| {
-        let step = series.dolp.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
+        let step = series.dolp.len().div_ceil(MOST_POINTS / document.drawn().len().max(1)).max(1);
         let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
         let residual = |mark: &DataPoint| {
             let facet = Facet::new(series.geometry(mark.theta_r)?);

@@ -6,10 +6,12 @@ use crate::app::plots::theme::MUTED;
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range, nice_ceiling};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
+use crate::app::views::companions::{Companion, Residual, residuals};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{MOST_POINTS, MOST_SERIES, drawn};
+use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn};
+use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
-use crate::figure::{Axis, Figure, Panel, SERIES, Series};
+use crate::figure::{Axis, Figure, Panel, Series};
 use egui::Ui;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -19,7 +21,7 @@ pub static SPEC: PaneSpec = PaneSpec {
     title: "Residuals against angle",
     tooltip: "Model less measurement against the angle of view, in units of the stated standard deviations where all are stated; one colour for each angle of incidence",
     shortcut: None,
-    has_options: false,
+    has_options: true,
     has_figure: true,
     new: || Box::new(ResidualsAgainstAngleView::default()),
 };
@@ -31,18 +33,16 @@ pub struct ResidualsAgainstAngleView {
     of_fit: bool,
     residuals: Memo<(Parameters, Model, u64), Vec<QuantityResiduals>>,
     ranges: [AutoRange; 2],
-    /// Of the residuals by their stamp; whether the backscatter side is drawn; the axes; the
+    /// Of the residuals and the companions by their stamps; whether the backscatter side is drawn; the axes; the
     /// language.
-    plot: FigurePlot<(u64, bool, [Option<Range>; 2], Language)>,
+    plot: FigurePlot<([u64; 2], bool, [Option<Range>; 2], Language)>,
 }
 
 /// Residuals of one measured quantity.
 struct QuantityResiduals {
     quantity: Quantity,
-    /// Whether they are over their standard deviations.
-    in_sigma: bool,
-    /// θr in degrees and residual of each series, without masked points.
-    of_series: Vec<Vec<[f64; 2]>>,
+    /// Those of each series, without masked points.
+    of_series: Vec<Vec<Residual>>,
 }
 
 /// What was measured.
@@ -57,6 +57,13 @@ impl Quantity {
         match self {
             Self::Dolp => &series.dolp,
             Self::Brdf => &series.brdf,
+        }
+    }
+
+    fn of_companion<'a>(self, companion: &Companion<'a>) -> &'a [Residual] {
+        match self {
+            Self::Dolp => &companion.drawn.dolp_residuals,
+            Self::Brdf => &companion.drawn.brdf_residuals,
         }
     }
 
@@ -83,37 +90,54 @@ impl QuantityResiduals {
     fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement) -> Option<Self> {
         let used = || drawn(document).flat_map(|series| quantity.points(series)).filter(|mark| !mark.masked);
         used().next()?;
-        let in_sigma = used().all(|mark| mark.quantity.sigma.is_some_and(|sigma| sigma > 0.0));
         let of_series = drawn(document).map(|series| {
             let points = quantity.points(series);
-            let step = points.len().div_ceil(MOST_POINTS / MOST_SERIES).max(1);
-            let residual = |mark: &DataPoint| {
-                let facet = Facet::new(series.geometry(mark.theta_r)?);
-                let unit = mark.quantity.sigma.filter(|_| in_sigma).unwrap_or(1.0);
-                Some([mark.theta_r, (quantity.of_model(surface, &facet) - mark.quantity.value) / unit])
-            };
-            points.iter().step_by(step).filter(|mark| !mark.masked).filter_map(residual).collect()
+            let step = points.len().div_ceil(MOST_POINTS / document.drawn().len().max(1)).max(1);
+            let used: Vec<DataPoint> = points.iter().step_by(step).filter(|mark| !mark.masked).copied().collect();
+            residuals(series, &used, |facet| quantity.of_model(surface, facet)).collect()
         });
-        Some(Self { quantity, in_sigma, of_series: of_series.collect() })
+        Some(Self { quantity, of_series: of_series.collect() })
     }
 
-    fn panel(&self, names: &[String], x: &Axis, range: &AutoRange, legend: bool) -> Panel {
+    /// All that are drawn in its panel.
+    fn all<'a>(&'a self, companions: &'a [Companion<'a>]) -> impl Iterator<Item = &'a Residual> {
+        let others = companions.iter().flat_map(|companion| self.quantity.of_companion(companion));
+        self.of_series.iter().flatten().chain(others)
+    }
+
+    /// Whether all are over their standard deviations.
+    fn in_sigma(&self, companions: &[Companion<'_>]) -> bool {
+        self.all(companions).all(|residual| residual.sigma.is_some())
+    }
+
+    fn panel(&self, marks: &MarkSet, companions: &[Companion<'_>], x: &Axis, range: &AutoRange, legend: bool) -> Panel {
+        let in_sigma = self.in_sigma(companions);
         let mut series = vec![Series::level("", 0.0).colored(MUTED)];
-        if self.in_sigma {
+        if in_sigma {
             series.extend([-1.0, 1.0].map(|sigma| Series::level("", sigma).colored(MUTED).faded(0.5)));
         }
-        let all = self.of_series.iter().zip(names).zip(SERIES).filter(|((residuals, _), _)| !residuals.is_empty());
-        series.extend(all.map(|((residuals, name), color)| Series::points(name, residuals.iter().copied()).colored(color)));
-        Panel { x: x.clone(), y: range.on(self.quantity.axis(self.in_sigma)), series, legend, ..Panel::default() }
+        let of_companion = |companion: &Companion<'_>| companion.residuals(self.quantity.of_companion(companion), in_sigma);
+        series.extend(companions.iter().filter_map(of_companion));
+        let all = self.of_series.iter().zip(&marks.series).filter(|(residuals, _)| !residuals.is_empty());
+        series.extend(all.map(|(residuals, marks)| {
+            Series::points(&marks.name, residuals.iter().map(|residual| residual.place(in_sigma))).colored(marks.ink)
+        }));
+        Panel { x: x.clone(), y: range.on(self.quantity.axis(in_sigma)), series, legend, ..Panel::default() }
     }
 }
 
 impl View for ResidualsAgainstAngleView {
+    fn needs_curves(&self) -> bool {
+        true
+    }
+
     fn refresh(&mut self, cx: &mut Cx<'_>) {
-        let (settings, surface, document) = (cx.work.settings(), cx.work.surface(), cx.work.active());
+        let (surface, document) = (cx.work.surface(), cx.work.active());
+        let (Some(marks), Some(curves)) = (cx.derived.marks.get(), cx.derived.curves.key()) else { return };
+        let companions: Vec<Companion<'_>> = cx.derived.companions.iter().collect();
         let fit = cx.work.shown_fit().filter(|fit| self.of_fit && fit.number == document.number);
         let (parameters, model) = fit.map_or((surface.parameters, surface.model), |fit| (fit.report.parameters, fit.report.model));
-        self.residuals.refresh((parameters, model, document.generation), |_| match Pbrdf::new(model, parameters) {
+        self.residuals.refresh((parameters, model, document.plotted), |_| match Pbrdf::new(model, parameters) {
             Ok(surface) => [Quantity::Dolp, Quantity::Brdf]
                 .into_iter()
                 .filter_map(|quantity| QuantityResiduals::new(quantity, &surface, document))
@@ -122,18 +146,19 @@ impl View for ResidualsAgainstAngleView {
         });
         let residuals = self.residuals.get().map_or(&[][..], Vec::as_slice);
         for (residuals, range) in residuals.iter().zip(&mut self.ranges) {
-            let largest = residuals.of_series.iter().flatten().map(|[_, y]| y.abs()).filter(|y| y.is_finite()).fold(0.0, f64::max);
+            let in_sigma = residuals.in_sigma(&companions);
+            let heights = residuals.all(&companions).map(|residual| residual.place(in_sigma)[1].abs());
+            let largest = heights.filter(|y| y.is_finite()).fold(0.0, f64::max);
             let end = nice_ceiling(largest);
             range.follow(Range { low: -end, high: end }, cx.interacting);
         }
-        let backscatter = settings.show_backscatter || document.has_backscatter();
         let ranges = &self.ranges;
-        let key = (self.residuals.stamp(), backscatter, [ranges[0].get(), ranges[1].get()], i18n::current());
+        let stamps = [self.residuals.stamp(), cx.derived.companions.stamp()];
+        let key = (stamps, curves.backscatter, [ranges[0].get(), ranges[1].get()], i18n::current());
         self.plot.refresh(key, |_| {
-            let names: Vec<String> = drawn(document).map(IncidenceSeries::name).collect();
-            let x = Axis::linear("θr", "°").between(if backscatter { -90.0 } else { 0.0 }, 90.0);
+            let x = curves.x().on(Axis::linear("θr", "°"));
             let panels = residuals.iter().zip(ranges).enumerate();
-            let panels: Vec<Panel> = panels.map(|(i, (residuals, range))| residuals.panel(&names, &x, range, i == 0)).collect();
+            let panels: Vec<Panel> = panels.map(|(i, (residuals, range))| residuals.panel(marks, &companions, &x, range, i == 0)).collect();
             (!panels.is_empty()).then(|| Figure { title: document.title(), panels, ..Figure::default() })
         });
     }
@@ -160,6 +185,10 @@ impl View for ResidualsAgainstAngleView {
         }
     }
 
+    fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        series_choice_ui(cx.work.active(), cx.edits, ui);
+    }
+
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
         self.plot.figure().cloned()
     }
@@ -183,10 +212,13 @@ mod tests {
         let stated = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,0.02\n";
         let bare = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,\n";
         let (stated_dolp, bare_dolp) = (residuals(stated, Quantity::Dolp).expect("DoLP"), residuals(bare, Quantity::Dolp).expect("DoLP"));
-        assert!(stated_dolp.in_sigma && !bare_dolp.in_sigma);
-        let (over_sigma, plain) = (&stated_dolp.of_series[0], &bare_dolp.of_series[0]);
+        assert!(stated_dolp.in_sigma(&[]) && !bare_dolp.in_sigma(&[]));
+        let places = |residuals: &QuantityResiduals| -> Vec<[f64; 2]> {
+            residuals.of_series[0].iter().map(|residual| residual.place(residuals.in_sigma(&[]))).collect()
+        };
+        let (over_sigma, plain) = (places(&stated_dolp), places(&bare_dolp));
         assert_eq!(over_sigma.iter().map(|[x, _]| *x).collect::<Vec<_>>(), [20.0, 40.0]);
-        for ((over, plain), sigma) in over_sigma.iter().zip(plain).zip([0.01, 0.02]) {
+        for ((over, plain), sigma) in over_sigma.iter().zip(&plain).zip([0.01, 0.02]) {
             // A quotient.
             assert!((over[1] * sigma / plain[1] - 1.0).abs() < 4.0 * f64::EPSILON, "{over:?} {plain:?}");
         }

@@ -5,7 +5,7 @@ use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
-use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::Surface;
 use pbrdf::fit::{FitOptions, FitResult, Starts};
@@ -74,6 +74,11 @@ pub enum Edit {
     SetMeasurementStyle {
         number: u64,
         style: MeasurementStyle,
+    },
+    /// The angles of incidence that plots show of a measurement.
+    SetDrawnSeries {
+        number: u64,
+        drawn: DrawnSeries,
     },
     /// Adds a finished fit to the history, shows it and takes its values.
     AddFit(Box<FitEntry>),

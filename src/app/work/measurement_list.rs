@@ -167,6 +167,12 @@ impl MeasurementList {
         self.all.iter()
     }
 
+    /// The measurements that are drawn: the active one and the others that are shown.
+    pub fn shown(&self) -> impl Iterator<Item = &OpenMeasurement> {
+        let active = self.active().number;
+        self.all.iter().filter(move |open| open.style.shown || open.number == active)
+    }
+
     /// Gives the active surface these values; a shared parameter moves on all surfaces.
     pub fn set_parameters(&mut self, parameters: Parameters) {
         self.set_parameters_of(self.active().number, parameters);

@@ -70,11 +70,30 @@ pub struct OpenMeasurement {
     /// Another one for every measurement and after every change of one, so that what is derived
     /// knows.
     pub generation: u64,
+    /// The same after every change of what plots show of it.
+    pub plotted: u64,
     pub surface: Surface,
     pub style: MeasurementStyle,
     /// Whether the program opened it by itself and nothing was done with it yet.
     pub is_placeholder: bool,
     mask: Mask,
+    drawn: DrawnSeries,
+}
+
+/// The series that plots show, by their places, in ascending order.
+pub type DrawnSeries = Arc<[usize]>;
+
+/// Series that are drawn at first at most: more can hardly be told apart.
+const DRAWN_AT_FIRST: usize = 12;
+
+/// The series that are drawn of so many before anybody chooses: from the first to the last, evenly
+/// apart.
+pub fn drawn_at_first(count: usize) -> DrawnSeries {
+    if count <= DRAWN_AT_FIRST {
+        return (0..count).collect();
+    }
+    let steps = DRAWN_AT_FIRST - 1;
+    (0..DRAWN_AT_FIRST).map(|i| (i * (count - 1) + steps / 2) / steps).collect()
 }
 
 /// The rows that are masked, in ascending order.
@@ -95,8 +114,9 @@ impl OpenMeasurement {
         let mask = masked_rows(&measurement.rows);
         let surface = Surface::for_measurement(&measurement);
         let (style, measurement) = (MeasurementStyle::default(), Arc::new(measurement));
-        let is_placeholder = false;
-        Self { name, sha256: None, measurement, series, number, generation: number, surface, style, is_placeholder, mask }
+        let (is_placeholder, drawn) = (false, drawn_at_first(series.len()));
+        let (generation, plotted) = (number, number);
+        Self { name, sha256: None, measurement, series, number, generation, plotted, surface, style, is_placeholder, mask, drawn }
     }
 
     /// No measurement: what the sliders move where nothing is open.
@@ -119,6 +139,19 @@ impl OpenMeasurement {
     /// The rows that are masked.
     pub fn mask(&self) -> &Mask {
         &self.mask
+    }
+
+    /// The series that plots show.
+    pub fn drawn(&self) -> &DrawnSeries {
+        &self.drawn
+    }
+
+    /// Shows other series in plots; places that no series has are left out.
+    pub fn set_drawn(&mut self, drawn: &DrawnSeries) {
+        if *drawn != self.drawn {
+            self.drawn = drawn.iter().copied().filter(|place| *place < self.series.len()).collect();
+            self.plotted = next_generation();
+        }
     }
 
     /// Takes rows out of every statistic, or back in; they stay where they are.
@@ -151,6 +184,7 @@ impl OpenMeasurement {
 
     fn mask_changed(&mut self) {
         self.generation = next_generation();
+        self.plotted = self.generation;
         let rows = &self.measurement.rows;
         for mark in self.series.iter_mut().flat_map(|series| series.dolp.iter_mut().chain(&mut series.brdf)) {
             mark.masked = rows[mark.row].masked;

@@ -1,7 +1,7 @@
 //! What a step of undo restores.
 
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::open_measurement::{Mask, MeasurementStyle, OpenMeasurement};
+use crate::app::work::open_measurement::{DrawnSeries, Mask, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::model::ParameterSet;
@@ -26,6 +26,7 @@ struct MeasurementSetup {
     surface: Surface,
     style: MeasurementStyle,
     mask: Mask,
+    drawn: DrawnSeries,
 }
 
 impl Setup {
@@ -37,6 +38,7 @@ impl Setup {
             surface: open.surface.clone(),
             style: open.style,
             mask: open.mask().clone(),
+            drawn: open.drawn().clone(),
         };
         Self {
             settings: settings.clone(),
@@ -62,6 +64,7 @@ impl Setup {
             if let Some(open) = measurements.get_mut(setup.number) {
                 (open.name, open.surface, open.style) = (setup.name, setup.surface, setup.style);
                 open.restore_mask(&setup.mask);
+                open.set_drawn(&setup.drawn);
             }
         }
         (self.settings, self.pinned)

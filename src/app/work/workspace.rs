@@ -220,6 +220,11 @@ impl Workspace {
             Edit::MoveMeasurement { number, by } => self.measurements.move_by(number, by),
             Edit::RenameMeasurement { number, name } => self.rename(number, name),
             Edit::SetMeasurementStyle { number, style } => self.set_style(number, style),
+            Edit::SetDrawnSeries { number, drawn } => {
+                if let Some(open) = self.measurements.get_mut(number) {
+                    open.set_drawn(&drawn);
+                }
+            }
             Edit::SetProfiled(parameter) => self.active_results().diagnostics.parameter = Some(parameter),
             Edit::SetProfile(profile) => self.active_results().diagnostics.profile = profile,
             Edit::SetReplicates(replicates) => self.active_results().diagnostics.replicates = replicates,

@@ -11,11 +11,18 @@ use pbrdf::model::Preset;
 use std::sync::Arc;
 use tr::tr;
 
+/// The beginning of a name, for a narrow column.
+fn beginning(name: &str) -> String {
+    const LETTERS: usize = 14;
+    if name.chars().count() <= LETTERS { name.to_owned() } else { name.chars().take(LETTERS - 1).chain(['…']).collect() }
+}
+
 pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
     let (fits, shown, number) = (work.fit_history(), work.shown_fit(), work.active().number);
     if fits.is_empty() {
         return;
     }
+    let is_mixed = fits.iter().any(|fit| fit.number != number);
     let title = tr!("History of fits ({})", fits.len());
     CollapsingHeader::new(title).id_salt("past fits").show(ui, |ui| {
         ui.weak(tr!("A click returns to a fit; undo takes it back."));
@@ -28,14 +35,15 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
                 let report = &fit.report;
                 let model = Preset::of(report.model).map_or_else(|| tr!("own terms"), |preset| preset.key.to_owned());
                 let elsewhere =
-                    if fit.number == number { String::new() } else { format!("\n{}", tr!("of another measurement than the open one")) };
+                    if fit.number == number { String::new() } else { format!("\n{}", tr!("A click shows that measurement, too.")) };
                 let is_shown = shown.is_some_and(|shown| Arc::ptr_eq(shown, fit));
                 let line = |estimate: &Estimate| {
                     format!("\n{} = {}, {}", estimate.parameter.symbol(), estimate.value_text(), uncertainty_text(estimate))
                 };
                 let values: String = report.estimates.iter().filter(|estimate| estimate.free).map(line).collect();
                 let help = format!("{}\n{}{elsewhere}{values}", fit.document, report.stop_reason.localized());
-                if ui.selectable_label(is_shown, format!("{}. {model}", fit.id)).on_hover_text(help).clicked() {
+                let about = if is_mixed { format!(" · {}", beginning(&fit.document)) } else { String::new() };
+                if ui.selectable_label(is_shown, format!("{}. {model}{about}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Action::ReturnToFit(index));
                 }
                 ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));

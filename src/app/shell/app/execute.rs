@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::{compare_models, find_intervals, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
+use crate::app::shell::app::measurements;
 use crate::app::shell::app::open::{cancel_import, open, open_files, start_import};
 use crate::app::shell::dialogs::OverwritePrompt;
 use crate::app::shell::docking::Dock;
@@ -43,6 +44,12 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Replace => return app.dialogs.overwrite.take().map_or(Ok(()), |asked| execute(app, ctx, asked.command)),
         Action::KeepFile => app.dialogs.overwrite = None,
         Action::SaveMeasurement(path) => app.jobs.files.save(path, app.work.active().measurement.clone())?,
+        Action::ActivateMeasurement(number) => app.work.apply(Edit::Activate(number)),
+        Action::StepMeasurement(by) => measurements::step(app, by),
+        Action::RenameMeasurement => app.measurement_panel.rename(app.work.active()),
+        Action::MoveMeasurement(by) => app.work.apply(Edit::MoveMeasurement { number: app.work.active().number, by }),
+        Action::ShowMeasurements(shown) => measurements::show_all(app, shown),
+        Action::CloseMeasurement(number) => measurements::close(app, number),
         Action::OpenExample(index) => open_example(app, index)?,
         Action::ShowStep(lesson, step) => show_step(app, lesson, step)?,
         Action::CloseLesson => end_lesson(app)?,

@@ -7,11 +7,13 @@ mod fits;
 pub mod job_results;
 mod lesson;
 pub mod logic;
+mod measurements;
 pub mod open;
 pub mod session;
 pub mod ui;
 
 use crate::app::jobs::spawner::Spawner;
+use crate::app::panels::MeasurementPanel;
 use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::frame_times::FrameTimes;
@@ -46,6 +48,7 @@ pub struct App {
     pub toasts: Toasts,
     pub views: Views,
     pub dock: Dock,
+    pub measurement_panel: MeasurementPanel,
     pub dialogs: Dialogs,
     pub lessons: Lessons,
     pub persistence: Persistence,
@@ -75,6 +78,7 @@ impl App {
             benchmarks: Benchmarks::default(),
             toasts: Toasts::default(),
             views: Views::default(),
+            measurement_panel: MeasurementPanel::default(),
             dialogs: Dialogs::default(),
             lessons: Lessons::default(),
             persistence: Persistence::default(),
@@ -101,6 +105,13 @@ impl App {
         let Self { work, derived, jobs, benchmarks, edits, actions, interacting, views, dock, .. } = self;
         let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting };
         (cx, views, dock)
+    }
+
+    /// What panels get to see, and the panel of measurements.
+    pub fn split_panel(&mut self) -> (Cx<'_>, &mut MeasurementPanel) {
+        let Self { work, derived, jobs, benchmarks, edits, actions, interacting, measurement_panel, .. } = self;
+        let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting };
+        (cx, measurement_panel)
     }
 
     /// The figure of a pane, for files and the clipboard.

@@ -26,8 +26,9 @@ pub fn begin(app: &mut App) {
     let example = &EXAMPLES[0];
     match Measurement::read(example.text.as_bytes()) {
         Ok(measurement) => {
-            let opened = OpenMeasurement::new(example.name.to_owned(), measurement);
-            open(app, OpenMeasurement { is_placeholder: true, ..opened });
+            let mut opened = OpenMeasurement::new(example.name.to_owned(), measurement);
+            opened.is_placeholder = true;
+            open(app, opened);
         }
         Err(error) => app.toasts.error(tr!("The bundled example cannot be read: {}.", error.localized())),
     }

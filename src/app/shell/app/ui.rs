@@ -36,6 +36,12 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
 }
 
 fn parameters_ui(app: &mut App, ui: &mut Ui) {
+    if app.work.measurements().has_rows() {
+        Panel::top("measurements").show(ui, |ui| {
+            let (mut cx, panel) = app.split_panel();
+            panel.ui(&mut cx, ui);
+        });
+    }
     let mut refusals = Vec::new();
     let ranges = app.lessons.ranges();
     panels::parameters_ui(&mut app.split().0, &mut refusals, &ranges, ui);

@@ -1,0 +1,238 @@
+//! The open measurements: which are drawn, which one the sliders belong to, and how far each surface
+//! is from its data.
+
+use crate::app::panels::tooltip_right::TooltipRight as _;
+use crate::app::plots::{symbol_shapes, theme};
+use crate::app::text::i18n::translated;
+use crate::app::text::numbers::short;
+use crate::app::views::Cx;
+use crate::app::views::action::Action;
+use crate::app::work::edit::Edit;
+use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+use crate::figure::{SERIES, Symbol};
+use egui::{Align, Button, CollapsingHeader, Key, Layout, Response, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use tr::tr;
+
+/// What the panel keeps.
+#[derive(Debug, Default)]
+pub struct MeasurementPanel {
+    renaming: Option<Renaming>,
+}
+
+/// A name that is being typed.
+#[derive(Debug)]
+struct Renaming {
+    number: u64,
+    name: String,
+    /// Whether its field has been given the keys.
+    is_focused: bool,
+}
+
+/// Widths of columns in points: names have what is left.
+const SHOWN: f32 = 20.0;
+const SYMBOL: f32 = 18.0;
+const WAVELENGTH: f32 = 42.0;
+const ROWS: f32 = 44.0;
+const DELTA_E: f32 = 66.0;
+const MENU: f32 = 24.0;
+/// Height of a row.
+const HEIGHT: f32 = 20.0;
+/// Rows that are seen at once.
+const MOST_ROWS: f32 = 6.5;
+/// Letters of numbers.
+const LETTERS: f32 = 11.5;
+
+impl MeasurementPanel {
+    /// Lets the user type another name.
+    pub fn rename(&mut self, open: &OpenMeasurement) {
+        self.renaming = Some(Renaming { number: open.number, name: open.title(), is_focused: false });
+    }
+
+    /// The list, where anything is open that was measured.
+    pub fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let list = cx.work.measurements();
+        if !list.has_rows() {
+            return;
+        }
+        let title = tr!("Measurements ({})", list.iter().count());
+        let header = CollapsingHeader::new(title).id_salt("measurements").default_open(true);
+        header.show_unindented(ui, |ui| {
+            ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
+            headings_ui(ui);
+            let scroll = ScrollArea::vertical().id_salt("measurements").max_height(MOST_ROWS * (HEIGHT + 2.0));
+            scroll.auto_shrink([false, true]).show(ui, |ui| list.iter().for_each(|open| self.row_ui(open, cx, ui)));
+        });
+    }
+
+    fn row_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let is_active = open.number == cx.work.active().number;
+        let name = open.title();
+        row(ui, |ui| {
+            shown_ui(open, is_active, cx, ui);
+            let (symbol, _) = ui.allocate_exact_size(vec2(SYMBOL, HEIGHT), Sense::hover());
+            let ink = theme::series(open.style.color, ui.visuals().dark_mode);
+            ui.painter().extend(symbol_shapes(open.style.marker, symbol.center(), ink));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let menu = ui.scope(|ui| {
+                    ui.set_min_width(MENU);
+                    ui.menu_button("…", |ui| self.menu_ui(open, cx, ui)).response
+                });
+                menu.inner.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", name)));
+                let delta_e = cx.derived.delta_e_of(open.number);
+                let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.3e}")), DELTA_E, ui);
+                delta_e.on_hover_right(ui, tr!("ΔE of the surface of {}", name));
+                number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
+                number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| self.name_ui(open, is_active, cx, ui));
+            });
+        });
+    }
+
+    /// The name, or the field that it is typed into.
+    fn name_ui(&mut self, open: &OpenMeasurement, is_active: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
+        if self.renaming.as_ref().is_some_and(|renaming| renaming.number == open.number) {
+            self.rename_ui(open, cx, ui);
+            return;
+        }
+        let name = open.title();
+        let button = ui.add(Button::selectable(is_active, &name).truncate());
+        if button.clicked() {
+            cx.edits.push(Edit::Activate(open.number));
+        }
+        if button.double_clicked() {
+            self.rename(open);
+        }
+        button.context_menu(|ui| self.menu_ui(open, cx, ui));
+        button.on_hover_right(ui, format!("{}\n{}", open.description(), tr!("A click shows it, a double click renames it.")));
+    }
+
+    fn rename_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let Some(renaming) = &mut self.renaming else { return };
+        let field = ui.add(TextEdit::singleline(&mut renaming.name).desired_width(f32::INFINITY));
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, tr!("Name of the measurement")));
+        if !renaming.is_focused {
+            renaming.is_focused = true;
+            field.request_focus();
+        }
+        if field.lost_focus() {
+            let name = renaming.name.trim().to_owned();
+            let is_kept = !ui.input(|input| input.key_pressed(Key::Escape)) && !name.is_empty() && name != open.title();
+            cx.edits.extend(is_kept.then_some(Edit::RenameMeasurement { number: open.number, name }));
+            self.renaming = None;
+        }
+    }
+
+    /// What can be done with a measurement.
+    fn menu_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let number = open.number;
+        let item = |ui: &mut Ui, text: String, is_possible: bool| {
+            let is_chosen = ui.add_enabled(is_possible, Button::new(text)).clicked();
+            if is_chosen {
+                ui.close();
+            }
+            is_chosen
+        };
+        if item(ui, tr!("Rename"), true) {
+            self.rename(open);
+        }
+        ui.menu_button(tr!("Colour"), |ui| colors_ui(open, cx, ui));
+        ui.menu_button(tr!("Marker"), |ui| markers_ui(open, cx, ui));
+        ui.separator();
+        let list = cx.work.measurements();
+        let (first, last) = (list.iter().next(), list.iter().last());
+        let is = |other: Option<&OpenMeasurement>| other.is_some_and(|other| other.number == number);
+        for (text, by, is_possible) in [(tr!("Move up"), -1, !is(first)), (tr!("Move down"), 1, !is(last))] {
+            if item(ui, text, is_possible) {
+                cx.edits.push(Edit::MoveMeasurement { number, by });
+            }
+        }
+        let others = || list.iter().filter(|other| other.number != number);
+        for (text, shown) in [(tr!("Hide all others"), false), (tr!("Show all others"), true)] {
+            if item(ui, text, others().any(|other| other.style.shown != shown)) {
+                let style = |other: &OpenMeasurement| MeasurementStyle { shown, ..other.style };
+                cx.edits.extend(others().map(|other| Edit::SetMeasurementStyle { number: other.number, style: style(other) }));
+            }
+        }
+        ui.separator();
+        if item(ui, tr!("Close"), true) {
+            cx.actions.push(Action::CloseMeasurement(Some(number)));
+        }
+    }
+}
+
+/// One row of fixed height.
+fn row(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), content);
+}
+
+fn headings_ui(ui: &mut Ui) {
+    row(ui, |ui| {
+        ui.add_space(SHOWN + SYMBOL + 2.0 * ui.spacing().item_spacing.x);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(MENU + ui.spacing().item_spacing.x);
+            for (heading, width, help) in [
+                ("ΔE", DELTA_E, "How far the surface of each measurement is from its data"),
+                ("rows", ROWS, "Rows of the table, masked ones included"),
+                ("λ / nm", WAVELENGTH, "Vacuum wavelength, where the file states one"),
+            ] {
+                let text = RichText::new(translated(heading)).size(LETTERS).weak();
+                let label = ui.allocate_ui_with_layout(vec2(width, HEIGHT), Layout::right_to_left(Align::Center), |ui| ui.label(text));
+                label.inner.on_hover_right(ui, translated(help));
+            }
+        });
+    });
+}
+
+/// A number at the right end of its column.
+fn number_ui(text: String, width: f32, ui: &mut Ui) -> Response {
+    let layout = Layout::right_to_left(Align::Center);
+    ui.allocate_ui_with_layout(vec2(width, HEIGHT), layout, |ui| {
+        ui.set_min_width(width);
+        ui.add(egui::Label::new(RichText::new(text).size(LETTERS)).extend())
+    })
+    .inner
+}
+
+/// Whether it is drawn; the active one always is.
+fn shown_ui(open: &OpenMeasurement, is_active: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
+    let mut shown = open.style.shown || is_active;
+    let checkbox = ui.add_enabled(!is_active, egui::Checkbox::without_text(&mut shown));
+    checkbox.widget_info(|| WidgetInfo::selected(Role::CheckBox, !is_active, shown, tr!("Show {}", open.title())));
+    if checkbox.changed() {
+        let style = MeasurementStyle { shown, ..open.style };
+        cx.edits.push(Edit::SetMeasurementStyle { number: open.number, style });
+    }
+    let help = if is_active { tr!("The active measurement is always drawn") } else { tr!("Whether it is drawn beside the active one") };
+    checkbox.on_hover_right(ui, help);
+}
+
+fn colors_ui(open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+    let dark = ui.visuals().dark_mode;
+    egui::Grid::new("colours").num_columns(4).show(ui, |ui| {
+        for color in 0..SERIES.len() {
+            let text = RichText::new("■").color(theme::series(color, dark)).size(18.0);
+            let button = ui.add(Button::selectable(color == open.style.color, text));
+            button.widget_info(|| WidgetInfo::selected(Role::Button, true, color == open.style.color, tr!("Colour {}", color + 1)));
+            if button.clicked() {
+                let style = MeasurementStyle { color, ..open.style };
+                cx.edits.push(Edit::SetMeasurementStyle { number: open.number, style });
+                ui.close();
+            }
+            if color % 4 == 3 {
+                ui.end_row();
+            }
+        }
+    });
+}
+
+fn markers_ui(open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+    for (marker, name) in
+        [(Symbol::Disc, tr!("disc")), (Symbol::Circle, tr!("circle")), (Symbol::Square, tr!("square")), (Symbol::Cross, tr!("cross"))]
+    {
+        if ui.selectable_label(marker == open.style.marker, name).clicked() {
+            let style = MeasurementStyle { marker, ..open.style };
+            cx.edits.push(Edit::SetMeasurementStyle { number: open.number, style });
+            ui.close();
+        }
+    }
+}
