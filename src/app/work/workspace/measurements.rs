@@ -42,11 +42,9 @@ impl Workspace {
         if number == self.active().number || self.measurements.get(number).is_none() {
             return;
         }
-        let revision = self.revision;
         self.undo.record(self.setup());
         self.measurements.activate(number);
         self.moved_at = 0;
-        self.revision = revision;
         self.replace_step();
     }
 

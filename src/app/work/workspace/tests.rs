@@ -13,6 +13,7 @@ fn example(name: &str) -> Edit {
 fn opened() -> Workspace {
     let mut work = Workspace::default();
     work.apply(example("first"));
+    work.record_step();
     work
 }
 
@@ -82,18 +83,29 @@ fn a_change_that_is_taken_back_is_no_step() {
 }
 
 #[test]
-fn opening_a_measurement_is_no_step_and_undo_leaves_its_rows_alone() {
+fn opening_a_measurement_is_a_step_and_masks_stay_with_their_rows() {
     let mut work = opened();
-    work.record_step();
-    work.apply(Edit::Mask { rows: vec![1], masked: true });
-    work.record_step();
-    work.apply(example("second"));
-    work.apply(Edit::Mask { rows: vec![2], masked: true });
-    work.record_step();
-    for _ in 0..2 {
+    for edit in [Edit::Mask { rows: vec![1], masked: true }, example("second"), Edit::Mask { rows: vec![2], masked: true }] {
+        work.apply(edit);
+        work.record_step();
+    }
+    let state = |work: &Workspace| -> Vec<(String, Vec<usize>)> {
+        work.measurements().iter().map(|open| (open.name.clone(), open.mask().to_vec())).collect()
+    };
+    let of = |name: &str, mask: &[usize]| (name.to_owned(), mask.to_vec());
+    let expected = [
+        vec![of("first", &[1]), of("second", &[2])],
+        vec![of("first", &[1]), of("second", &[])],
+        vec![of("first", &[1])],
+        vec![of("first", &[])],
+    ];
+    for expected in &expected {
+        assert_eq!(state(&work), *expected);
         work.apply(Edit::Undo);
     }
-    assert_eq!((work.active().name.as_str(), work.active().mask().len(), work.can_undo()), ("second", 0, false));
+    assert!(!work.can_undo());
+    (0..3).for_each(|_| work.apply(Edit::Redo));
+    assert_eq!(state(&work), expected[0]);
 }
 
 #[test]
