@@ -6,9 +6,10 @@ use crate::cli::problem::{NoProblem, fitted, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::report::fit_json;
-use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, ends_text};
+use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, Verdict, ends_text};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
+use pbrdf::optics::SlopeDistribution;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -68,7 +69,9 @@ fn verdicts(results: &[ModelResult]) -> Vec<String> {
         let closures = watched.watch();
         let ((problem, gauss_fit), (_, cauchy_fit)) = (of(gauss)?, of(cauchy)?);
         let contest = DistributionComparison::new(gauss_fit, cauchy_fit)?;
-        let held = GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
+        // Whether Cauchy wins by its width alone is a question where it wins.
+        let wins = contest.verdict() == Verdict::Closer(SlopeDistribution::Cauchy);
+        let held = wins.then(|| GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch())).flatten();
         let held = held.map_or_else(String::new, |held| format!("\n{}", held.text(&contest)));
         Some(format!("{gauss} and {cauchy}: {contest}{held}"))
     };

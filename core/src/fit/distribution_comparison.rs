@@ -1,10 +1,15 @@
 //! Gauss against Cauchy on one data set: which distribution of slopes describes it better, and by how much.
 //!
-//! The measure is what both fits minimised, and for the evidence the difference of AICc (Burnham and Anderson, *Model Selection and Multimodel
-//! Inference*, 2002, sec. 2.6: up to 2 is no difference, from 4 on the worse one has considerably less support, from 10 on essentially none).
+//! The measure is ΔE where both fits can be compared by it, and for the evidence the difference of AICc (Burnham and Anderson, *Model
+//! Selection and Multimodel Inference*, 2002, sec. 2.6: up to 2 is no difference, from 4 on the worse one has considerably less support,
+//! from 10 on essentially none).
 //!
-//! Equal σ means different widths, so that the better of two fits may win by its width alone. Gauss is therefore fitted twice more beside
-//! Cauchy's (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where only the tail differs.
+//! Gauss is the limit q → ∞ of Cauchy at σ_Gauss = σ/√q. Where q is free, Cauchy therefore cannot lose but by the bound of q, and an AICc
+//! that is lower for Gauss is the price of the parameter that Cauchy has more: it is no evidence. Evidence is for a heavier tail, or none.
+//!
+//! Equal σ means different widths, so that Cauchy may win by its width alone. Gauss is therefore fitted twice more beside Cauchy's
+//! (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where peak and tail differ: Cauchy has more flat and more steep
+//! facets, and fewer between.
 
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
@@ -18,55 +23,63 @@ use std::fmt;
 /// Both fits side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DistributionComparison {
-    /// Sum of squares that Gauss came down to.
+    /// ΔE that Gauss came down to, or its sum of squares.
     pub gauss: f64,
     /// The same of Cauchy.
     pub cauchy: f64,
     /// AICc of Gauss less that of Cauchy; none where either has none.
     pub aicc_gain: Option<f64>,
-    /// Whether the sums of squares are ΔE up to a factor that both share.
+    /// Whether the measure is ΔE.
     pub is_delta_e: bool,
+    /// Whether q is free, so that Cauchy has Gauss as its limit and one parameter more.
+    pub is_nested: bool,
+    /// Whether both meet the data to the last digits, [`FitResult::is_exact`].
+    pub is_exact: bool,
 }
 
 /// Gauss with its σ held by Cauchy's fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GaussAtFixedSigma {
-    /// Cauchy's σ, at which Gauss was held, and the sum of squares there.
+    /// Cauchy's σ, at which Gauss was held, and the measure of [`DistributionComparison`] there.
     pub equal_sigma: (f64, f64),
-    /// The σ of equal median slope, and the sum of squares there.
+    /// The σ of equal median slope, and the measure there.
     pub equal_median: (f64, f64),
 }
 
-/// Sums of squares whose ratio is nearer to 1 are the same: two descents along one flat valley end no nearer to each other.
-const SAME: f64 = 1e-4;
+/// Measures whose relative difference is smaller are the same: of 100 residuals, it moves AICc by 0.1.
+const SAME: f64 = 1e-3;
+/// Difference of AICc below which it is no evidence.
+const NO_EVIDENCE: f64 = 2.0;
+
+/// Whether ΔE is the measure: it is what both minimised, or each weighted its sum by variances or loss scales of its own.
+fn are_compared_by_delta_e(gauss: &FitResult, cauchy: &FitResult) -> bool {
+    let (a, b) = (&gauss.statistics, &cauchy.statistics);
+    let is_one_sum = a.loss_scales == b.loss_scales && a.block_weights == b.block_weights;
+    gauss.objective.is_some() && cauchy.objective.is_some() && (!is_one_sum || a.minimises_delta_e && b.minimises_delta_e)
+}
+
+/// ΔE of a fit, or its sum of squares.
+fn measure(fit: &FitResult, is_delta_e: bool) -> f64 {
+    fit.objective.filter(|_| is_delta_e).unwrap_or(fit.statistics.rss)
+}
 
 impl DistributionComparison {
     /// Of two fits of the same data by the same choices; none where a sum is not finite.
     #[must_use]
     pub fn new(gauss: &FitResult, cauchy: &FitResult) -> Option<Self> {
-        let sums = [gauss.statistics.rss, cauchy.statistics.rss];
+        let is_delta_e = are_compared_by_delta_e(gauss, cauchy);
+        let sums = [gauss, cauchy].map(|fit| measure(fit, is_delta_e));
         sums.iter().all(|sum| sum.is_finite()).then(|| Self {
             gauss: sums[0],
             cauchy: sums[1],
             aicc_gain: gauss.statistics.aicc.zip(cauchy.statistics.aicc).map(|(gauss, cauchy)| gauss - cauchy),
-            is_delta_e: gauss.statistics.minimises_delta_e && cauchy.statistics.minimises_delta_e,
+            is_delta_e,
+            is_nested: cauchy.estimate(Parameter::Q).is_some_and(|q| q.free),
+            is_exact: gauss.is_exact() && cauchy.is_exact(),
         })
     }
 
-    /// The distribution with the smaller sum of squares; none where they are the same.
-    #[must_use]
-    pub fn winner(&self) -> Option<SlopeDistribution> {
-        let larger = self.gauss.max(self.cauchy);
-        if (self.gauss - self.cauchy).abs() <= SAME * larger {
-            None
-        } else if self.cauchy < self.gauss {
-            Some(SlopeDistribution::Cauchy)
-        } else {
-            Some(SlopeDistribution::Gauss)
-        }
-    }
-
-    /// The larger sum of squares over the smaller; infinite where the smaller is 0.
+    /// The larger measure over the smaller; infinite where the smaller is 0.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         let (smaller, larger) = (self.gauss.min(self.cauchy), self.gauss.max(self.cauchy));
@@ -78,7 +91,7 @@ impl DistributionComparison {
     pub fn evidence(&self) -> Evidence {
         match self.aicc_gain.map(f64::abs) {
             None => Evidence::Undefined,
-            Some(gain) if gain < 2.0 => Evidence::None,
+            Some(gain) if gain < NO_EVIDENCE => Evidence::None,
             Some(gain) if gain < 4.0 => Evidence::Weak,
             Some(gain) if gain < 10.0 => Evidence::Considerable,
             Some(_) => Evidence::Decisive,
@@ -88,19 +101,25 @@ impl DistributionComparison {
     /// Which of both describes the data better.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        match self.winner() {
-            None => Verdict::Alike { gauss_preferred: self.aicc_gain.is_some_and(|gain| gain < 0.0) },
-            // A smaller sum that AICc does not think worth its parameter is no victory.
-            Some(winner) => Verdict::Closer {
-                winner,
-                confirmed: self.aicc_gain.is_none_or(|gain| (gain > 0.0) == (winner == SlopeDistribution::Cauchy)),
-            },
+        let is_same = (self.gauss - self.cauchy).abs() <= SAME * self.gauss.max(self.cauchy);
+        let closer = if self.cauchy < self.gauss { SlopeDistribution::Cauchy } else { SlopeDistribution::Gauss };
+        // What AICc says against Cauchy is the price of q, where q is free.
+        let gain = self.aicc_gain.map(|gain| if self.is_nested { gain.max(0.0) } else { gain });
+        match gain {
+            _ if self.is_exact => Verdict::Exact,
+            // DoLP and BRDF by variances of their own are judged by AICc, not by ΔE.
+            Some(gain) if gain >= NO_EVIDENCE => Verdict::Closer(SlopeDistribution::Cauchy),
+            Some(gain) if gain <= -NO_EVIDENCE => Verdict::Closer(SlopeDistribution::Gauss),
+            _ if is_same => Verdict::Alike,
+            _ if self.is_nested && closer == SlopeDistribution::Gauss => Verdict::Bounded,
+            Some(_) if self.is_nested => Verdict::NotWorthIt,
+            _ => Verdict::Closer(closer),
         }
     }
 }
 
 /// What a difference of AICc between two models of the same data is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Evidence {
     /// AICc is not defined for one of them.
     Undefined,
@@ -117,18 +136,16 @@ pub enum Evidence {
 /// Which of two distributions describes the data better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// Both sums of squares are the same.
-    Alike {
-        /// Whether AICc is lower for Gauss, which has one parameter less.
-        gauss_preferred: bool,
-    },
-    /// One sum of squares is smaller.
-    Closer {
-        /// Whose.
-        winner: SlopeDistribution,
-        /// Whether AICc is lower for the same distribution, or not defined.
-        confirmed: bool,
-    },
+    /// Both meet the data to the last digits: rounding decides nothing.
+    Exact,
+    /// The measure is the same, and so is the evidence but for the price of a parameter.
+    Alike,
+    /// Cauchy, whose limit is Gauss, is kept from it by a bound.
+    Bounded,
+    /// Cauchy comes nearer, by too little for the parameter that it has more.
+    NotWorthIt,
+    /// One describes the data better: as much as [`DistributionComparison::evidence`] says.
+    Closer(SlopeDistribution),
 }
 
 impl fmt::Display for Evidence {
@@ -147,25 +164,38 @@ impl fmt::Display for Evidence {
 impl fmt::Display for DistributionComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let measure = if self.is_delta_e { "ΔE" } else { "sum of squares" };
-        let (winner, confirmed) = match self.verdict() {
-            Verdict::Alike { gauss_preferred } => {
-                let fewer = if gauss_preferred { ": Cauchy's tail exponent buys nothing here" } else { "" };
-                return write!(f, "Gauss and Cauchy describe these data alike ({measure} {:.4e}){fewer}.", self.gauss);
+        let smaller = || if self.ratio().is_finite() { format!("{:.4} times smaller", self.ratio()) } else { "0".to_owned() };
+        let aicc = |gain: f64| format!("AICc lower by {:.1} for {}", gain.abs(), if gain > 0.0 { "Cauchy" } else { "Gauss" });
+        match self.verdict() {
+            Verdict::Exact => f.write_str("Gauss and Cauchy both meet these data to the last digits: there is no winner."),
+            Verdict::Alike => {
+                write!(f, "Gauss and Cauchy describe these data alike ({measure} {:.4e})", self.gauss)?;
+                f.write_str(if self.is_nested { ": no evidence for a heavier tail; Gauss needs one parameter less." } else { "." })
             }
-            Verdict::Closer { winner, confirmed } => (winner, confirmed),
-        };
-        let (name, other) = match winner {
-            SlopeDistribution::Gauss => ("Gauss", "Cauchy"),
-            SlopeDistribution::Cauchy => ("Cauchy", "Gauss"),
-        };
-        let verb = if confirmed { "wins over" } else { "comes nearer than" };
-        let ratio = if self.ratio().is_finite() { format!("{:.4} times smaller", self.ratio()) } else { "0".to_owned() };
-        write!(f, "{name} {verb} {other}: {measure} {ratio}; ")?;
-        if let Some(gain) = self.aicc_gain {
-            let lower = if gain > 0.0 { "Cauchy" } else { "Gauss" };
-            write!(f, "AICc lower by {:.1} for {lower}: ", gain.abs())?;
+            Verdict::Bounded => write!(
+                f,
+                "Gauss, the limit of Cauchy for large q, describes these data as well as Cauchy within its bounds ({measure} {}): no \
+                 evidence for a heavier tail; Gauss needs one parameter less.",
+                smaller()
+            ),
+            Verdict::NotWorthIt => write!(
+                f,
+                "Cauchy comes nearer than Gauss ({measure} {}) by too little for its additional parameter ({}): no evidence for a heavier \
+                 tail.",
+                smaller(),
+                aicc(self.aicc_gain.unwrap_or_default())
+            ),
+            Verdict::Closer(winner) => {
+                let (name, other) = match winner {
+                    SlopeDistribution::Gauss => ("Gauss", "Cauchy"),
+                    SlopeDistribution::Cauchy => ("Cauchy", "Gauss"),
+                };
+                let verb = if self.evidence() > Evidence::None { "wins over" } else { "comes nearer than" };
+                write!(f, "{name} {verb} {other}: {measure} {}; ", smaller())?;
+                self.aicc_gain.map_or(Ok(()), |gain| write!(f, "{}: ", aicc(gain)))?;
+                write!(f, "{}.", self.evidence())
+            }
         }
-        write!(f, "{}.", self.evidence())
     }
 }
 
@@ -181,9 +211,10 @@ impl GaussAtFixedSigma {
             return None;
         }
         let rest: ParameterSet = problem.free().iter().copied().filter(|&parameter| parameter != Parameter::Sigma).collect();
+        let is_delta_e = are_compared_by_delta_e(gauss, cauchy);
         let held = |sigma: f64| {
             let start = Parameters { sigma, ..gauss.parameters };
-            (sigma, fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch).statistics.rss)
+            (sigma, measure(&fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch), is_delta_e))
         };
         Some(Self { equal_sigma: held(sigma), equal_median: held(median) })
     }
@@ -195,7 +226,7 @@ impl GaussAtFixedSigma {
             |sum: f64| if contest.cauchy > 0.0 { format!("{:.4} times Cauchy's", sum / contest.cauchy) } else { format!("{sum:.4e}") };
         let ((equal, on_equal), (median, on_median)) = (self.equal_sigma, self.equal_median);
         format!(
-            "Gauss held at Cauchy's σ = {equal:.5}: {}; at equal median slope, σ = {median:.5}, where only the tail differs: {}.",
+            "Gauss held at Cauchy's σ = {equal:.5}: {}; at equal median slope, σ = {median:.5}, where peak and tail differ: {}.",
             times(on_equal),
             times(on_median)
         )

@@ -4,7 +4,7 @@ use crate::fit::estimate::{Edge, Estimate, EstimateStatus, Undetermined};
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
-use crate::fit::multistart::basin::unseen_share;
+use crate::fit::multistart::basin::{SAME_ABSOLUTE, unseen_share};
 use crate::fit::objective::Problem;
 use crate::fit::observer::TracePoint;
 use crate::fit::stop_reason::StopReason;
@@ -163,6 +163,12 @@ impl FitResult {
     pub fn without_errors(mut self) -> Self {
         self.estimates.iter_mut().for_each(|estimate| estimate.std_error = None);
         self
+    }
+
+    /// Whether the model meets the data to the last digits: ΔE, or the sum of squares where there is no ΔE, is rounding.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.stop_reason != StopReason::NoData && self.objective.unwrap_or(self.statistics.rss) < SAME_ABSOLUTE
     }
 
     /// The estimate of a parameter; none if the model does not have it.

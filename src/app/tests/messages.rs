@@ -321,13 +321,20 @@ fn the_verdict_of_gauss_against_cauchy_is_said_in_chinese() {
     let mut texts = Vec::new();
     for aicc_gain in [None, Some(-20.0), Some(-5.0), Some(-3.0), Some(-1.0), Some(1.0), Some(3.0), Some(5.0), Some(20.0)] {
         for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0), (0.0, 1.0)] {
-            for is_delta_e in [true, false] {
-                texts.push(DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e });
+            for (is_delta_e, is_nested, is_exact) in [(true, true, false), (false, true, false), (true, false, false), (true, true, true)] {
+                texts.push(DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e, is_nested, is_exact });
             }
         }
     }
     assert_localized(texts);
-    let comparison = DistributionComparison { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true };
+    let comparison = DistributionComparison {
+        gauss: 2.0,
+        cauchy: 1.0,
+        aicc_gain: Some(20.0),
+        is_delta_e: true,
+        is_nested: true,
+        is_exact: false,
+    };
     assert_eq!(comparison.localized(), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
     assert_eq!(
         comparison.to_string(),
@@ -340,8 +347,10 @@ fn english_is_what_the_core_says() {
     i18n::install();
     for aicc_gain in [None, Some(-5.0), Some(1.0)] {
         for (gauss, cauchy) in [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 0.0)] {
-            let comparison = DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e: true };
-            assert_eq!(comparison.localized(), comparison.to_string());
+            for (is_nested, is_exact) in [(true, false), (false, false), (true, true)] {
+                let comparison = DistributionComparison { gauss, cauchy, aicc_gain, is_delta_e: true, is_nested, is_exact };
+                assert_eq!(comparison.localized(), comparison.to_string());
+            }
         }
     }
     for direction in directions() {

@@ -98,35 +98,53 @@ impl Localized for Evidence {
 impl Localized for DistributionComparison {
     fn localized(&self) -> String {
         let measure = if self.is_delta_e { "ΔE".to_owned() } else { tr!("sum of squares") };
-        let (winner, confirmed) = match self.verdict() {
-            Verdict::Alike { gauss_preferred } => {
-                let sum = format!("{:.4e}", self.gauss);
-                return if gauss_preferred {
-                    tr!("Gauss and Cauchy describe these data alike ({0} {1}): Cauchy's tail exponent buys nothing here.", measure, sum)
-                } else {
-                    tr!("Gauss and Cauchy describe these data alike ({0} {1}).", measure, sum)
-                };
-            }
-            Verdict::Closer { winner, confirmed } => (winner, confirmed),
-        };
-        let other = match winner {
-            SlopeDistribution::Gauss => SlopeDistribution::Cauchy,
-            SlopeDistribution::Cauchy => SlopeDistribution::Gauss,
-        };
-        let (name, other) = (winner.localized(), other.localized());
-        let result = if confirmed { tr!("{0} wins over {1}", name, other) } else { tr!("{0} comes nearer than {1}", name, other) };
         let by = if self.ratio().is_finite() {
             tr!("{0} {1} times smaller", measure, format!("{:.4}", self.ratio()))
         } else {
             format!("{measure} 0")
         };
-        let evidence = match self.aicc_gain {
-            None => self.evidence().localized(),
-            Some(gain) => {
-                let lower = if gain > 0.0 { SlopeDistribution::Cauchy } else { SlopeDistribution::Gauss };
-                tr!("AICc lower by {0} for {1}: {2}", format!("{:.1}", gain.abs()), lower.localized(), self.evidence().localized())
-            }
+        let aicc = |gain: f64| {
+            let lower = if gain > 0.0 { SlopeDistribution::Cauchy } else { SlopeDistribution::Gauss };
+            tr!("AICc lower by {0} for {1}", format!("{:.1}", gain.abs()), lower.localized())
         };
-        tr!("{0}: {1}; {2}.", result, by, evidence)
+        match self.verdict() {
+            Verdict::Exact => tr!("Gauss and Cauchy both meet these data to the last digits: there is no winner."),
+            Verdict::Alike => {
+                let sum = format!("{:.4e}", self.gauss);
+                if self.is_nested {
+                    tr!(
+                        "Gauss and Cauchy describe these data alike ({0} {1}): no evidence for a heavier tail; Gauss needs one parameter less.",
+                        measure,
+                        sum
+                    )
+                } else {
+                    tr!("Gauss and Cauchy describe these data alike ({0} {1}).", measure, sum)
+                }
+            }
+            Verdict::Bounded => tr!(
+                "Gauss, the limit of Cauchy for large q, describes these data as well as Cauchy within its bounds ({0}): no evidence for a heavier tail; Gauss needs one parameter less.",
+                by
+            ),
+            Verdict::NotWorthIt => tr!(
+                "Cauchy comes nearer than Gauss ({0}) by too little for its additional parameter ({1}): no evidence for a heavier tail.",
+                by,
+                aicc(self.aicc_gain.unwrap_or_default())
+            ),
+            Verdict::Closer(winner) => {
+                let other = match winner {
+                    SlopeDistribution::Gauss => SlopeDistribution::Cauchy,
+                    SlopeDistribution::Cauchy => SlopeDistribution::Gauss,
+                };
+                let (name, other) = (winner.localized(), other.localized());
+                let result = if self.evidence() > Evidence::None {
+                    tr!("{0} wins over {1}", name, other)
+                } else {
+                    tr!("{0} comes nearer than {1}", name, other)
+                };
+                let evidence = self.evidence().localized();
+                let evidence = self.aicc_gain.map_or_else(|| evidence.clone(), |gain| tr!("{0}: {1}", aicc(gain), evidence));
+                tr!("{0}: {1}; {2}.", result, by, evidence)
+            }
+        }
     }
 }
