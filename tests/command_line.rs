@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::program::{Folder, answer, refusal, run, text};
+use common::program::{Folder, answer, answer_to, output_to, refusal, run, text};
 use common::repository_file;
 use pbrdf::selftest::{golden, relative_error};
 use serde_json::Value;
@@ -188,6 +188,16 @@ fn bad_usage_and_input_end_with_two_and_a_sentence() {
         (vec!["fit", &steel, "--start", "n=-1"], "not allowed"),
         (vec!["fit", &steel, "--bounds", "n=5..2"], "must be below"),
         (vec!["fit", &steel, "--start", "n=12"], "outside its bounds"),
+        (vec!["fit", &steel, "--start", "n=2,n=3"], "--start names n twice"),
+        (vec!["compare", &steel, "--start", "n=2", "--start", "k=1,n=2"], "--start names n twice"),
+        (vec!["fit", &steel, "--fix", "n,n=2"], "--fix names n twice"),
+        (vec!["fit", &steel, "--bounds", "n=1..2,n=1..3"], "--bounds names n twice"),
+        (vec!["fit", &steel, "--fix", "n", "--free", "ks,n"], "--fix and --free both name n"),
+        (vec!["posterior", &steel, "--fix", "n", "--free", "n"], "--fix and --free both name n"),
+        (vec!["plan", "--fix", "n", "--free", "n", "--theta-i", "30", "--theta-r", "30"], "--fix and --free both name n"),
+        (vec!["simulate", "--set", "n=2,n=3", "--theta-i", "30", "--theta-r", "0", "-o", &missing], "--set names n twice"),
+        (vec!["simulate", "--theta-i", "0:89:0.001", "--theta-r", "0:89:0.001", "-o", &missing], "7921178001 rows"),
+        (vec!["plan", "--theta-i", "0:89:0.001", "--theta-r", "0:89:0.001"], "7921178001"),
         (vec!["fit", &steel, "--model", "phong"], "expected one of"),
         (vec!["fit", &steel, "--weights", "tons"], "tons"),
         (vec!["simulate", "--theta-i", "95", "--theta-r", "0", "-o", &missing], "theta_i = 95"),
@@ -245,6 +255,101 @@ fn compare_lists_the_ladder_and_skips_what_cannot_predict() {
 }
 
 #[test]
+fn compare_gives_its_verdict_in_a_sentence_and_none_between_perfect_fits() {
+    let folder = Folder::new();
+    let two = folder.file("two.csv", "theta_i,theta_r,dolp\n40,45,0.06\n60,60,0.15\n");
+    let zeros: String = (2..=6).map(|i| format!("30,{0}0,0\n45,{0}0,0\n60,{0}0,0\n", i)).collect();
+    let zeros = folder.file("zeros.csv", format!("theta_i,theta_r,dolp\n{zeros}"));
+    for data in [&two, &zeros] {
+        let table = answer(&["compare", data, "--models", "gauss,cauchy"]);
+        let verdict = table.lines().last().expect("a verdict");
+        assert_eq!(verdict, "gauss and cauchy: Gauss and Cauchy both meet these data to the last digits: there is no winner.");
+    }
+    // Seed 3 of README: equal ΔE, so that the lower AICc of Gauss is the price of a parameter.
+    let steel = folder.path("steel.csv").display().to_string();
+    let surface = "n=2.07,k=2.9,sigma=0.67,kd=0.12,kv=0.25,q=2.2,c=-0.4,sigma_v=0.6";
+    let angles = ["--theta-i", "30,40,50", "--theta-r", "20:60:5", "--noise", "0.005", "--seed", "3", "-o", &steel];
+    answer(&["simulate", "--set", surface].into_iter().chain(angles).collect::<Vec<_>>());
+    let table = answer(&["compare", &steel, "--models", "gauss,cauchy"]);
+    let verdict = table.lines().last().expect("a verdict");
+    assert!(verdict.contains("no evidence for a heavier tail") && verdict.matches('.').count() <= 3, "{verdict}");
+    // The measure that it names is the one of the table.
+    let delta_e = table.lines().nth(1).and_then(|line| line.split_whitespace().nth(1)).expect("ΔE of Gauss").to_owned();
+    assert!(!verdict.contains("alike") || verdict.contains(&format!("ΔE {delta_e}")), "{verdict} {delta_e}");
+}
+
+#[test]
+fn a_dash_is_standard_input() {
+    let steel = example("steel45_simulated.csv");
+    let rows = std::fs::read(&steel).expect("an example");
+    let fit = |path: &str| answer_to(&["fit", path, "--model", "lambert", "--starts", "1", "--json"], &rows);
+    let parameters = |json: &str| serde_json::from_str::<Value>(json).expect("JSON")["parameters"].clone();
+    assert_eq!(parameters(&fit("-")), parameters(&fit(&steel)));
+    assert!(answer_to(&["compare", "-", "--models", "fresnel"], &rows).contains("fresnel"));
+    let wrong = output_to(&["fit", "-"], b"theta_i,theta_r,dolp\n30,20,x\n");
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(text(&wrong.stderr).starts_with("Standard input: line 2, column 3 (dolp): found \"x\""), "{}", text(&wrong.stderr));
+}
+
+#[test]
+fn messages_quote_the_beginning_of_a_cell() {
+    let folder = Folder::new();
+    let long = "x".repeat(100_000);
+    let head = "distribution,n,k,sigma,ks,kd,kv,q,c,sigma_v,theta_i,theta_r";
+    for (command, table) in [
+        ("fit", format!("theta_i,theta_r,dolp\n30,20,{long}\n")),
+        ("fit", format!("theta_i,theta_r,{long}\n30,20,0.1\n")),
+        ("fit", format!("theta_i,theta_r,dolp,dolp\n30,20,0.1,{long}\n")),
+        ("fit", format!("{long}\n")),
+        ("evaluate", format!("{head}\n{long},2,3,0.3,1,0,0,2,0,0.5,30,30\n")),
+        ("evaluate", format!("{head}\ngauss,{long},3,0.3,1,0,0,2,0,0.5,30,30\n")),
+        ("evaluate", format!("{head},{long}\ngauss,-1,3,0.3,1,0,0,2,0,0.5,30,30,1\n")),
+    ] {
+        let path = folder.file("long.csv", &table);
+        let message = refusal(&[command, &path]);
+        // No part of the message is longer than what may be quoted.
+        let longest = message.split(|letter| letter != 'x').map(str::len).max().unwrap_or(0);
+        assert!(longest <= 80, "{command}: {longest} letters of a cell in {}", &message[..200.min(message.len())]);
+    }
+}
+
+/// Runs until the first line of progress, sends a signal, and gives the rest.
+#[cfg(unix)]
+fn interrupted(arguments: &[&str], signal: &str) -> (Option<i32>, Value) {
+    use std::io::{BufRead as _, BufReader, Read as _};
+    let mut program = Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
+        .args(arguments)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program was built beside this test");
+    let mut stderr = BufReader::new(program.stderr.take().expect("a pipe"));
+    let mut line = String::new();
+    stderr.read_line(&mut line).expect("a line of progress");
+    let status = Command::new("kill").args([signal, &program.id().to_string()]).status().expect("kill");
+    assert!(status.success());
+    stderr.read_to_string(&mut line).expect("its rest");
+    let output = program.wait_with_output().expect("its end");
+    (output.status.code(), serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {line}")))
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_gives_the_best_so_far_and_says_that_it_is_incomplete() {
+    let steel = example("steel45_simulated.csv");
+    for signal in ["-INT", "-TERM"] {
+        let (code, json) = interrupted(&["fit", &steel, "--bootstrap", "1000000", "--profile", "n", "--json"], signal);
+        assert_eq!((code, &json["bootstrap"]["complete"]), (Some(130), &Value::from(false)), "{signal}");
+        assert!(json["bootstrap"]["replicates"].as_u64().expect("a number") < 1_000_000 && json["objective"].is_f64());
+        let (code, json) = interrupted(&["compare", &steel, "--starts", "100000", "--json"], signal);
+        assert_eq!((code, &json["complete"]), (Some(130), &Value::from(false)), "{signal}");
+        let fits = json["fits"].as_array().expect("fits");
+        assert_eq!(fits.len(), pbrdf::model::PRESETS.len());
+        assert!(fits.iter().any(|fit| fit["objective"].is_f64()) && fits.iter().any(|fit| fit["skipped"].is_string()), "{json}");
+    }
+}
+
+#[test]
 fn plan_predicts_what_angles_determine() {
     let surface = ["--set", "n=2.07,k=2.9,sigma=0.35,kd=0.12,kv=0.2,q=2.2,c=-0.4,sigma_v=0.6", "--noise", "0.005", "--json"];
     let error = |angles: [&str; 4]| -> f64 {
@@ -274,7 +379,8 @@ fn profile_and_bootstrap_agree_with_the_standard_error_where_the_problem_is_near
     let half_width = (profile["high"].as_f64().expect("an end") - profile["low"].as_f64().expect("an end")) / 2.0;
     assert!((half_width / error - 1.0).abs() < 0.1, "{half_width} {error}");
     // A hundred replicates know their scatter to 7 %; residuals of rows that know n differ from the others.
-    let scatter = json["bootstrap"]["n"]["std_error"].as_f64().expect("an error");
+    assert_eq!((&json["bootstrap"]["replicates"], &json["bootstrap"]["complete"]), (&Value::from(100), &Value::Null));
+    let scatter = json["bootstrap"]["parameters"]["n"]["std_error"].as_f64().expect("an error");
     assert!((0.5..2.0).contains(&(scatter / error)), "{scatter} {error}");
 }
 

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for point in &scan.points {
         println!("{:>10.5} {:.6e}", point.value, point.rss);
     }
-    for estimate in bootstrap(&problem, &result, 100, 1, Observer::NONE) {
+    for estimate in bootstrap(&problem, &result, 100, 1, Observer::NONE).estimates {
         println!("bootstrap of {}: standard error {:.5}", estimate.parameter.symbol(), estimate.std_error);
     }
     Ok(())

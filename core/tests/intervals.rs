@@ -2,11 +2,12 @@
 #![allow(clippy::expect_used, clippy::cast_precision_loss, reason = "a test fails by panicking, and its numbers of rows are small")]
 
 use pbrdf::Fit;
-use pbrdf::fit::{Edge, EstimateStatus, FitOptions, FitResult, Interval, Loss, Observer, Starts, Weights, profile};
+use pbrdf::fit::{Edge, EstimateStatus, FitOptions, FitResult, Interval, Intervals, Loss, Observer, Starts, Weights, bootstrap, profile};
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::SlopeDistribution::{Cauchy, Gauss};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const CAUCHY: Model = Model::CAUCHY;
 /// Ends are refined until the rise of the objective is right to 1e-3, so that they move by half of that of their distance; held
@@ -226,6 +227,35 @@ fn cancelled_intervals_say_that_they_are_incomplete() {
     assert_eq!(cancelled.course.intervals_complete, Some(false));
     let one = profile(&problem, &cancelled, Parameter::N, Observer { cancelled: &|| true, ..Observer::NONE });
     assert!(!one.is_complete && one.interval68.is_open());
+}
+
+#[test]
+fn a_bootstrap_says_how_many_replicates_it_made_and_keeps_to_the_bounds() {
+    let measurement = simulated(CAUCHY, STEEL, false, Columns::Dolp, [0.005, 0.0], 1);
+    let fit = Fit::new(&measurement, CAUCHY).bound(Parameter::N, 1.9..=2.2).bound(Parameter::Sigma, 0.2..=0.5);
+    let (problem, result) = (fit.problem().expect("a problem"), fit.intervals(Intervals::None).run().expect("a valid fit"));
+    let made = bootstrap(&problem, &result, 20, 1, Observer::NONE);
+    assert_eq!((made.asked, made.replicates, made.is_complete()), (20, 20, true));
+    assert_eq!(made.estimates.len(), problem.free().len());
+    for estimate in &made.estimates {
+        let (low, high) = problem.bounds().of(estimate.parameter);
+        let [p16, p84] = [estimate.low, estimate.high];
+        assert!(low <= p16 && p16 <= p84 && p84 <= high, "{estimate:?}");
+    }
+}
+
+#[test]
+fn a_cancelled_bootstrap_counts_what_it_made_and_nothing_that_was_cut_short() {
+    let measurement = simulated(Model::SPECULAR, STEEL, false, Columns::Dolp, [0.005, 0.0], 1);
+    let fit = Fit::new(&measurement, Model::SPECULAR);
+    let (problem, result) = (fit.problem().expect("a problem"), fit.run().expect("a valid fit"));
+    // Each descent asks now and then: some refits end before the answer changes, and most do not begin.
+    let asked = AtomicUsize::new(0);
+    let cancelled = || asked.fetch_add(1, Ordering::Relaxed) > 200;
+    let made = bootstrap(&problem, &result, 1000, 1, Observer { cancelled: &cancelled, ..Observer::NONE });
+    assert!(made.replicates > 0 && made.replicates < 200 && !made.is_complete(), "{}", made.replicates);
+    let nothing = bootstrap(&problem, &result, 1000, 1, Observer { cancelled: &|| true, ..Observer::NONE });
+    assert_eq!((nothing.replicates, nothing.asked, nothing.estimates.len()), (0, 1000, 0));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `compare`: the ladder of models on one measurement, from the same starts.
+//! `compare`: the ladder of models on one measurement, from the same starts and from the best fits of their special cases.
 
 use crate::cli::arguments::CompareArguments;
 use crate::cli::failure::Failure;
@@ -6,9 +6,12 @@ use crate::cli::problem::{NoProblem, fitted, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::report::fit_json;
-use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, Verdict, ends_text};
+use pbrdf::fit::{
+    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, Verdict, ends_text, special_cases_first,
+    with_special_cases,
+};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{PRESETS, Parameter, Preset};
+use pbrdf::model::{Model, PRESETS, Parameter, Preset};
 use pbrdf::optics::SlopeDistribution;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -25,23 +28,9 @@ pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     let bytes = input::bytes(&arguments.input)?;
     let measurement = input::measurement(&arguments.input, &bytes)?;
     let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
-    let mut results: Vec<ModelResult> = Vec::new();
-    for preset in presets {
-        if interrupt::asked() {
-            break;
-        }
-        let result = match problem(preset, &arguments.problem, &measurement) {
-            Ok(problem) => {
-                let watched = Watched::new(preset.key);
-                let closures = watched.watch();
-                let report = fitted(&problem, &arguments.problem, closures.as_watch());
-                Ok((problem, report))
-            }
-            Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Err(reason.to_string()),
-            Err(other) => return Err(other.about(&arguments.input, &measurement)),
-        };
-        results.push((preset, result));
-    }
+    let problems = problems(&presets, arguments, &measurement)?;
+    let results = results(&presets, &problems, arguments);
+    let is_complete = !interrupt::asked();
     if arguments.json {
         let fits: Vec<Value> = results
             .iter()
@@ -50,15 +39,56 @@ pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
                 Err(reason) => json!({ "model": preset.key, "skipped": reason }),
             })
             .collect();
-        output::write_json(&json!({ "fits": fits }))?;
+        let mut json = json!({ "fits": fits });
+        if let Some(object) = json.as_object_mut().filter(|_| !is_complete) {
+            object.insert("complete".to_owned(), json!(false));
+        }
+        output::write_json(&json)?;
     } else {
-        let verdicts = verdicts(&results);
+        // A fit that was stopped on its way is worth no verdict.
+        let verdicts = if is_complete { verdicts(&results) } else { vec!["Interrupted: the comparison is not complete.".to_owned()] };
         output::write(None, |out| {
             print(out, &measurement, &results)?;
             verdicts.iter().try_for_each(|verdict| writeln!(out, "\n{verdict}"))
         })?;
     }
     Ok(output::exit_code())
+}
+
+/// The problem of each model, or why there is none.
+fn problems(
+    presets: &[&'static Preset],
+    arguments: &CompareArguments,
+    measurement: &Measurement,
+) -> Result<Vec<Result<Problem, String>>, Failure> {
+    let of = |preset: &&'static Preset| match problem(preset, &arguments.problem, measurement) {
+        Ok(problem) => Ok(Ok(problem)),
+        Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Ok(Err(reason.to_string())),
+        Err(other) => Err(other.about(&arguments.input, measurement)),
+    };
+    presets.iter().map(of).collect()
+}
+
+/// The fit of each model, in the order of the presets. Each comes after its special cases and starts also where these ended, so that it
+/// never ends above one of them.
+fn results(presets: &[&'static Preset], problems: &[Result<Problem, String>], arguments: &CompareArguments) -> Vec<ModelResult> {
+    let models: Vec<Model> = presets.iter().map(|preset| preset.model).collect();
+    let mut fits: Vec<Option<FitResult>> = presets.iter().map(|_| None).collect();
+    for index in special_cases_first(&models) {
+        let Ok(problem) = &problems[index] else { continue };
+        if interrupt::asked() {
+            break;
+        }
+        let watched = Watched::new(presets[index].key);
+        let closures = watched.watch();
+        let problem = with_special_cases(problem, fits.iter().flatten());
+        fits[index] = Some(fitted(&problem, &arguments.problem, closures.as_watch()));
+    }
+    let result = |((preset, problem), fit): ((&&'static Preset, &Result<Problem, String>), Option<FitResult>)| {
+        let fit = problem.clone().and_then(|problem| Ok((problem, fit.ok_or("not reached before the interruption")?)));
+        (*preset, fit)
+    };
+    presets.iter().zip(problems).zip(fits).map(result).collect()
 }
 
 /// Gauss against Cauchy, wherever both were fitted.

@@ -3,7 +3,7 @@
 use crate::cli::arguments::EvaluateArguments;
 use crate::cli::failure::Failure;
 use crate::cli::{input, interrupt, output};
-use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, shortest};
+use pbrdf::measurement::{Expected, ReadError, ReadErrorKind, Record, Table, quote, shortest};
 use pbrdf::model::{GradientRequest, Model, Parameter, ParameterError, Parameters, Pbrdf, PerParameter};
 use pbrdf::optics::{Facet, Geometry, GeometryError, SlopeDistribution};
 use std::io::{self, Write};
@@ -111,8 +111,9 @@ impl Layout {
 
     fn surface(&self, record: &Record<'_>) -> Result<Pbrdf, ReadError> {
         let name = record.text(self.distribution);
-        let distribution = SlopeDistribution::from_key(&name)
-            .ok_or_else(|| record.error(self.distribution, ReadErrorKind::NotANumber { found: name, expected: Expected::Distribution }))?;
+        let distribution = SlopeDistribution::from_key(&name).ok_or_else(|| {
+            record.error(self.distribution, ReadErrorKind::NotANumber { found: quote(&name), expected: Expected::Distribution })
+        })?;
         let model = Model::full(distribution);
         let mut parameters = Parameters::default();
         for parameter in model.parameters() {

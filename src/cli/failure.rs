@@ -11,6 +11,16 @@ const OUTPUT: u8 = 1;
 /// Interrupted, as a shell reports it for SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
+/// Whether a path stands for standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// What a message calls a file.
+pub fn input_name(path: &Path) -> String {
+    if is_standard_input(path) { "Standard input".to_owned() } else { path.display().to_string() }
+}
+
 /// A sentence and an exit code.
 #[derive(Debug)]
 pub struct Failure {
@@ -26,7 +36,7 @@ impl Failure {
 
     /// A file that is not what it should be.
     pub fn input(path: &Path, reason: impl std::fmt::Display) -> Self {
-        Self::usage(format!("{}: {reason}.", path.display()))
+        Self::usage(format!("{}: {reason}.", input_name(path)))
     }
 
     /// A file or stream that could not be written.

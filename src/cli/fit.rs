@@ -1,14 +1,15 @@
 //! `fit`: the model on a measurement.
 
 use crate::cli::arguments::FitArguments;
-use crate::cli::failure::Failure;
+use crate::cli::failure::{Failure, input_name, is_standard_input};
 use crate::cli::problem::{fitted, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use crate::files::export;
 use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, fit_json, fitted_cells};
 use pbrdf::fit::{
-    BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, Weights, bootstrap, ends_text, profile,
+    Bootstrap, BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, StopReason, Weights, bootstrap,
+    ends_text, profile,
 };
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
@@ -36,8 +37,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     let report = fitted(&problem, &arguments.problem, watch.as_watch());
     let profiles: Vec<Profile> =
         arguments.profile.iter().map(|&parameter| profile(&problem, &report, parameter, watch.as_watch())).collect();
-    let scatters =
-        arguments.bootstrap.map_or_else(Vec::new, |count| bootstrap(&problem, &report, count, arguments.problem.seed, watch.as_watch()));
+    let scatter = arguments.bootstrap.map(|count| bootstrap(&problem, &report, count, arguments.problem.seed, watch.as_watch()));
     drop(watch);
     drop(watched);
 
@@ -49,15 +49,23 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     write_documents(arguments, &bytes, &measurement, &problem, &report)?;
     if arguments.json {
         let mut json = fit_json(arguments.model, &report);
-        add_scans(&mut json, &profiles, &scatters);
+        if is_cut_short(&report) {
+            json["complete"] = json!(false);
+        }
+        add_scans(&mut json, &profiles, scatter.as_ref());
         output::write_json(&json)?;
     } else {
         output::write(None, |out| {
             print(out, arguments, &measurement, &report)?;
-            print_scans(out, &profiles, &scatters)
+            print_scans(out, &profiles, scatter.as_ref())
         })?;
     }
     Ok(output::exit_code())
+}
+
+/// Whether an interruption left the search or its intervals without their ends.
+fn is_cut_short(report: &FitResult) -> bool {
+    report.stop_reason == StopReason::Cancelled || interrupt::asked() && report.course.intervals_complete == Some(false)
 }
 
 /// The report and the figure that were asked for.
@@ -68,8 +76,8 @@ fn write_documents(
     problem: &Problem,
     report: &FitResult,
 ) -> Result<(), Failure> {
-    let name =
-        arguments.input.file_name().map_or_else(|| arguments.input.display().to_string(), |name| name.to_string_lossy().into_owned());
+    let file_name = arguments.input.file_name().filter(|_| !is_standard_input(&arguments.input));
+    let name = file_name.map_or_else(|| input_name(&arguments.input), |name| name.to_string_lossy().into_owned());
     let source = DataSource { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
     let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
@@ -91,7 +99,7 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
     writeln!(
         out,
         "{}: {used} of {} rows, model {} ({})",
-        arguments.input.display(),
+        input_name(&arguments.input),
         measurement.rows.len(),
         arguments.model.key,
         arguments.model.name
@@ -129,6 +137,9 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
     if report.statistics.dof == 0 && !report.correlations.parameters.is_empty() {
         writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
     }
+    if is_cut_short(report) {
+        return writeln!(out, "\nInterrupted: this is the best so far; intervals that were not followed to their ends are not known.");
+    }
     let open = report.describe_undetermined();
     if !open.is_empty() {
         writeln!(out, "\nThe data leave open:")?;
@@ -138,7 +149,7 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
 }
 
 /// Profiles and bootstrap beside the agreed keys.
-fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[BootstrapEstimate]) {
+fn add_scans(json: &mut Value, profiles: &[Profile], scatter: Option<&Bootstrap>) {
     let Some(object) = json.as_object_mut() else { return };
     if !profiles.is_empty() {
         let of = |profile: &Profile| {
@@ -149,20 +160,26 @@ fn add_scans(json: &mut Value, profiles: &[Profile], scatters: &[BootstrapEstima
         };
         object.insert("profile".to_owned(), Value::Object(profiles.iter().map(of).collect::<Map<_, _>>()));
     }
-    if !scatters.is_empty() {
+    if let Some(scatter) = scatter {
         let of = |scatter: &BootstrapEstimate| {
             (scatter.parameter.key().to_owned(), json!({ "std_error": scatter.std_error, "low": scatter.low, "high": scatter.high }))
         };
-        object.insert("bootstrap".to_owned(), Value::Object(scatters.iter().map(of).collect::<Map<_, _>>()));
+        let parameters = Value::Object(scatter.estimates.iter().map(of).collect::<Map<_, _>>());
+        let mut bootstrap = json!({ "replicates": scatter.replicates, "parameters": parameters });
+        if let Some(bootstrap) = bootstrap.as_object_mut().filter(|_| !scatter.is_complete()) {
+            bootstrap.insert("complete".to_owned(), json!(false));
+        }
+        object.insert("bootstrap".to_owned(), bootstrap);
     }
 }
 
-fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapEstimate]) -> io::Result<()> {
+fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatter: Option<&Bootstrap>) -> io::Result<()> {
     for profile in profiles {
-        let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), |value| format!("{value:.6}"));
+        let (open, note) = if profile.is_complete { ("open", "") } else { ("not known", " (interrupted)") };
+        let end = |end: Option<f64>| end.map_or_else(|| open.to_owned(), |value| format!("{value:.6}"));
         writeln!(
             out,
-            "\nprofile of {}: one-standard-error interval {} … {}",
+            "\nprofile of {}: one-standard-error interval {} … {}{note}",
             profile.parameter.key(),
             end(profile.interval68.low),
             end(profile.interval68.high)
@@ -171,10 +188,11 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatters: &[BootstrapE
             writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.rss, point.objective)?;
         }
     }
-    if !scatters.is_empty() {
-        writeln!(out, "\nbootstrap: standard deviation, 16th and 84th percentile")?;
-    }
-    for scatter in scatters {
+    let Some(scatter) = scatter else { return Ok(()) };
+    let (made, of) =
+        (scatter.replicates, if scatter.is_complete() { String::new() } else { format!(" of {}: interrupted", scatter.asked) });
+    writeln!(out, "\nbootstrap over {made} data sets{of}: standard deviation, 16th and 84th percentile")?;
+    for scatter in &scatter.estimates {
         writeln!(out, "  {:<8} {:>12.3e} {:>14.8} {:>14.8}", scatter.parameter.key(), scatter.std_error, scatter.low, scatter.high)?;
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! `import`: foreign files as measurements.
 
 use crate::cli::arguments::ImportArguments;
-use crate::cli::failure::Failure;
+use crate::cli::failure::{Failure, input_name, is_standard_input};
 use crate::cli::{input, interrupt, output};
 use pbrdf::measurement::foreign::{LabTable, TableOptions, is_workbook};
 use pbrdf::measurement::formats::{ForeignFile, Format, ImportError, ImportNote, ImportOptions, Imported, Question, recognise};
@@ -15,7 +15,11 @@ pub fn run(task: &ImportArguments) -> Result<ExitCode, Failure> {
         Some(format) => recognised(task, format, bytes)?,
         None => table(task, bytes)?,
     };
-    let name = task.input.file_name().map(|name| name.to_string_lossy().replace(char::is_control, " "));
+    let name = task
+        .input
+        .file_name()
+        .filter(|_| !is_standard_input(&task.input))
+        .map(|name| name.to_string_lossy().replace(char::is_control, " "));
     let source = ("imported_from".to_owned(), name.unwrap_or_default());
     imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
     notice_all(task, &imported.notes);
@@ -86,7 +90,7 @@ fn table(task: &ImportArguments, bytes: Vec<u8>) -> Result<Imported, Failure> {
     let table = LabTable::open(bytes, &options, &mut input::while_reading()).map_err(|error| failure(task, &error))?;
     let guess = table.guess(&options).map_err(|error| input::read_failure(&task.input, &error))?;
     if task.columns.is_none() {
-        output::notice(format_args!("{}: {guess}", task.input.display()));
+        output::notice(format_args!("{}: {guess}", input_name(&task.input)));
         if !task.auto && guess.doubts.is_empty() {
             return Err(Failure::input(&task.input, "take this guess with --auto, or name the columns with --columns"));
         }
@@ -96,7 +100,7 @@ fn table(task: &ImportArguments, bytes: Vec<u8>) -> Result<Imported, Failure> {
         ("dphi", task.dphi.is_some(), pbrdf::measurement::Field::Dphi),
     ] {
         if is_given && guess.columns.iter().flatten().any(|column| column.field == Some(field)) {
-            output::notice(format_args!("{}: --{name} is not used; there is a column for it.", task.input.display()));
+            output::notice(format_args!("{}: --{name} is not used; there is a column for it.", input_name(&task.input)));
         }
     }
     table.read(&options, &mut input::while_reading()).map_err(|error| failure(task, &error))
@@ -152,7 +156,7 @@ fn every_wavelength(
 
 fn notice_all(task: &ImportArguments, notes: &[ImportNote]) {
     for note in notes {
-        output::notice(format_args!("{}: {note}.", task.input.display()));
+        output::notice(format_args!("{}: {note}.", input_name(&task.input)));
     }
 }
 

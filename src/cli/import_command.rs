@@ -22,7 +22,7 @@ pub fn options_for(bytes: &[u8]) -> Option<String> {
 
 /// The command that imports a file with those options.
 pub fn command(path: &Path, options: &str) -> String {
-    let output = path.with_extension("imported.csv");
+    let output = if path == Path::new("-") { "imported.csv".into() } else { path.with_extension("imported.csv") };
     let word = |path: &Path| quoted(&path.display().to_string());
     let space = if options.is_empty() { "" } else { " " };
     format!("pbrdf-explorer import {}{space}{options} -o {}", word(path), word(&output))

@@ -1,6 +1,6 @@
 //! Files from the command line.
 
-use crate::cli::failure::Failure;
+use crate::cli::failure::{Failure, input_name, is_standard_input};
 use crate::cli::import_command::{command, options_for};
 use crate::cli::interrupt;
 use crate::cli::output::{Progress, notice};
@@ -12,9 +12,13 @@ use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// The bytes of a file.
+/// The bytes of a file, or of standard input where the path is `-`.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
+    if is_standard_input(path) {
+        let read = std::io::stdin().lock().read_to_end(&mut bytes);
+        return read.map(|_| bytes).map_err(|error| Failure::input(path, format!("it cannot be read: {error}")));
+    }
     let mut file = open_file(path).map_err(|reason| Failure::input(path, reason))?;
     file.read_to_end(&mut bytes).map_err(|error| Failure::input(path, format!("the file cannot be read: {error}")))?;
     Ok(bytes)
@@ -49,11 +53,11 @@ pub fn measurement(path: &Path, bytes: &[u8]) -> Result<Measurement, Failure> {
 /// What the reader of a file has to say: the columns that no row uses, and its notices.
 pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
     for note in &measurement.notes {
-        notice(format_args!("{}: {note}.", path.display()));
+        notice(format_args!("{}: {note}.", input_name(path)));
     }
     if !measurement.ignored_columns.is_empty() {
         let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
-        notice(format_args!("{}: {note}.", path.display()));
+        notice(format_args!("{}: {note}.", input_name(path)));
     }
 }
 

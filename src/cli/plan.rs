@@ -80,6 +80,9 @@ fn told(arguments: &PlanArguments) -> Option<(&'static Preset, &'static Preset)>
 /// The free parameters of a fit of such readings.
 fn free(arguments: &PlanArguments, preset: &Preset, design: &Design, grid: &CandidateGrid) -> Result<ParameterSet, Failure> {
     let model = preset.model;
+    if let Some(parameter) = arguments.fix.iter().find(|parameter| arguments.free.contains(parameter)) {
+        return Err(Failure::usage(format!("--fix and --free both name {}.", parameter.key())));
+    }
     for &parameter in arguments.fix.iter().chain(&arguments.free) {
         if !model.parameters().contains(parameter) {
             output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));

@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::{output, values};
 use pbrdf::fit::{Fit, FitError, FitOptions, FitResult, Intervals, Observer, Problem, ProblemError, Starts, fit, with_intervals};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Parameter, ParameterSet, Preset};
@@ -67,8 +67,26 @@ fn starts(arguments: &ProblemArguments) -> Starts {
     }
 }
 
+/// That no option says two things of one parameter.
+fn check_once(arguments: &ProblemArguments) -> Result<(), NoProblem> {
+    let ProblemArguments { start, fix, free, bounds, .. } = arguments;
+    let fixed: Vec<Parameter> = fix.iter().map(|&(parameter, _)| parameter).collect();
+    let twice = values::twice(start.iter().map(|&(parameter, _)| parameter))
+        .map(|parameter| (parameter, "start"))
+        .or_else(|| values::twice(fixed.iter().copied()).map(|parameter| (parameter, "fix")))
+        .or_else(|| values::twice(bounds.iter().map(|&(parameter, ..)| parameter)).map(|parameter| (parameter, "bounds")));
+    if let Some((parameter, option)) = twice {
+        return Err(NoProblem::Usage(format!("--{option} names {} twice", parameter.key())));
+    }
+    match fixed.iter().find(|parameter| free.contains(parameter)) {
+        Some(parameter) => Err(NoProblem::Usage(format!("--fix and --free both name {}", parameter.key()))),
+        None => Ok(()),
+    }
+}
+
 /// The problem of fitting that preset.
 pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
+    check_once(arguments)?;
     let model = preset.model.with_dolp_formula(arguments.eq17);
     let options = FitOptions {
         weights: arguments.weights,

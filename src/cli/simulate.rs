@@ -3,22 +3,61 @@
 use crate::cli::arguments::{AngleArguments, SimulateArguments, SurfaceArguments};
 use crate::cli::failure::Failure;
 use crate::cli::import_command::quoted;
-use crate::cli::output;
+use crate::cli::output::{self, Progress};
+use crate::cli::{interrupt, values};
 use pbrdf::measurement::{Columns, Simulation};
 use pbrdf::model::{Parameters, Pbrdf};
+use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::process::ExitCode;
 
+/// Output that tells how many of its rows are written, and ends on an interruption.
+struct Watched<'a> {
+    out: &'a mut dyn Write,
+    lines: usize,
+    rows: usize,
+    progress: &'a mut Progress,
+}
+
+impl Write for Watched<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if interrupt::asked() {
+            return Err(io::ErrorKind::BrokenPipe.into());
+        }
+        let written = self.out.write(bytes)?;
+        self.lines += bytes[..written].iter().filter(|&&byte| byte == b'\n').count();
+        #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress line")]
+        self.progress.tell(|| format!("{:.0} %", 100.0 * (self.lines as f64 / self.rows as f64).min(1.0)));
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
 pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
+    interrupt::watch();
     let simulation = Simulation {
         noise: arguments.noise,
         brdf_noise: arguments.brdf_noise,
         seed: arguments.seed,
         ..simulation(&arguments.surface, &arguments.angles, arguments.columns)?
     };
-    let mut measurement = simulation.run().map_err(|error| Failure::usage(format!("{error}.")))?;
+    let rows = values::row_count(&[&arguments.angles.theta_i, &arguments.angles.theta_r]).map_err(Failure::usage)?;
+    let mut progress = Progress::new("simulating");
+    let mut watch = |done: f64| {
+        progress.tell_fraction(done);
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let simulated = simulation.run_with(&mut watch).map_err(|error| Failure::usage(format!("{error}.")))?;
+    let mut measurement = simulated.ok_or_else(Failure::interrupted)?;
+    drop(progress);
     let command = command_without_output(std::env::args().skip(1));
     measurement.metadata.insert(1, ("command".to_owned(), command));
-    output::write(Some(&arguments.output), |out| measurement.write(out))?;
+    let mut progress = Progress::new("writing");
+    output::write(Some(&arguments.output), |out| measurement.write(&mut Watched { out, lines: 0, rows, progress: &mut progress }))
+        .map_err(|failure| if interrupt::asked() { Failure::interrupted() } else { failure })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -43,6 +82,9 @@ pub fn surface(surface: &SurfaceArguments, columns: Columns) -> Result<Pbrdf, Fa
     let preset = surface.model;
     if preset.dolp_only && !matches!(columns, Columns::Dolp) {
         return Err(Failure::usage(format!("The model {} predicts DoLP only, not a BRDF.", preset.key)));
+    }
+    if let Some(parameter) = values::twice(surface.set.iter().map(|&(parameter, _)| parameter)) {
+        return Err(Failure::usage(format!("--set names {} twice.", parameter.key())));
     }
     for &(parameter, value) in &surface.set {
         if !preset.model.parameters().contains(parameter) {

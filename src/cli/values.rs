@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
-use pbrdf::model::{DolpFormula, PRESETS, Parameter, Preset, assignment_from_text};
+use pbrdf::model::{DolpFormula, PRESETS, Parameter, ParameterSet, Preset, assignment_from_text};
 use std::path::PathBuf;
 
 /// `n=2`.
@@ -34,6 +34,8 @@ pub struct Grid(pub Vec<f64>);
 
 /// More points than anybody measures, and still no strain on memory.
 const LARGEST_GRID: f64 = 1e6;
+/// Rows that a grid of all lists makes at most: some gigabytes of memory and of text.
+const MOST_ROWS: usize = 10_000_000;
 
 /// Most nodes of an angle, and of all together, that a tensor is written with.
 const MOST_NODES: usize = 2000;
@@ -123,6 +125,16 @@ pub fn criterion(text: &str) -> Result<Criterion, String> {
 /// A parameter by its name.
 pub fn parameter(text: &str) -> Result<Parameter, String> {
     Parameter::from_key(text.trim()).ok_or_else(|| format!("{text:?} is no parameter; expected one of {}", Parameter::keys()))
+}
+
+/// The first parameter that is named twice.
+pub fn twice(names: impl IntoIterator<Item = Parameter>) -> Option<Parameter> {
+    let mut seen = ParameterSet::EMPTY;
+    names.into_iter().find(|&parameter| {
+        let is_known = seen.contains(parameter);
+        seen = seen.with(parameter);
+        is_known
+    })
 }
 
 /// A finite number.
@@ -263,6 +275,15 @@ pub fn grid(text: &str) -> Result<Grid, String> {
         }
     }
     Ok(Grid(angles))
+}
+
+/// The rows of a grid of those lists.
+pub fn row_count(lists: &[&Grid]) -> Result<usize, String> {
+    let rows = lists.iter().map(|grid| grid.0.len() as u128).product::<u128>();
+    usize::try_from(rows)
+        .ok()
+        .filter(|&rows| rows <= MOST_ROWS)
+        .ok_or_else(|| format!("The lists of angles make {rows} rows, and at most {MOST_ROWS} are allowed; use coarser steps."))
 }
 
 fn range(from: f64, to: f64, step: f64, angles: &mut Vec<f64>) -> Result<(), String> {

@@ -1,7 +1,8 @@
 //! Runs the program that was built beside a test.
 
+use std::io::Write as _;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 pub fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
@@ -15,6 +16,27 @@ pub fn run(arguments: &[&str]) -> Output {
 
 pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Runs the program with those bytes as its standard input.
+pub fn output_to(arguments: &[&str], input: &[u8]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program was built beside this test");
+    // A program that reads another file may close its input before all is written.
+    let _ = program.stdin.take().expect("a pipe").write_all(input);
+    program.wait_with_output().expect("its end")
+}
+
+/// The standard output of a command that must succeed on that standard input.
+pub fn answer_to(arguments: &[&str], input: &[u8]) -> String {
+    let output = output_to(arguments, input);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
 }
 
 /// The standard output of a command that must succeed.

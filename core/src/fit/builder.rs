@@ -70,6 +70,7 @@ pub struct Fit<'a> {
     bounds: Vec<(Parameter, f64, f64)>,
     options: FitOptions,
     starts: Starts,
+    further_starts: Vec<Parameters>,
     seed: u64,
     intervals: Intervals,
     observer: Observer<'a>,
@@ -88,6 +89,7 @@ impl<'a> Fit<'a> {
             bounds: Vec::new(),
             options: FitOptions::default(),
             starts: Starts::Automatic,
+            further_starts: Vec::new(),
             seed: 1,
             intervals: Intervals::Profile,
             observer: Observer::NONE,
@@ -146,6 +148,12 @@ impl<'a> Fit<'a> {
         Self { starts, ..self }
     }
 
+    /// Starts also there, whatever else it starts from; the result is no worse than that point within the bounds.
+    pub fn start_also_at(mut self, start: Parameters) -> Self {
+        self.further_starts.push(start);
+        self
+    }
+
     /// Shifts the points that starts are spread over; the default is 1. The same seed gives the same result.
     pub fn seed(self, seed: u64) -> Self {
         Self { seed, ..self }
@@ -180,7 +188,8 @@ impl<'a> Fit<'a> {
             }
         }
         start.validate(self.model.parameters())?;
-        Ok(Problem::new(self.measurement, self.model, start, free, bounds, self.options)?)
+        let problem = Problem::new(self.measurement, self.model, start, free, bounds, self.options)?;
+        Ok(problem.with_further_starts(self.further_starts.clone()))
     }
 
     /// Runs the fit.

@@ -52,6 +52,7 @@ pub mod posterior;
 mod result;
 pub mod rounding;
 mod solve;
+mod special_cases;
 mod stop_reason;
 
 pub use analysis::analyse;
@@ -67,7 +68,7 @@ pub use estimate::{
 };
 pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
-pub use intervals::bootstrap::{BootstrapEstimate, bootstrap};
+pub use intervals::bootstrap::{Bootstrap, BootstrapEstimate, bootstrap};
 pub use intervals::interval::Interval;
 pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
 pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, set_intervals, with_intervals};
@@ -84,4 +85,5 @@ pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, Intervals, Loss, Weights};
 pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
 pub use solve::fit;
+pub use special_cases::{special_cases_first, with_special_cases};
 pub use stop_reason::StopReason;

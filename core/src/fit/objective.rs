@@ -67,6 +67,8 @@ pub struct Problem {
     model: Model,
     free: Vec<Parameter>,
     start: Parameters,
+    /// Where searches begin too.
+    further_starts: Arc<[Parameters]>,
     bounds: Bounds,
     options: FitOptions,
     observations: Arc<Observations>,
@@ -127,6 +129,7 @@ impl Problem {
             model,
             free: free.intersection(model.parameters()).iter().collect(),
             start,
+            further_starts: Arc::default(),
             bounds,
             options,
             loss_scales: observations.scales().map(|scale| options.loss_scale.unwrap_or(1.0) * scale),
@@ -139,6 +142,18 @@ impl Problem {
     #[must_use]
     pub fn with_start(&self, start: Parameters) -> Self {
         Self { start, ..self.clone() }
+    }
+
+    /// The same problem whose search begins at those parameters too, and ends above none of them; values of what is fixed are those of
+    /// its start, and values outside of the bounds move onto them.
+    #[must_use]
+    pub fn with_further_starts(&self, starts: Vec<Parameters>) -> Self {
+        let within = |further: Parameters| {
+            let mut start = self.start;
+            self.free.iter().for_each(|&parameter| start[parameter] = self.bounds.clamp(parameter, further[parameter]));
+            start
+        };
+        Self { further_starts: starts.into_iter().map(within).collect(), ..self.clone() }
     }
 
     /// The same problem in another box, which its start must lie in.
@@ -236,6 +251,12 @@ impl Problem {
     #[must_use]
     pub fn start(&self) -> &Parameters {
         &self.start
+    }
+
+    /// Where its search begins too.
+    #[must_use]
+    pub fn further_starts(&self) -> &[Parameters] {
+        &self.further_starts
     }
 
     /// The box that the free parameters stay in.

@@ -3,13 +3,17 @@
 //! The same seed gives the same numbers on every platform: the generator (PCG XSL RR 128/64) is
 //! specified to the bit, and deviates and model use the elementary functions of `libm`.
 
-use crate::measurement::{Measurement, Quantity, Row};
+use crate::measurement::{Measurement, Quantity, Row, unwatched};
 use crate::model::{GeometrySet, Parameters, Pbrdf};
 use crate::optics::{Geometry, GeometryError};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+/// Geometries that are simulated at once: a multiple of the lanes of any kernel.
+const BLOCK: usize = 65_536;
 
 /// Which quantities a simulation writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -77,10 +81,31 @@ impl Simulation {
     /// # Errors
     /// An angle is outside its range.
     pub fn run(&self) -> Result<Measurement, GeometryError> {
+        self.run_with(&mut unwatched).map(Option::unwrap_or_default)
+    }
+
+    /// The same; tells which fraction is done, from 0 to 1, now and then, and is none where it is told to stop.
+    ///
+    /// # Errors
+    /// An angle is outside its range.
+    pub fn run_with(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Option<Measurement>, GeometryError> {
         let geometries = self.geometries()?;
         let mut deviates = Deviates::new(self.seed);
+        let mut rows = Vec::with_capacity(geometries.len());
+        for block in geometries.chunks(BLOCK) {
+            #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress line")]
+            if watch(rows.len() as f64 / geometries.len() as f64).is_break() {
+                return Ok(None);
+            }
+            self.simulate(block, &mut deviates, &mut rows);
+        }
+        Ok(Some(Measurement { rows, metadata: self.metadata(), ..Measurement::default() }))
+    }
+
+    /// Adds the rows of those geometries.
+    fn simulate(&self, geometries: &[Geometry], deviates: &mut Deviates, rows: &mut Vec<Row>) {
         let scene = GeometrySet::new(geometries.iter().copied());
-        let rows = geometries.iter().zip(scene.reflections(&self.surface)).map(|(&geometry, reflection)| {
+        rows.extend(geometries.iter().zip(scene.reflections(&self.surface)).map(|(&geometry, reflection)| {
             let (z_dolp, z_brdf) = deviates.pair();
             let noisy_dolp = (reflection.dolp + self.noise * z_dolp).clamp(0.0, 1.0);
             let dolp = Quantity { value: noisy_dolp, sigma: positive(self.noise) };
@@ -92,8 +117,7 @@ impl Simulation {
                 brdf: (self.columns != Columns::Dolp).then_some(brdf),
                 masked: false,
             }
-        });
-        Ok(Measurement { rows: rows.collect(), metadata: self.metadata(), ..Measurement::default() })
+        }));
     }
 
     /// Metadata: that the rows are simulated, the model, its parameters, the noise and the seed.

@@ -11,9 +11,10 @@ use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{
-    BootstrapEstimate, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile, with_intervals,
+    Bootstrap, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile, special_cases_first,
+    with_intervals, with_special_cases,
 };
-use pbrdf::model::{Parameter, Preset};
+use pbrdf::model::{Model, Parameter, Preset};
 use std::sync::Arc;
 
 /// A fit with the intervals of its parameters.
@@ -22,12 +23,6 @@ pub struct FinishedIntervals {
     pub id: usize,
     /// None where the job was stopped before their ends.
     pub report: Option<Box<FitResult>>,
-}
-
-/// How the parameters scatter over so many data sets.
-pub struct FinishedBootstrap {
-    pub replicates: usize,
-    pub scatter: Vec<BootstrapEstimate>,
 }
 
 /// Slots of the jobs around fits.
@@ -45,7 +40,7 @@ pub struct FitJobs {
     /// Fits several models to the measurement of a number; the progress is the name of the model.
     pub compare: Slot<(u64, Vec<ModelFit>), &'static str>,
     pub profile: Slot<Profile>,
-    pub bootstrap: Slot<FinishedBootstrap>,
+    pub bootstrap: Slot<Bootstrap>,
 }
 
 impl FitJobs {
@@ -115,7 +110,8 @@ impl FitJobs {
         self.refit.start(&self.spawner, "refit", job).map_err(start_error)
     }
 
-    /// Fits several models, one after the other; a model without a problem keeps the reason.
+    /// Fits several models, one after the other, each also from the best fits of its special cases; a model without a problem keeps
+    /// the reason.
     ///
     /// # Errors
     /// The job does not start; a sentence.
@@ -127,21 +123,27 @@ impl FitJobs {
         seed: u64,
     ) -> Result<(), String> {
         let job = move |context: &JobContext<&'static str>| {
-            let mut fits = Vec::new();
-            for (preset, problem) in problems {
+            let models: Vec<Model> = problems.iter().map(|(preset, _)| preset.model).collect();
+            let mut fits: Vec<(usize, ModelFit)> = Vec::new();
+            for index in special_cases_first(&models) {
+                let (preset, problem) = &problems[index];
                 if context.is_cancelled() {
                     break;
                 }
                 context.report(preset.name);
                 let begun = Instant::now();
                 let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
-                let fitted = |problem: Problem| {
+                let fitted = |problem: &Problem| {
+                    let before = fits.iter().filter_map(|(_, fit)| fit.result.as_deref().ok());
+                    let problem = with_special_cases(problem, before);
                     let linear = fit(&problem, starts, seed, observer);
                     Box::new(whole_intervals(&problem, linear.clone(), observer).unwrap_or(linear))
                 };
-                fits.push(ModelFit { preset, result: problem.map(fitted) });
+                let result = problem.as_ref().map(fitted).map_err(Clone::clone);
+                fits.push((index, ModelFit { preset, result }));
             }
-            (number, fits)
+            fits.sort_by_key(|&(index, _)| index);
+            (number, fits.into_iter().map(|(_, fit)| fit).collect())
         };
         self.compare.start(&self.spawner, "compare models", job).map_err(start_error)
     }
@@ -162,10 +164,7 @@ impl FitJobs {
     /// The job does not start; a sentence.
     pub fn bootstrap(&mut self, problem: Problem, report: FitResult, replicates: usize, seed: u64) -> Result<(), String> {
         self.abandon_scan();
-        let job = move |context: &JobContext| {
-            let scatter = bootstrap(&problem, &report, replicates, seed, observer(&|| context.is_cancelled()));
-            FinishedBootstrap { replicates, scatter }
-        };
+        let job = move |context: &JobContext| bootstrap(&problem, &report, replicates, seed, observer(&|| context.is_cancelled()));
         self.bootstrap.start(&self.spawner, "bootstrap", job).map_err(start_error)
     }
 

@@ -327,14 +327,8 @@ fn the_verdict_of_gauss_against_cauchy_is_said_in_chinese() {
         }
     }
     assert_localized(texts);
-    let comparison = DistributionComparison {
-        gauss: 2.0,
-        cauchy: 1.0,
-        aicc_gain: Some(20.0),
-        is_delta_e: true,
-        is_nested: true,
-        is_exact: false,
-    };
+    let comparison =
+        DistributionComparison { gauss: 2.0, cauchy: 1.0, aicc_gain: Some(20.0), is_delta_e: true, is_nested: true, is_exact: false };
     assert_eq!(comparison.localized(), "柯西优于高斯：ΔE 小至 1/2.0000；柯西的 AICc 低 20.0：另一个基本得不到支持。");
     assert_eq!(
         comparison.to_string(),

@@ -53,15 +53,17 @@ fn a_bootstrap_stands_beside_the_standard_errors() {
     harness.step();
     wait(&mut harness);
     let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
-    let scatter = &explorer(&mut harness).work.diagnostics().scatter.as_ref().expect("a bootstrap").scatter;
-    assert_eq!(scatter.len(), 2);
-    for scatter in scatter {
+    let scatter = &explorer(&mut harness).work.diagnostics().scatter.as_ref().expect("a bootstrap");
+    assert_eq!((scatter.replicates, scatter.asked), (200, 200));
+    assert_eq!(scatter.estimates.len(), 2);
+    for scatter in &scatter.estimates {
         let estimate = fit.report.estimates.iter().find(|estimate| estimate.parameter == scatter.parameter).expect("an estimate");
         let ratio = scatter.std_error / estimate.std_error.expect("determined");
         // 200 data sets know their own scatter to 5 %, and 27 residuals theirs to 15 %.
         assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
     harness.get_by_label("± boot");
+    harness.get_by_label("200 data sets fitted, each from several starts");
 }
 
 #[test]
@@ -74,7 +76,8 @@ fn a_scan_is_stopped_and_one_of_another_fit_is_dropped() {
     harness.get_by_label("Stop the scan").click();
     harness.step();
     wait(&mut harness);
-    assert!(explorer(&mut harness).work.diagnostics().scatter.is_some(), "what was there is kept");
+    let stopped = explorer(&mut harness).work.diagnostics().scatter.as_ref().expect("what was there is kept");
+    assert!(stopped.replicates < stopped.asked && stopped.asked == 100_000, "{}", stopped.replicates);
     explorer(&mut harness).actions.push(Action::Bootstrap);
     harness.step();
     let rows = (*explorer(&mut harness).work.active().measurement).clone();

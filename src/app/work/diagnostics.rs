@@ -1,6 +1,6 @@
 //! What is asked about a finished fit: the profile of a parameter, and a bootstrap.
 
-use pbrdf::fit::{BootstrapEstimate, FitResult, Interval, Problem, Profile, Weights};
+use pbrdf::fit::{Bootstrap, FitResult, Interval, Problem, Profile, Weights};
 use pbrdf::model::Parameter;
 
 /// Diagnostics around the fit that is shown.
@@ -11,12 +11,6 @@ pub struct Diagnostics {
     /// How many data sets the next bootstrap deals out.
     pub replicates: usize,
     pub scatter: Option<Bootstrap>,
-}
-
-/// How each parameter scattered.
-pub struct Bootstrap {
-    pub replicates: usize,
-    pub scatter: Vec<BootstrapEstimate>,
 }
 
 impl Diagnostics {

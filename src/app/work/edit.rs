@@ -1,14 +1,14 @@
 //! The changes that can be made to the work.
 
 use crate::app::work::design::DesignSettings;
-use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
+use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::Surface;
-use pbrdf::fit::{FitOptions, FitResult, Starts};
+use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Starts};
 use pbrdf::model::{Model, Parameter, Parameters};
 use std::path::PathBuf;
 

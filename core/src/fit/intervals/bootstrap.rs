@@ -1,9 +1,11 @@
 //! Residual bootstrap: how the estimates scatter when the residuals of the fit are resampled.
 //!
 //! The data of a replicate are the fitted values plus residuals drawn with replacement, widened by `√(N/(N − rank))` because the fit
-//! has made them smaller (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted from the solution.
+//! has made them smaller (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted
+//! from several starts, the solution among them.
 
 use crate::fit::local::solver::{Effort, fit_local};
+use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::result::FitResult;
@@ -24,14 +26,38 @@ pub struct BootstrapEstimate {
     pub high: f64,
 }
 
+/// How the parameters scatter over the replicates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bootstrap {
+    /// How many data sets were asked for.
+    pub asked: usize,
+    /// How many were fitted to the end: fewer after a cancel.
+    pub replicates: usize,
+    /// The free parameters; empty without a replicate.
+    pub estimates: Vec<BootstrapEstimate>,
+}
+
+impl Bootstrap {
+    /// Whether all data sets were fitted that were asked for.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.replicates == self.asked
+    }
+}
+
 /// Data sets that are held in memory at once.
 const AT_ONCE: usize = 64;
+/// Starts of each refit: the solution, and so many more of the other minima of the fit and of the points a search begins at. Noise may
+/// make another minimum the best.
+const STARTS: usize = 4;
 
-/// Refits `replicates` data sets; those that were not reached before a cancel are left out.
+/// Refits `replicates` data sets, each from several starts within the bounds; those that were not fitted to the end before a cancel are
+/// left out.
 #[must_use]
-pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed: u64, watch: Observer<'_>) -> Vec<BootstrapEstimate> {
+pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed: u64, watch: Observer<'_>) -> Bootstrap {
+    let none = Bootstrap { asked: replicates, replicates: 0, estimates: Vec::new() };
     if problem.is_empty() || problem.free().is_empty() {
-        return Vec::new();
+        return none;
     }
     let mut random = Pcg64::seed_from_u64(seed);
     #[expect(clippy::cast_possible_truncation, reason = "the remainder is below the number of residuals")]
@@ -39,7 +65,13 @@ pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed:
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
     let widen = (problem.len() as f64 / report.statistics.dof.max(1) as f64).sqrt();
     let solution = report.fitted(problem).with_start(report.parameters);
-    let refit = |replicate: &Problem| (!(watch.cancelled)()).then(|| fit_local(replicate, Effort::Thorough, watch).parameters);
+    let starts = starts(problem, report, seed);
+    let refit = |replicate: &Problem| {
+        let fits = starts.iter().map(|start| fit_local(&replicate.with_start(*start), Effort::Thorough, watch));
+        let best = fits.min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
+        // A descent that a cancel has cut short is no refit.
+        (best.sum_of_squares.is_finite() && !(watch.cancelled)()).then_some(best.parameters)
+    };
     let mut fits = Vec::new();
     let mut left = replicates;
     // Data sets are drawn in their order, and no more of them are held than are being fitted.
@@ -49,10 +81,21 @@ pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed:
         fits.extend(refit_all(&drawn, &refit));
     }
     if fits.is_empty() {
-        return Vec::new();
+        return none;
     }
     let scatter = |&parameter: &Parameter| scatter(parameter, fits.iter().map(|fit| fit[parameter]).collect());
-    problem.free().iter().map(scatter).collect()
+    Bootstrap { replicates: fits.len(), estimates: problem.free().iter().map(scatter).collect(), ..none }
+}
+
+/// The solution, the next best minima of the fit, and points that a search begins at.
+fn starts(problem: &Problem, report: &FitResult, seed: u64) -> Vec<Parameters> {
+    let minima = report.course.minima.iter().skip(1).map(|minimum| minimum.parameters);
+    let mut starts: Vec<Parameters> = std::iter::once(report.parameters).chain(minima).take(STARTS).collect();
+    if starts.len() < STARTS {
+        let further = StartSequence::new(problem, seed).take(STARTS - starts.len());
+        starts.extend(further);
+    }
+    starts
 }
 
 /// Fits of those data sets, in their order; none of those that came after a cancel.

@@ -68,6 +68,11 @@ impl MultistartResult {
         self.merge(Basin { local_fit, hits: 1 });
     }
 
+    /// Adds the descents of several starts.
+    pub(crate) fn add_all(&mut self, local_fits: Vec<LocalFit>) {
+        local_fits.into_iter().for_each(|local_fit| self.add(local_fit));
+    }
+
     /// Merges a minimum into one already found, or adds it, in the order of sums of squares.
     pub(crate) fn merge(&mut self, new: Basin) {
         let value = new.local_fit.sum_of_squares;

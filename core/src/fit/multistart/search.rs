@@ -85,17 +85,22 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
     };
     if most == 1 {
         found.add(fit_local(problem, Effort::Thorough, observer));
+        found.add_all(further_fits(problem, Effort::Thorough, observer));
         return found;
     }
     if problem.len() > MANY_RESIDUALS {
         let explored = multistart(&problem.thinned(SUBSET), starts, seed, Observer { progress: &|_| {}, ..observer });
-        return finished_on_all(problem, explored, observer);
+        let mut found = finished_on_all(problem, explored, observer);
+        found.add_all(further_fits(problem, Effort::Polish, observer));
+        return found;
     }
     let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed), found };
     if most > MAX_FOLLOWED {
         search.keep_best(most);
+        search.found.add_all(further_fits(problem, Effort::Thorough, observer));
     } else {
         search.rounds(starts, most);
+        search.found.add_all(further_fits(problem, Effort::Thorough, observer));
         if starts == Starts::Automatic {
             if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() {
                 search.keep_best(BROAD_PROBES);
@@ -105,6 +110,15 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
     }
     search.polish(POLISH_PASSES);
     search.found
+}
+
+/// Descents from the further starts of the problem. They take no part in the count of hits that ends the rounds: they are no random
+/// starts.
+fn further_fits(problem: &Problem, effort: Effort, observer: Observer<'_>) -> Vec<LocalFit> {
+    if problem.free().is_empty() {
+        return Vec::new();
+    }
+    problem.further_starts().iter().map(|start| fit_local(&problem.with_start(*start), effort, observer)).collect()
 }
 
 /// The best minima of a part of the data, followed on all of them.

@@ -9,11 +9,10 @@ use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
-use crate::app::work::diagnostics::Bootstrap;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, TextWrapMode, Ui};
-use pbrdf::fit::{BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
+use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
 use pbrdf::rounding;
 use tr::tr;
 
@@ -100,7 +99,7 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.strong(translated(heading)).on_hover_text(translated(help));
         }
         if let Some(bootstrap) = bootstrap {
-            ui.strong(tr!("± boot")).on_hover_text(tr!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates));
+            ui.strong(tr!("± boot")).on_hover_text(bootstrap_help(bootstrap));
         }
         ui.end_row();
         for estimate in &report.estimates {
@@ -108,7 +107,8 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.monospace(significant(estimate.start));
             ui.monospace(estimate.value_text()).on_hover_text(significant(estimate.value));
             uncertainty_ui(estimate, report.course.intervals_complete.is_some(), ui);
-            let scatter = bootstrap.and_then(|bootstrap| bootstrap.scatter.iter().find(|scatter| scatter.parameter == estimate.parameter));
+            let scatter =
+                bootstrap.and_then(|bootstrap| bootstrap.estimates.iter().find(|scatter| scatter.parameter == estimate.parameter));
             if let Some(scatter) = scatter {
                 let (low, high) = (significant(scatter.low), significant(scatter.high));
                 ui.label(short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
@@ -116,6 +116,19 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.end_row();
         }
     });
+}
+
+/// Over how many data sets a bootstrap ran.
+fn bootstrap_help(bootstrap: &Bootstrap) -> String {
+    if bootstrap.is_complete() {
+        tr!("Standard deviation over {} data sets of a bootstrap", bootstrap.replicates)
+    } else {
+        tr!(
+            "Standard deviation over {0} data sets of a bootstrap that was stopped; {1} were asked for",
+            bootstrap.replicates,
+            bootstrap.asked
+        )
+    }
 }
 
 /// What fell, where that was not ΔE, named for what it is.

@@ -41,6 +41,17 @@ pub fn scans_ui(fit: &FitEntry, cx: &mut Cx<'_>, ui: &mut Ui) {
                 cx.edits.push(Edit::SetReplicates(replicates));
             }
         });
+        if let Some(bootstrap) = &scans.scatter {
+            ui.weak(if bootstrap.is_complete() {
+                tr!("{0} data sets fitted, each from several starts", bootstrap.replicates)
+            } else {
+                tr!(
+                    "{0} of {1} data sets fitted, each from several starts: the bootstrap was stopped",
+                    bootstrap.replicates,
+                    bootstrap.asked
+                )
+            });
+        }
         if running {
             ui.horizontal(|ui| {
                 ui.spinner();

@@ -1,15 +1,15 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fits::{FinishedBootstrap, FinishedIntervals};
+use crate::app::tasks::fits::FinishedIntervals;
 use crate::app::text::localized::Localized as _;
-use crate::app::work::diagnostics::{Bootstrap, ProfileCurve};
+use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{explain, fit_problem};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
-use pbrdf::fit::{FitOptions, FitResult, Problem, Profile, free_by_default};
+use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Problem, Profile, free_by_default};
 use pbrdf::model::{PRESETS, Parameter};
 use tr::tr;
 
@@ -120,8 +120,8 @@ pub fn start_bootstrap(app: &mut App) -> Result<(), String> {
     shown_fit(app).map_or(Ok(()), |(problem, report)| app.jobs.fits.bootstrap(problem, report, replicates, seed))
 }
 
-pub fn bootstrapped(app: &mut App, FinishedBootstrap { replicates, scatter }: FinishedBootstrap) {
-    app.work.apply(Edit::SetBootstrap(Some(Bootstrap { replicates, scatter })));
+pub fn bootstrapped(app: &mut App, bootstrap: Bootstrap) {
+    app.work.apply(Edit::SetBootstrap(Some(bootstrap)));
 }
 
 /// The fit that is shown, with the problem that it solved.

@@ -1,0 +1,81 @@
+//! Models that are special cases of others, and what a fit of one tells the fit of the other.
+//!
+//! A model does what its special case does where the lobes that this one lacks have no weight, where a Minnaert lobe has c = 0
+//! (Lambert), and, in the limit of large q, where Cauchy has σ = √q σ_Gauss. A fit that starts there too never ends above it.
+
+use crate::fit::objective::Problem;
+use crate::fit::result::FitResult;
+use crate::model::{Diffuse, Model, Parameter, ParameterSet, Parameters};
+use crate::optics::SlopeDistribution;
+
+/// The order in which to fit models so that each comes after all its special cases: indices into the models, which keep their order
+/// otherwise.
+#[must_use]
+pub fn special_cases_first(models: &[Model]) -> Vec<usize> {
+    let terms = |model: &Model| {
+        let diffuse = match model.diffuse {
+            Diffuse::Absent => 0,
+            Diffuse::Hyde | Diffuse::Lambert => 1,
+            Diffuse::Minnaert => 2,
+        };
+        diffuse + u8::from(model.volume) + u8::from(model.distribution == SlopeDistribution::Cauchy)
+    };
+    let mut order: Vec<usize> = (0..models.len()).collect();
+    order.sort_by_key(|&index| terms(&models[index]));
+    order
+}
+
+/// Whether the diffuse lobe of `special` is one of `general` at some weight and shape.
+fn contains_diffuse(general: Diffuse, special: Diffuse) -> bool {
+    match (general, special) {
+        // Hyde's lobe has no weight that could be 0.
+        (Diffuse::Lambert | Diffuse::Minnaert, Diffuse::Absent) | (Diffuse::Minnaert, Diffuse::Lambert) => true,
+        (general, special) => general == special,
+    }
+}
+
+/// The same problem that starts also where those fits of special cases of its model ended; fits of other models are left aside.
+#[must_use]
+pub fn with_special_cases<'a>(problem: &Problem, fits: impl IntoIterator<Item = &'a FitResult>) -> Problem {
+    problem.with_further_starts(fits.into_iter().filter_map(|fit| start_at_special_case(problem, fit)).collect())
+}
+
+/// Where this model does what its special case does at the end of its fit, as far as the bounds and what is fixed allow; none where
+/// the fit is of no special case.
+fn start_at_special_case(problem: &Problem, fit: &FitResult) -> Option<Parameters> {
+    let (general, special) = (problem.model(), fit.model);
+    // DoLP of mirror facets alone is that of Fresnel: neither their slopes nor masking play a part.
+    let is_bare = special.diffuse == Diffuse::Absent && !special.volume && problem.knows_only_ratios();
+    let is_limit = general.distribution == SlopeDistribution::Cauchy && special.distribution == SlopeDistribution::Gauss;
+    let is_contained = general.dolp_formula == special.dolp_formula
+        && general.specular == special.specular
+        && contains_diffuse(general.diffuse, special.diffuse)
+        && (general.volume || !special.volume)
+        && (is_bare || general.masking == special.masking && (is_limit || general.distribution == special.distribution));
+    if !is_contained {
+        return None;
+    }
+    let mut start = *problem.start();
+    let shared = general.parameters().intersection(special.parameters());
+    let idle = if is_bare { [Parameter::Sigma, Parameter::Q].into_iter().collect() } else { ParameterSet::EMPTY };
+    for parameter in shared.without_all(idle) {
+        start[parameter] = fit.parameters[parameter];
+    }
+    if special.diffuse == Diffuse::Absent {
+        start.kd = 0.0;
+    }
+    if special.diffuse == Diffuse::Lambert && general.diffuse == Diffuse::Minnaert {
+        start.c = 0.0;
+    }
+    if !special.volume {
+        start.kv = 0.0;
+    }
+    if is_limit && !is_bare {
+        // The largest q whose σ lies within the bounds.
+        let (_, largest_sigma) = problem.bounds().of(Parameter::Sigma);
+        let of_largest_sigma = (largest_sigma / start.sigma) * (largest_sigma / start.sigma);
+        start.q = problem.bounds().clamp(Parameter::Q, problem.bounds().of(Parameter::Q).1.min(of_largest_sigma));
+        start.sigma *= start.q.sqrt();
+    }
+    Some(start)
+}
