@@ -32,6 +32,9 @@ pub(crate) fn is_same(value: f64, other: f64) -> bool {
     (value - other).abs() <= (SAME * other.abs()).max(SAME_ABSOLUTE)
 }
 
+/// Relative difference of sums of squares that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The expected share of starts that end in minima not seen yet, `w(w + 1)/(n(n − 1))` of w distinct minima after n starts (Boender
 /// and Kan, Math. Program. 37, 59 (1987)); none after a single start.
 pub(crate) fn unseen_share(minima: usize, starts: usize) -> Option<f64> {
@@ -68,9 +71,20 @@ impl MultistartResult {
         self.merge(Basin { local_fit, hits: 1 });
     }
 
-    /// Adds the descents of several starts.
-    pub(crate) fn add_all(&mut self, local_fits: Vec<LocalFit>) {
-        local_fits.into_iter().for_each(|local_fit| self.add(local_fit));
+    /// Adds the descents of further starts. One that ends in a minimum already found, and no lower, tells nothing.
+    pub(crate) fn add_further(&mut self, local_fits: Vec<LocalFit>) {
+        for local_fit in local_fits {
+            let sum = local_fit.sum_of_squares;
+            let is_known = |basin: &Basin| {
+                let known = basin.local_fit.sum_of_squares;
+                is_same(sum, known) && sum >= known * (1.0 - ROUNDING)
+            };
+            if self.basins.iter().any(is_known) {
+                self.evaluations += local_fit.evaluations;
+            } else {
+                self.add(local_fit);
+            }
+        }
     }
 
     /// Merges a minimum into one already found, or adds it, in the order of sums of squares.

@@ -85,22 +85,22 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
     };
     if most == 1 {
         found.add(fit_local(problem, Effort::Thorough, observer));
-        found.add_all(further_fits(problem, Effort::Thorough, observer));
+        found.add_further(further_fits(problem, Effort::Thorough, observer));
         return found;
     }
     if problem.len() > MANY_RESIDUALS {
         let explored = multistart(&problem.thinned(SUBSET), starts, seed, Observer { progress: &|_| {}, ..observer });
         let mut found = finished_on_all(problem, explored, observer);
-        found.add_all(further_fits(problem, Effort::Polish, observer));
+        found.add_further(further_fits(problem, Effort::Polish, observer));
         return found;
     }
     let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed), found };
     if most > MAX_FOLLOWED {
         search.keep_best(most);
-        search.found.add_all(further_fits(problem, Effort::Thorough, observer));
+        search.found.add_further(further_fits(problem, Effort::Thorough, observer));
     } else {
         search.rounds(starts, most);
-        search.found.add_all(further_fits(problem, Effort::Thorough, observer));
+        search.found.add_further(further_fits(problem, Effort::Thorough, observer));
         if starts == Starts::Automatic {
             if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() {
                 search.keep_best(BROAD_PROBES);
