@@ -5,9 +5,9 @@
 
 use crate::fit::multistart::box_least_squares::{BoxLeastSquares, SINGULAR};
 use crate::model::Radiances;
-use crate::model::batch::lanes::{Instructions, Vectorised, dispatch};
+use crate::model::batch::lanes::{Instructions, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::LANES;
-use fearless_simd::Simd;
+use fearless_simd::prelude::*;
 
 /// A lobe of unit weight, or of its weight where that is not fitted: for each shape its value on each row, relative to the measured value
 /// where that is a BRDF.
@@ -145,88 +145,100 @@ struct PairSearch<'a> {
 }
 
 impl Vectorised for PairSearch<'_> {
-    /// Loops over lanes become vectors of the instructions that this is compiled for.
     #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) {
-        self.run_blocks();
+    fn run<S: Simd>(self, simd: S) {
+        for lobes in self.pairs.rows.chunks_exact(self.rows.len().max(1)) {
+            let (mut kd, mut kv, mut misfit) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            for first in (0..LANES).step_by(V::<S>::LEN) {
+                let lanes = PairLanes { simd, lobes, first };
+                let weights = self.weights(&lanes);
+                self.misfit(&lanes, weights).store_slice(&mut misfit[first..first + V::<S>::LEN]);
+                weights[0].store_slice(&mut kd[first..first + V::<S>::LEN]);
+                weights[1].store_slice(&mut kv[first..first + V::<S>::LEN]);
+            }
+            self.out.extend((0..LANES).map(|lane| Solved { kd: kd[lane], kv: kv[lane], misfit: misfit[lane] }));
+        }
     }
 
     fn run_scalar(self) {
-        self.run_blocks();
+        let Self { dolp, rows, ranges, pairs, out } = self;
+        let ranges = [(1.0, 1.0), ranges[0], ranges[1]];
+        for lobes in pairs.rows.chunks_exact(rows.len().max(1)) {
+            for lane in 0..LANES {
+                let column = |lobe: usize| lobes.iter().map(|row| row[lobe][lane]).collect::<Vec<f64>>();
+                let (diffuse, volume) = (column(0), column(1));
+                let [_, kd, kv] = normal(rows.iter().copied(), ranges, &diffuse, &volume).minimum();
+                out.push(Solved { kd, kv, misfit: dolp.misfit([kd, kv], &diffuse, &volume) });
+            }
+        }
+    }
+}
+
+/// As many pairs as a vector has lanes.
+struct PairLanes<'a, S: Simd> {
+    simd: S,
+    lobes: &'a [[Lanes; 2]],
+    first: usize,
+}
+
+impl<S: Simd> PairLanes<'_, S> {
+    /// The diffuse and the volume lobe on each row.
+    #[inline(always)]
+    fn rows(&self) -> impl Iterator<Item = [V<S>; 2]> {
+        let load = |column: &Lanes| V::<S>::from_slice(self.simd, &column[self.first..self.first + V::<S>::LEN]);
+        self.lobes.iter().map(move |[diffuse, volume]| [load(diffuse), load(volume)])
     }
 }
 
 impl PairSearch<'_> {
-    #[inline(always)]
-    fn run_blocks(self) {
-        if self.rows.is_empty() {
-            return;
-        }
-        for lobes in self.pairs.rows.chunks_exact(self.rows.len()) {
-            let [kd, kv] = self.weights(lobes);
-            let misfits = self.misfits(lobes, &kd, &kv);
-            self.out.extend((0..LANES).map(|lane| Solved { kd: kd[lane], kv: kv[lane], misfit: misfits[lane] }));
-        }
-    }
-
     /// The least squares of two weights in their box, in each lane. See [`BoxLeastSquares`]: the minimum without the box where it
     /// is inside, else the lowest minimum of an edge.
     #[inline(always)]
-    fn weights(&self, lobes: &[[Lanes; 2]]) -> [Lanes; 2] {
-        let (mut dd, mut dv, mut vv, mut dy, mut vy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for (row, [diffuse, volume]) in self.rows.iter().zip(lobes) {
-            for lane in 0..LANES {
-                let (d, v) = (row.slope * diffuse[lane], row.slope * volume[lane]);
-                dd[lane] += d * d;
-                dv[lane] += d * v;
-                vv[lane] += v * v;
-                dy[lane] += d * row.right;
-                vy[lane] += v * row.right;
-            }
+    fn weights<S: Simd>(&self, lanes: &PairLanes<'_, S>) -> [V<S>; 2] {
+        let number = |value: f64| number(lanes.simd, value);
+        let [mut dd, mut dv, mut vv, mut dy, mut vy] = [number(0.0); 5];
+        for (row, [diffuse, volume]) in self.rows.iter().zip(lanes.rows()) {
+            let (d, v) = (diffuse * row.slope, volume * row.slope);
+            dd = d.mul_add(d, dd);
+            dv = d.mul_add(v, dv);
+            vv = v.mul_add(v, vv);
+            dy = d.mul_add(number(row.right), dy);
+            vy = v.mul_add(number(row.right), vy);
         }
         let [d_range, v_range] = self.ranges;
-        let (mut kd, mut kv) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            let (dd, dv, vv, dy, vy) = (dd[lane], dv[lane], vv[lane], dy[lane], vy[lane]);
-            // An unknown without a column stays at the lower end of its range.
-            let over_dd = if dd > 0.0 { 1.0 / dd } else { 0.0 };
-            let over_vv = if vv > 0.0 { 1.0 / vv } else { 0.0 };
-            let value = |d: f64, v: f64| d * (dd * d + 2.0 * (dv * v - dy)) + v * (vv * v - 2.0 * vy);
-            let on_d = |d: f64| (d, clamp((vy - dv * d) * over_vv, v_range));
-            let on_v = |v: f64| (clamp((dy - dv * v) * over_dd, d_range), v);
-            let mut lowest = on_d(d_range.0);
-            for (d, v) in [on_d(d_range.1), on_v(v_range.0), on_v(v_range.1)] {
-                let is_lower = value(d, v) < value(lowest.0, lowest.1);
-                lowest = (if is_lower { d } else { lowest.0 }, if is_lower { v } else { lowest.1 });
-            }
-            let determinant = dd * vv - dv * dv;
-            let (d, v) = ((dy * vv - vy * dv) / determinant, (vy * dd - dy * dv) / determinant);
-            let is_inside = (determinant > SINGULAR * dd * vv) & (d >= d_range.0) & (d <= d_range.1) & (v >= v_range.0) & (v <= v_range.1);
-            kd[lane] = if is_inside { d } else { lowest.0 };
-            kv[lane] = if is_inside { v } else { lowest.1 };
+        let clamp = |value: V<S>, (low, high): (f64, f64)| value.max(number(low)).min(number(high));
+        // An unknown without a column stays at the lower end of its range.
+        let over = |square: V<S>| choose::<S>(square.simd_gt(number(0.0)), number(1.0) / square, number(0.0));
+        let (over_dd, over_vv) = (over(dd), over(vv));
+        let value = |[d, v]: [V<S>; 2]| d * (dd * d + (dv * v - dy) * 2.0) + v * (vv * v - vy * 2.0);
+        let on_d = |d: f64| [number(d), clamp((vy - dv * d) * over_vv, v_range)];
+        let on_v = |v: f64| [clamp((dy - dv * v) * over_dd, d_range), number(v)];
+        let mut lowest = on_d(d_range.0);
+        let mut lowest_value = value(lowest);
+        for edge in [on_d(d_range.1), on_v(v_range.0), on_v(v_range.1)] {
+            let edge_value = value(edge);
+            let is_lower = lowest_value.simd_gt(edge_value);
+            lowest = [0, 1].map(|i| choose::<S>(is_lower, edge[i], lowest[i]));
+            lowest_value = choose::<S>(is_lower, edge_value, lowest_value);
         }
-        [kd, kv]
+        let determinant = dd * vv - dv * dv;
+        let inside = [(dy * vv - vy * dv) / determinant, (vy * dd - dy * dv) / determinant];
+        let is_within = |value: V<S>, (low, high): (f64, f64)| value.simd_ge(number(low)) & value.simd_le(number(high));
+        let is_inside = determinant.simd_gt(dd * vv * SINGULAR) & is_within(inside[0], d_range) & is_within(inside[1], v_range);
+        [0, 1].map(|i| choose::<S>(is_inside, inside[i], lowest[i]))
     }
 
     /// [`DolpRows::misfit`] in each lane.
     #[inline(always)]
-    fn misfits(&self, lobes: &[[Lanes; 2]], kd: &Lanes, kv: &Lanes) -> Lanes {
+    fn misfit<S: Simd>(&self, lanes: &PairLanes<'_, S>, [kd, kv]: [V<S>; 2]) -> V<S> {
         let DolpRows { measured, specular, light, .. } = self.dolp;
-        let mut sums = [0.0; LANES];
-        for (((measured, specular), light), [diffuse, volume]) in measured.iter().zip(specular).zip(light).zip(lobes) {
-            for lane in 0..LANES {
-                let difference = light / (specular + (kd[lane] * diffuse[lane] + kv[lane] * volume[lane])) - measured;
-                sums[lane] += difference * difference;
-            }
+        let mut sum = number(lanes.simd, 0.0);
+        for (((measured, specular), light), [diffuse, volume]) in measured.iter().zip(specular).zip(light).zip(lanes.rows()) {
+            let difference = number(lanes.simd, *light) / (kd.mul_add(diffuse, kv * volume) + *specular) - *measured;
+            sum = difference.mul_add(difference, sum);
         }
-        sums
+        sum
     }
-}
-
-/// The nearest value of a range.
-#[inline(always)]
-fn clamp(value: f64, (low, high): (f64, f64)) -> f64 {
-    value.max(low).min(high)
 }
 
 #[cfg(test)]

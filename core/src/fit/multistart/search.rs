@@ -151,14 +151,17 @@ impl Search<'_> {
     fn rounds(&mut self, starts: Starts, most: usize) {
         let is_automatic = starts == Starts::Automatic;
         let mut promising = Vec::new();
-        let mut done = 0;
-        // The first round runs even if it is cancelled: each of its descents then ends at its start, which is a result.
-        while done < most && (done == 0 || !self.is_cancelled()) {
-            let count = ROUND.min(most - done);
-            let round = if is_automatic && done > 0 { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
+        // The own start goes first, also where the search is cancelled: its descent then ends at the start, which is a result. Where it
+        // meets the data exactly, no guess is needed.
+        let own = self.sequence.take(1);
+        self.follow(&own);
+        let mut done = 1;
+        while done < most && !(is_automatic && self.found.is_exact()) && !self.is_cancelled() {
+            let count = (ROUND - done % ROUND).min(most - done);
+            let round = if is_automatic && done >= ROUND { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
             done += count;
             self.follow(&round);
-            if is_automatic && (self.found.is_exact() || self.has_seen_enough()) {
+            if is_automatic && self.has_seen_enough() {
                 break;
             }
         }

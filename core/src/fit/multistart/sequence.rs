@@ -16,7 +16,10 @@ const GUESSES: usize = 64;
 /// The starts of a search, in their order.
 pub(crate) struct StartSequence<'a> {
     problem: &'a Problem,
-    guesses: std::vec::IntoIter<Parameters>,
+    /// Whether the problem's own start was taken.
+    has_begun: bool,
+    /// First guesses, once they are asked for.
+    guesses: Option<std::vec::IntoIter<Parameters>>,
     shift: [f64; Parameter::COUNT],
     next: u32,
 }
@@ -27,14 +30,23 @@ impl<'a> StartSequence<'a> {
         let mut shift = [0.0; Parameter::COUNT];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
-        let guesses = grid_minima(problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
-        let guesses: Vec<Parameters> = std::iter::once(*problem.start()).chain(guesses).collect();
-        Self { problem, guesses: guesses.into_iter(), shift, next: 0 }
+        Self { problem, has_begun: false, guesses: None, shift, next: 0 }
     }
 
     /// The next starts.
     pub(crate) fn take(&mut self, count: usize) -> Vec<Parameters> {
-        (0..count).map(|_| self.guesses.next().unwrap_or_else(|| self.spread())).collect()
+        (0..count).map(|_| self.following()).collect()
+    }
+
+    fn following(&mut self) -> Parameters {
+        if !std::mem::replace(&mut self.has_begun, true) {
+            return *self.problem.start();
+        }
+        let guesses = self.guesses.get_or_insert_with(|| {
+            let lowest = grid_minima(self.problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
+            lowest.collect::<Vec<Parameters>>().into_iter()
+        });
+        guesses.next().unwrap_or_else(|| self.spread())
     }
 
     /// The next point of the shifted Kronecker sequence in the box of the free parameters.
