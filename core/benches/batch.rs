@@ -78,7 +78,7 @@ fn dolp_on_all_cores(bencher: Bencher) {
     bencher.counter(ItemsCount::new(16 * POINTS)).bench_local(|| batch.dolp(black_box(&surface), &mut out));
 }
 
-/// Budget: 40 ms on two cores for 256 × 256 nodes and 27 points.
+/// Budget: 5 ms on two cores for 256 × 256 nodes and 27 points.
 #[divan::bench]
 fn landscape_over_two_parameters(bencher: Bencher) {
     let surface = surface(SlopeDistribution::Cauchy);

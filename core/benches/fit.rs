@@ -61,7 +61,7 @@ fn steel(noise: f64, seed: u64) -> Problem {
     Problem::new(&measurement, model, Parameters::default(), free, Bounds::default(), FitOptions::default()).expect("a valid problem")
 }
 
-/// One start, no noise, to ΔE ≤ 1e-20: below 0.5 ms on one core (median).
+/// One start, no noise, to ΔE ≤ 1e-20: below 0.05 ms on one core (median).
 #[divan::bench]
 fn noise_free_to_the_last_digits(bencher: divan::Bencher<'_, '_>) {
     let problem = steel(0.0, 0);

@@ -1,6 +1,7 @@
 //! What the kernels need of a surface, formed once.
 
-use crate::model::{Diffuse, DolpFormula, Model, Parameters, Pbrdf};
+use crate::model::{Diffuse, DolpFormula, Model, Parameter, Parameters, Pbrdf};
+use crate::optics::RefractiveIndex;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// √(2π).
@@ -94,6 +95,27 @@ impl Coefficients {
             volume_over_specular: volume_height / specular,
         };
         (model.specular && model.diffuse != Diffuse::Hyde && coefficients.stay_in_range()).then_some(coefficients)
+    }
+
+    /// The same surface with another n or k; none where [`Self::new`] has none.
+    pub(crate) fn with_index(&self, parameter: Parameter, value: f64) -> Option<Self> {
+        let mut parameters = self.parameters;
+        parameters[parameter] = value;
+        if !parameter.domain().contains(value) || RefractiveIndex::new(parameters.n, parameters.k).is_err() {
+            return None;
+        }
+        let index = IndexCoefficients::new(parameters.n, parameters.k);
+        let specular = self.specular / self.index.e * index.e;
+        let over_specular = 1.0 / specular;
+        let coefficients = Self {
+            parameters,
+            index,
+            specular,
+            diffuse_over_specular: self.diffuse_height * over_specular,
+            volume_over_specular: self.volume_height * over_specular,
+            ..*self
+        };
+        coefficients.stay_in_range().then_some(coefficients)
     }
 
     /// Whether there is a diffuse term.

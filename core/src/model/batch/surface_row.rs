@@ -43,24 +43,44 @@ struct SurfaceBlock {
 impl SurfaceBlock {
     /// Places that are left over repeat the first surface.
     fn new(surfaces: &[Coefficients]) -> Self {
-        let column =
-            |of: &dyn Fn(&Coefficients) -> f64| std::array::from_fn(|lane| surfaces.get(lane).or(surfaces.first()).map_or(0.0, of));
-        Self {
-            excess: column(&|of| of.index.excess),
-            excess_size: column(&|of| of.index.excess_size),
-            n_sq: column(&|of| of.index.n_sq),
-            difference: column(&|of| of.index.difference),
-            nk: column(&|of| of.index.nk),
-            two_nk_sq: column(&|of| of.index.two_nk_sq),
-            half_over_sigma_sq: column(&|of| of.half_over_sigma_sq),
-            q: column(&|of| of.parameters.q),
-            // Lambert's lobe has the exponent 0.
-            c: column(&|of| if of.model.diffuse == Diffuse::Minnaert { of.parameters.c } else { 0.0 }),
-            minus_over_sigma_v_sq: column(&|of| of.minus_over_sigma_v_sq),
-            diffuse: column(&|of| if of.has_diffuse() { of.diffuse_over_specular * of.parameters.kd } else { 0.0 }),
-            volume: column(&|of| if of.model.volume { of.volume_over_specular * of.parameters.kv } else { 0.0 }),
-            gain: column(&|of| of.dolp_gain),
+        let mut block = Self {
+            excess: [0.0; LANES],
+            excess_size: [0.0; LANES],
+            n_sq: [0.0; LANES],
+            difference: [0.0; LANES],
+            nk: [0.0; LANES],
+            two_nk_sq: [0.0; LANES],
+            half_over_sigma_sq: [0.0; LANES],
+            q: [0.0; LANES],
+            c: [0.0; LANES],
+            minus_over_sigma_v_sq: [0.0; LANES],
+            diffuse: [0.0; LANES],
+            volume: [0.0; LANES],
+            gain: [0.0; LANES],
+        };
+        for lane in 0..LANES {
+            if let Some(of) = surfaces.get(lane).or(surfaces.first()) {
+                block.put(lane, of);
+            }
         }
+        block
+    }
+
+    fn put(&mut self, lane: usize, of: &Coefficients) {
+        self.excess[lane] = of.index.excess;
+        self.excess_size[lane] = of.index.excess_size;
+        self.n_sq[lane] = of.index.n_sq;
+        self.difference[lane] = of.index.difference;
+        self.nk[lane] = of.index.nk;
+        self.two_nk_sq[lane] = of.index.two_nk_sq;
+        self.half_over_sigma_sq[lane] = of.half_over_sigma_sq;
+        self.q[lane] = of.parameters.q;
+        // Lambert's lobe has the exponent 0.
+        self.c[lane] = if of.model.diffuse == Diffuse::Minnaert { of.parameters.c } else { 0.0 };
+        self.minus_over_sigma_v_sq[lane] = of.minus_over_sigma_v_sq;
+        self.diffuse[lane] = if of.has_diffuse() { of.diffuse_over_specular * of.parameters.kd } else { 0.0 };
+        self.volume[lane] = if of.model.volume { of.volume_over_specular * of.parameters.kv } else { 0.0 };
+        self.gain[lane] = of.dolp_gain;
     }
 }
 
@@ -78,7 +98,12 @@ pub(crate) fn dolp_misfits(
         parameters[parameter] = value;
         Pbrdf::new(model, parameters).ok().and_then(|surface| Coefficients::new(&surface))
     };
-    let all: Vec<Option<Coefficients>> = values.iter().map(coefficients).collect();
+    // Of surfaces that differ in their index the rest is formed once.
+    let base = if matches!(parameter, Parameter::N | Parameter::K) { values.iter().find_map(coefficients) } else { None };
+    let all: Vec<Option<Coefficients>> = match &base {
+        Some(base) => values.iter().map(|&value| base.with_index(parameter, value)).collect(),
+        None => values.iter().map(coefficients).collect(),
+    };
     let first = *all.iter().flatten().next()?;
     let filled: Vec<Coefficients> = all.iter().map(|one| one.unwrap_or(first)).collect();
     let blocks: Vec<SurfaceBlock> = filled.chunks(LANES).map(SurfaceBlock::new).collect();
