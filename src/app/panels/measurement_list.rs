@@ -1,42 +1,33 @@
 //! The open measurements: which are drawn, which one the sliders belong to, and how far each surface
 //! is from its data.
 
+use crate::app::panels::list_row::{HEIGHT, Renaming, colors_ui, item_ui, row};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::{symbol_shapes, theme};
 use crate::app::text::i18n::translated;
 use crate::app::text::numbers::short;
 use crate::app::views::Cx;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
-use crate::figure::{SERIES, Symbol};
-use egui::{Align, Button, CollapsingHeader, Key, Layout, Response, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use crate::figure::Symbol;
+use egui::{Align, Button, CollapsingHeader, Layout, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 use tr::tr;
 
 /// What the panel keeps.
 #[derive(Debug, Default)]
 pub struct MeasurementPanel {
-    renaming: Option<Renaming>,
-}
-
-/// A name that is being typed.
-#[derive(Debug)]
-struct Renaming {
-    number: u64,
-    name: String,
-    /// Whether its field has been given the keys.
-    is_focused: bool,
+    /// By the number of the measurement.
+    renaming: Option<Renaming<u64>>,
 }
 
 /// Widths of columns in points: names have what is left.
 const SHOWN: f32 = 20.0;
 const SYMBOL: f32 = 18.0;
-const WAVELENGTH: f32 = 42.0;
-const ROWS: f32 = 44.0;
-const DELTA_E: f32 = 66.0;
-const MENU: f32 = 24.0;
-/// Height of a row.
-const HEIGHT: f32 = 20.0;
+const WAVELENGTH: f32 = 36.0;
+const ROWS: f32 = 34.0;
+const DELTA_E: f32 = 52.0;
+const MENU: f32 = 22.0;
 /// Rows that are seen at once.
 const MOST_ROWS: f32 = 6.5;
 /// Letters of numbers.
@@ -45,7 +36,7 @@ const LETTERS: f32 = 11.5;
 impl MeasurementPanel {
     /// Lets the user type another name.
     pub fn rename(&mut self, open: &OpenMeasurement) {
-        self.renaming = Some(Renaming { number: open.number, name: open.title(), is_focused: false });
+        self.renaming = Some(Renaming::new(open.number, open.title()));
     }
 
     /// The list, where anything is open that was measured.
@@ -73,13 +64,11 @@ impl MeasurementPanel {
             let ink = theme::series(open.style.color, ui.visuals().dark_mode);
             ui.painter().extend(symbol_shapes(open.style.marker, symbol.center(), ink));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let menu = ui.scope(|ui| {
-                    ui.set_min_width(MENU);
-                    ui.menu_button("…", |ui| self.menu_ui(open, cx, ui)).response
-                });
-                menu.inner.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", name)));
+                ui.spacing_mut().button_padding.x = 4.0;
+                let menu = ui.menu_button("…", |ui| self.menu_ui(open, cx, ui)).response;
+                menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", name)));
                 let delta_e = cx.derived.delta_e_of(open.number);
-                let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.3e}")), DELTA_E, ui);
+                let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.2e}")), DELTA_E, ui);
                 delta_e.on_hover_right(ui, tr!("ΔE of the surface of {}", name));
                 number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
                 number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
@@ -90,8 +79,11 @@ impl MeasurementPanel {
 
     /// The name, or the field that it is typed into.
     fn name_ui(&mut self, open: &OpenMeasurement, is_active: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
-        if self.renaming.as_ref().is_some_and(|renaming| renaming.number == open.number) {
-            self.rename_ui(open, cx, ui);
+        if let Some(renaming) = self.renaming.as_mut().filter(|renaming| renaming.key == open.number) {
+            if let Some(name) = renaming.ui(&open.title(), tr!("Name of the measurement"), ui) {
+                cx.edits.extend(name.map(|name| Edit::RenameMeasurement { number: open.number, name }));
+                self.renaming = None;
+            }
             return;
         }
         let name = open.title();
@@ -106,63 +98,37 @@ impl MeasurementPanel {
         button.on_hover_right(ui, format!("{}\n{}", open.description(), tr!("A click shows it, a double click renames it.")));
     }
 
-    fn rename_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let Some(renaming) = &mut self.renaming else { return };
-        let field = ui.add(TextEdit::singleline(&mut renaming.name).desired_width(f32::INFINITY));
-        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, tr!("Name of the measurement")));
-        if !renaming.is_focused {
-            renaming.is_focused = true;
-            field.request_focus();
-        }
-        if field.lost_focus() {
-            let name = renaming.name.trim().to_owned();
-            let is_kept = !ui.input(|input| input.key_pressed(Key::Escape)) && !name.is_empty() && name != open.title();
-            cx.edits.extend(is_kept.then_some(Edit::RenameMeasurement { number: open.number, name }));
-            self.renaming = None;
-        }
-    }
-
     /// What can be done with a measurement.
     fn menu_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
         let number = open.number;
-        let item = |ui: &mut Ui, text: String, is_possible: bool| {
-            let is_chosen = ui.add_enabled(is_possible, Button::new(text)).clicked();
-            if is_chosen {
-                ui.close();
-            }
-            is_chosen
-        };
-        if item(ui, tr!("Rename"), true) {
+        if item_ui(ui, tr!("Rename"), true) {
             self.rename(open);
         }
-        ui.menu_button(tr!("Colour"), |ui| colors_ui(open, cx, ui));
+        let color = colors_ui(open.style.color, ui);
+        let style = color.map(|color| MeasurementStyle { color, ..open.style });
+        cx.edits.extend(style.map(|style| Edit::SetMeasurementStyle { number, style }));
         ui.menu_button(tr!("Marker"), |ui| markers_ui(open, cx, ui));
         ui.separator();
         let list = cx.work.measurements();
         let (first, last) = (list.iter().next(), list.iter().last());
         let is = |other: Option<&OpenMeasurement>| other.is_some_and(|other| other.number == number);
         for (text, by, is_possible) in [(tr!("Move up"), -1, !is(first)), (tr!("Move down"), 1, !is(last))] {
-            if item(ui, text, is_possible) {
+            if item_ui(ui, text, is_possible) {
                 cx.edits.push(Edit::MoveMeasurement { number, by });
             }
         }
         let others = || list.iter().filter(|other| other.number != number);
         for (text, shown) in [(tr!("Hide all others"), false), (tr!("Show all others"), true)] {
-            if item(ui, text, others().any(|other| other.style.shown != shown)) {
+            if item_ui(ui, text, others().any(|other| other.style.shown != shown)) {
                 let style = |other: &OpenMeasurement| MeasurementStyle { shown, ..other.style };
                 cx.edits.extend(others().map(|other| Edit::SetMeasurementStyle { number: other.number, style: style(other) }));
             }
         }
         ui.separator();
-        if item(ui, tr!("Close"), true) {
-            cx.actions.push(Action::CloseMeasurement(Some(number)));
+        if item_ui(ui, tr!("Close"), true) {
+            cx.actions.push(Action::List(ListAction::Close(Some(number))));
         }
     }
-}
-
-/// One row of fixed height.
-fn row(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), content);
 }
 
 fn headings_ui(ui: &mut Ui) {
@@ -175,20 +141,18 @@ fn headings_ui(ui: &mut Ui) {
                 ("rows", ROWS, "Rows of the table, masked ones included"),
                 ("λ / nm", WAVELENGTH, "Vacuum wavelength, where the file states one"),
             ] {
-                let text = RichText::new(translated(heading)).size(LETTERS).weak();
-                let label = ui.allocate_ui_with_layout(vec2(width, HEIGHT), Layout::right_to_left(Align::Center), |ui| ui.label(text));
-                label.inner.on_hover_right(ui, translated(help));
+                number_ui(RichText::new(translated(heading)).weak(), width, ui).on_hover_right(ui, translated(help));
             }
         });
     });
 }
 
 /// A number at the right end of its column.
-fn number_ui(text: String, width: f32, ui: &mut Ui) -> Response {
+fn number_ui(text: impl Into<RichText>, width: f32, ui: &mut Ui) -> Response {
     let layout = Layout::right_to_left(Align::Center);
     ui.allocate_ui_with_layout(vec2(width, HEIGHT), layout, |ui| {
         ui.set_min_width(width);
-        ui.add(egui::Label::new(RichText::new(text).size(LETTERS)).extend())
+        ui.add(egui::Label::new(text.into().size(LETTERS)).extend())
     })
     .inner
 }
@@ -204,25 +168,6 @@ fn shown_ui(open: &OpenMeasurement, is_active: bool, cx: &mut Cx<'_>, ui: &mut U
     }
     let help = if is_active { tr!("The active measurement is always drawn") } else { tr!("Whether it is drawn beside the active one") };
     checkbox.on_hover_right(ui, help);
-}
-
-fn colors_ui(open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
-    let dark = ui.visuals().dark_mode;
-    egui::Grid::new("colours").num_columns(4).show(ui, |ui| {
-        for color in 0..SERIES.len() {
-            let text = RichText::new("■").color(theme::series(color, dark)).size(18.0);
-            let button = ui.add(Button::selectable(color == open.style.color, text));
-            button.widget_info(|| WidgetInfo::selected(Role::Button, true, color == open.style.color, tr!("Colour {}", color + 1)));
-            if button.clicked() {
-                let style = MeasurementStyle { color, ..open.style };
-                cx.edits.push(Edit::SetMeasurementStyle { number: open.number, style });
-                ui.close();
-            }
-            if color % 4 == 3 {
-                ui.end_row();
-            }
-        }
-    });
 }
 
 fn markers_ui(open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {

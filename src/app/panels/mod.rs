@@ -1,12 +1,15 @@
 //! The panels around the plots.
 
 mod fit;
+mod list_row;
 mod measurement_list;
 mod parameters;
+mod pinned_list;
 mod stepping;
 mod tooltip_right;
 
 pub use fit::{delta_e_text, fit_ui};
 pub use measurement_list::MeasurementPanel;
 pub use parameters::parameters_ui;
+pub use pinned_list::PinnedPanel;
 pub use stepping::{SliderStep, step_with_arrows};

@@ -7,10 +7,11 @@ use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
 use crate::app::views::Cx;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::settings::Settings;
-use crate::app::work::surface::Surface;
-use egui::{DragValue, Grid, Role, Slider, SliderClamping, Ui, WidgetInfo};
+use crate::app::work::surface::{Surface, another};
+use egui::{Align, DragValue, Grid, Layout, Role, Slider, SliderClamping, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
@@ -88,7 +89,29 @@ fn bounds_switch_ui(cx: &mut Cx<'_>, surface: &mut Surface, ui: &mut Ui) {
         {
             surface.bounds.clear();
         }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| pin_ui(cx, surface, ui));
     });
+}
+
+/// Buttons that pin the surface, and the same with the other distribution.
+fn pin_ui(cx: &mut Cx<'_>, surface: &Surface, ui: &mut Ui) {
+    if surface.model.specular {
+        let text = match another(surface.model.distribution) {
+            SlopeDistribution::Gauss => tr!("Pin Gauss"),
+            SlopeDistribution::Cauchy => tr!("Pin Cauchy"),
+        };
+        let help = tr!("Pins the same surface with the other distribution of slopes, at equal median slope");
+        if ui.button(text).on_hover_right(ui, help).clicked() {
+            cx.actions.push(Action::List(ListAction::PinOtherDistribution));
+        }
+    }
+    if ui
+        .button(tr!("Pin"))
+        .on_hover_right(ui, tr!("Keeps this surface as it is, and draws it in every plot until it is removed"))
+        .clicked()
+    {
+        cx.actions.push(Action::List(ListAction::PinSliders));
+    }
 }
 
 fn specular_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {

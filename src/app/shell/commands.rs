@@ -9,7 +9,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
 use crate::app::views;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::views::spec;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::EXAMPLES;
@@ -91,6 +91,7 @@ impl Command {
             }
             Action::ChooseExport(ExportKind::Fitted | ExportKind::Report)
             | Action::UseFit
+            | Action::List(ListAction::PinFit)
             | Action::UseValuesBeforeFit
             | Action::Bootstrap => {
                 tr!("Fit first (F5).")
@@ -163,12 +164,12 @@ const fn row(
 #[rustfmt::skip]
 static ENTRIES: &[Entry] = &[
     row(Action::ChooseMeasurement, Menu::File, "Open measurements…", "Tables of DoLP or BRDF against angles, beside those that are open", ctrl(Key::O), always),
-    row(Action::ChooseSave, Menu::File, "Save measurement as…", "The table with its masks, as CSV", ctrl(Key::S), always),
+    row(Action::ChooseSave, Menu::File, "Save measurement as…", "The table of the active measurement with its masks, as CSV", None, always),
     row(Action::ChooseSession, Menu::File, "Open session…", "Sliders, data, masks, fits and layout as they were saved", ctrl_shift(Key::O),
         always),
     row(Action::SaveSession, Menu::File, "Save session", "Sliders, data, masks, fits and layout in one file that opens on any machine",
-        ctrl_shift(Key::S), always),
-    row(Action::ChooseExport(ExportKind::Session), Menu::File, "Save session as…", "The session into another file", None, always),
+        ctrl(Key::S), always),
+    row(Action::ChooseExport(ExportKind::Session), Menu::File, "Save session as…", "The session into another file", ctrl_shift(Key::S), always),
     row(Action::ChooseExport(ExportKind::Curves), Menu::Export, "Curves as CSV…", "DoLP, limit, BRDF and terms along every measured θi", None,
         always),
     row(Action::ChooseExport(ExportKind::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
@@ -186,19 +187,27 @@ static ENTRIES: &[Entry] = &[
         ctrl_shift(Key::V), always),
     row(Action::ResetParameters, Menu::Edit, "Reset all parameters", "All nine parameters to their defaults", None, always),
     row(Action::CopyTable, Menu::Edit, "Copy data table", "Every row as the pane Data shows it, with tabs between cells as spreadsheets want them", None, always),
-    row(Action::StepMeasurement(1), Menu::Measurement, "Next measurement", "The measurement below the active one to the sliders", ctrl(Key::PageDown),
+    row(Action::List(ListAction::Step(1)), Menu::Measurement, "Next measurement", "The measurement below the active one to the sliders", ctrl(Key::PageDown),
         has_several),
-    row(Action::StepMeasurement(-1), Menu::Measurement, "Previous measurement", "The measurement above the active one to the sliders",
+    row(Action::List(ListAction::Step(-1)), Menu::Measurement, "Previous measurement", "The measurement above the active one to the sliders",
         ctrl(Key::PageUp), has_several),
-    row(Action::RenameMeasurement, Menu::Measurement, "Rename measurement", "Another name for the active measurement", plain(Key::F2), has_rows),
-    row(Action::MoveMeasurement(-1), Menu::Measurement, "Move measurement up", "One place up the list", alt(Key::ArrowUp),
+    row(Action::List(ListAction::Rename), Menu::Measurement, "Rename measurement", "Another name for the active measurement", plain(Key::F2), has_rows),
+    row(Action::List(ListAction::Move(-1)), Menu::Measurement, "Move measurement up", "One place up the list", alt(Key::ArrowUp),
         |app| only_if(app.work.measurements().active_index() > 0)),
-    row(Action::MoveMeasurement(1), Menu::Measurement, "Move measurement down", "One place down the list", alt(Key::ArrowDown),
+    row(Action::List(ListAction::Move(1)), Menu::Measurement, "Move measurement down", "One place down the list", alt(Key::ArrowDown),
         |app| only_if(app.work.measurements().active_index() + 1 < app.work.measurements().iter().count())),
-    row(Action::ShowMeasurements(true), Menu::Measurement, "Show all measurements", "Draw every open measurement", None, has_several),
-    row(Action::ShowMeasurements(false), Menu::Measurement, "Show the active measurement alone", "Draw no other measurement", None, has_several),
-    row(Action::CloseMeasurement(None), Menu::Measurement, "Close measurement", "Take the active measurement off the list; undo brings it back",
+    row(Action::List(ListAction::ShowAll(true)), Menu::Measurement, "Show all measurements", "Draw every open measurement", None, has_several),
+    row(Action::List(ListAction::ShowAll(false)), Menu::Measurement, "Show the active measurement alone", "Draw no other measurement", None, has_several),
+    row(Action::List(ListAction::Close(None)), Menu::Measurement, "Close measurement", "Take the active measurement off the list; undo brings it back",
         ctrl(Key::W), has_rows),
+    row(Action::List(ListAction::PinSliders), Menu::Measurement, "Pin the sliders", "The surface of the sliders as it is, drawn in every plot until it is removed",
+        ctrl(Key::P), always),
+    row(Action::List(ListAction::PinOtherDistribution), Menu::Measurement, "Pin the other distribution", "Gauss for Cauchy or Cauchy for Gauss, at equal median slope",
+        None, |app| only_if(app.work.surface().model.specular)),
+    row(Action::List(ListAction::PinFit), Menu::Measurement, "Pin the fit", "The surface of the shown fit, drawn in every plot until it is removed", None,
+        |app| only_if(app.work.shown_fit().is_some())),
+    row(Action::List(ListAction::UnpinAll), Menu::Measurement, "Remove all pinned surfaces", "No surface but that of the sliders and of the last fit is drawn", None,
+        |app| only_if(!app.work.pinned().is_empty())),
     row(Action::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
         plain(Key::F5), |app| only_if(!app.jobs.fits.fit.is_running())),
     row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |app| only_if(app.jobs.fits.fit.is_running())),
@@ -279,6 +288,15 @@ fn plots(on_screen: &[PaneId]) -> impl Iterator<Item = Command> {
     })
 }
 
+/// Of the open measurements.
+fn measurements(app: &App) -> impl Iterator<Item = Command> {
+    let active = app.work.active().number;
+    app.work.measurements().iter().filter(|open| !open.measurement.rows.is_empty()).map(move |open| {
+        let (text, status) = (tr!("Measurement: {}", open.title()), switch(open.number == active));
+        item(Action::List(ListAction::Activate(open.number)), Menu::None, text.into(), open.description().into(), status)
+    })
+}
+
 /// Every command that there is at the moment.
 pub fn items(app: &App) -> Vec<Command> {
     let fixed = ENTRIES.iter().map(|entry| Command {
@@ -307,11 +325,6 @@ pub fn items(app: &App) -> Vec<Command> {
             path.display().to_string().into(),
             Availability::Possible,
         )
-    });
-    let active = app.work.active().number;
-    let measurements = app.work.measurements().iter().filter(|open| !open.measurement.rows.is_empty()).map(|open| {
-        let (text, status) = (tr!("Measurement: {}", open.title()), switch(open.number == active));
-        item(Action::ActivateMeasurement(open.number), Menu::None, text.into(), open.description().into(), status)
     });
     let forget = item(
         Action::ForgetRecent,
@@ -351,7 +364,7 @@ pub fn items(app: &App) -> Vec<Command> {
     });
     fixed
         .chain(plots(&on_screen))
-        .chain(measurements)
+        .chain(measurements(app))
         .chain(examples)
         .chain(lessons)
         .chain(recent)

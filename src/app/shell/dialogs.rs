@@ -1,6 +1,7 @@
 //! What lies over the window: command palette, help, questions about files; and the paths typed by
 //! hand.
 
+use crate::app::panels::{MeasurementPanel, PinnedPanel};
 use crate::app::shell::import_dialog::{ImportDialog, ImportMemory};
 use crate::app::shell::path_entry::PathEntry;
 use crate::app::text::help::Help;
@@ -23,6 +24,14 @@ pub struct Dialogs {
     /// A file that is asked about before it is replaced.
     pub overwrite: Option<OverwritePrompt>,
     pub path_entry: PathEntry,
+    pub lists: Lists,
+}
+
+/// The lists above the sliders, with the names that are being typed.
+#[derive(Default)]
+pub struct Lists {
+    pub measurements: MeasurementPanel,
+    pub pinned: PinnedPanel,
 }
 
 /// What the command palette keeps while it is open.

@@ -20,6 +20,10 @@ pub struct Persistence {
     pub autosave_path: Option<PathBuf>,
     pub autosaved_revision: Option<AutosaveRevision>,
     pub autosave_dirty_since: Option<Instant>,
+    /// The revision of the user's own work that the file of the session holds.
+    pub saved_session: Option<u64>,
+    /// The title of the window.
+    pub title: String,
 }
 
 /// Revisions of the user's own work, and of that of the lesson over it.

@@ -45,6 +45,8 @@ pub struct LoadedSession {
 /// The file of an export; the error is a sentence.
 pub struct ExportedFile {
     pub kind: ExportKind,
+    /// Of the work that it is of.
+    pub revision: u64,
     pub result: Result<PathBuf, String>,
 }
 
@@ -178,11 +180,11 @@ impl FileJobs {
     ///
     /// # Errors
     /// An export is still being written, or the job does not start; a sentence.
-    pub fn export(&mut self, kind: ExportKind, path: PathBuf, write: Write) -> Result<(), String> {
+    pub fn export(&mut self, kind: ExportKind, revision: u64, path: PathBuf, write: Write) -> Result<(), String> {
         if self.export.is_running() {
             return Err(tr!("The export before this one is still being written."));
         }
-        let job = move |_: &JobContext| ExportedFile { kind, result: write(&path).map(|()| path) };
+        let job = move |_: &JobContext| ExportedFile { kind, revision, result: write(&path).map(|()| path) };
         self.export.start(&self.spawner, "export", job).map_err(start_error)
     }
 

@@ -38,7 +38,7 @@ fn what_panicked_can_start_again() {
     let path = folder.path().join("curves.csv");
     let mut harness = harness();
     let files = &mut explorer(&mut harness).jobs.files;
-    files.export(ExportKind::Curves, path.clone(), Box::new(|_| std::panic::panic_any("on purpose"))).expect("a job");
+    files.export(ExportKind::Curves, 0, path.clone(), Box::new(|_| std::panic::panic_any("on purpose"))).expect("a job");
     files.ask = |_| std::panic::panic_any("on purpose");
     files.ask(FileRequest::Open).expect("a job");
     wait(&mut harness);

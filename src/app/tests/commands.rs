@@ -5,7 +5,7 @@ use crate::app::shell::commands;
 use crate::app::shell::commands::Availability;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::settings::Theme;
 use crate::app::work::workspace::Workspace;
@@ -42,7 +42,7 @@ fn every_command_can_be_carried_out() {
             wait(&mut harness);
         }
         explorer(&mut harness).actions.push(command.clone());
-        if command == Action::CloseMeasurement(None) {
+        if command == Action::List(ListAction::Close(None)) {
             // The others are about data.
             explorer(&mut harness).actions.push(Action::Undo);
         }

@@ -4,6 +4,7 @@ mod audit;
 mod broken;
 mod bundled_lessons;
 mod commands;
+mod companions;
 mod dialogs;
 mod files;
 mod fitting;
@@ -34,6 +35,7 @@ mod sessions;
 mod sliders;
 mod snapshots;
 pub mod sources;
+mod title;
 mod typed;
 
 use crate::app::shell::app::App;

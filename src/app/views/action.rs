@@ -42,18 +42,7 @@ pub enum Action {
     CopyPlot(PaneId),
     /// The measurement to the clipboard, as text.
     CopyTable,
-    /// The measurement of that number to the sliders.
-    ActivateMeasurement(u64),
-    /// The measurement so many places down the list, around its ends.
-    StepMeasurement(isize),
-    /// Another name for the active measurement.
-    RenameMeasurement,
-    /// The active measurement so many places down the list.
-    MoveMeasurement(isize),
-    /// Draw all measurements or the active one alone.
-    ShowMeasurements(bool),
-    /// Close the measurement of that number, or the active one.
-    CloseMeasurement(Option<u64>),
+    List(ListAction),
     /// Load the bundled example of that number.
     OpenExample(usize),
     /// The lesson of that number at the step of that number: sliders and views as it wants them.
@@ -123,4 +112,30 @@ pub enum Action {
     ShowHelp(Help),
     CloseHelp,
     Quit,
+}
+
+/// What is done with open measurements and pinned surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ListAction {
+    /// The measurement of that number to the sliders.
+    Activate(u64),
+    /// The measurement so many places down the list, around its ends.
+    Step(isize),
+    /// Another name for the active measurement.
+    Rename,
+    /// The active measurement so many places down the list.
+    Move(isize),
+    /// Draw all measurements or the active one alone.
+    ShowAll(bool),
+    /// Close the measurement of that number, or the active one.
+    Close(Option<u64>),
+    /// The sliders as a pinned surface.
+    PinSliders,
+    /// The sliders with the other distribution of slopes, at equal median.
+    PinOtherDistribution,
+    /// The shown fit.
+    PinFit,
+    /// The fit of that row of the comparison of models.
+    PinModelFit(usize),
+    UnpinAll,
 }

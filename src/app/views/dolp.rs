@@ -1,22 +1,22 @@
 //! DoLP against θr: the model at every measured θi in its own colour, the points, the Fresnel
-//! limit, the last fit, and under it what the model misses.
+//! limit, other measurements and pinned surfaces, and under it what the model misses.
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, Range, nice_ceiling, switching_key_line_ui, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
-use crate::app::views::companions::{CompanionId, Companions};
+use crate::app::views::companions::{CompanionId, Look};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn};
-use crate::app::views::facets::{another, sigma_of_equal_median};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
 use crate::app::views::residuals::ResidualStrip;
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::{Overlay, Settings, ViewOptions};
+use crate::app::work::surface::{another, sigma_of_equal_median};
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, Rgb, Series};
 use egui::{Key, Ui};
@@ -39,8 +39,6 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct DolpView {
     range: AutoRange,
-    /// DoLP of the last fit along each series, where the sliders have left it.
-    ghost: Memo<Option<SurfaceKey>, Vec<Polyline>>,
     /// DoLP with the other distribution.
     overlay: Memo<Option<SurfaceKey>, Vec<Polyline>>,
     /// One standard error around the last fit along each series.
@@ -52,9 +50,9 @@ pub struct DolpView {
     hidden_of: u64,
 }
 
-/// What the figure depends on: curves, points, last fit, other distribution, band and companions, each
+/// What the figure depends on: curves, points, other distribution, band and companions, each
 /// by its stamp; what is shown and what hidden; the axis; the language.
-type FigureKey = ([u64; 6], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
+type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
 
 /// Another surface than the sliders', the state of the document, whether the backscatter side
 /// is drawn.
@@ -71,19 +69,10 @@ impl DolpView {
         !self.hidden.contains(&line)
     }
 
-    /// Along how many series the last fit is drawn beside the sliders' curves.
-    #[cfg(test)]
-    pub fn ghosts(&self) -> usize {
-        self.ghost.get().map_or(0, Vec::len)
-    }
-
     /// ModelCurves of other surfaces than the sliders', and the band.
     fn refresh_others(&mut self, cx: &Cx<'_>, backscatter: bool) {
-        let (settings, surface, document) = (cx.work.settings(), cx.work.surface(), cx.work.active());
+        let (settings, document) = (cx.work.settings(), cx.work.active());
         let key_of = |parameters, model| (parameters, model, document.plotted, backscatter);
-        let of_sliders = key_of(surface.parameters, surface.model);
-        let fitted = cx.work.shown_fit().map(|fit| key_of(fit.report.parameters, fit.report.model));
-        self.ghost.refresh(fitted.filter(|key| *key != of_sliders), |key| along_series(key.as_ref(), document));
         let other = other_distribution(cx.work).map(|(parameters, model)| key_of(parameters, model));
         self.overlay.refresh(other, |key| along_series(key.as_ref(), document));
         let fit = cx.work.shown_fit().map(|fit| &**fit);
@@ -98,10 +87,10 @@ impl DolpView {
         let limit = cx.work.settings().show_limit;
         let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
         let points = marks.series.iter().flat_map(|marks| &marks.dolp.used).map(|point| point.bar.map_or(point.y, |bar| bar.1));
-        let ghost = self.ghost.get().into_iter().flatten().flat_map(axis_values);
-        let others = cx.derived.companions.iter().flat_map(|companion| &companion.drawn.dolp_points);
-        let others = others.map(|point| point.bar.map_or(point.y, |bar| bar.1));
-        let top = values.chain(ghost).chain(points).chain(others).fold(0.0, f64::max);
+        let companions = || cx.derived.companions.iter().map(|companion| companion.drawn);
+        let others = companions().flat_map(|drawn| &drawn.dolp_points).map(|point| point.bar.map_or(point.y, |bar| bar.1));
+        let others = others.chain(companions().flat_map(|drawn| axis_values(&drawn.dolp)));
+        let top = values.chain(points).chain(others).fold(0.0, f64::max);
         let high = if cx.work.settings().view_options.share { 1.05 } else { nice_ceiling(top).min(1.05) };
         self.range.follow(Range { low: 0.0, high }, cx.interacting);
     }
@@ -125,9 +114,6 @@ impl DolpView {
             }
             if let Some(curve) = of_series(&self.overlay).filter(|_| self.shows(Line::Other)) {
                 series.push(Series::stroke(&names.other, curve, 1.2, Dash::Sparse).colored(color));
-            }
-            if let Some(curve) = of_series(&self.ghost).filter(|_| self.shows(Line::Ghost)) {
-                series.push(Series::dashed(&names.ghost, curve, Dash::Dotted).colored(color).faded(GHOST));
             }
             series.push(Series::line(&marks.name, curves.dolp.clone()).colored(color));
             series.extend(marks.dolp.series(&marks.name, color, marker));
@@ -155,8 +141,7 @@ impl DolpView {
     }
 }
 
-/// Opacity of the curves of the last fit, and of the specular share.
-const GHOST: f64 = 0.5;
+/// Opacity of the specular share.
 const SHARE: f64 = 0.65;
 
 impl View for DolpView {
@@ -174,7 +159,7 @@ impl View for DolpView {
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);
         let [curve_stamp, mark_stamp, companion_stamp] = [derived.curves.stamp(), derived.marks.stamp(), derived.companions.stamp()];
-        let stamps = [curve_stamp, mark_stamp, self.ghost.stamp(), self.overlay.stamp(), self.band.stamp(), companion_stamp];
+        let stamps = [curve_stamp, mark_stamp, self.overlay.stamp(), self.band.stamp(), companion_stamp];
         let figure_key = (
             stamps,
             cx.work.settings().view_options,
@@ -236,7 +221,8 @@ impl View for DolpView {
 impl DolpView {
     fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32) {
         let Some(marks) = cx.derived.marks.get() else { return };
-        let entries = self.key_entries(marks, &cx.derived.companions, cx.work, ui.visuals().dark_mode);
+        let own_is_drawn = cx.derived.curves.get().is_some_and(|curves| curves.own_is_series.is_none());
+        let entries = self.key_entries(marks, own_is_drawn, cx, ui.visuals().dark_mode);
         let top = ui.cursor().top();
         switching_key_line_ui(&entries, &mut self.hidden, ui);
         let height = height - (ui.cursor().top() - top);
@@ -256,7 +242,8 @@ impl DolpView {
 
     /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot
     /// keeps its height while one moves.
-    fn key_entries(&self, marks: &MarkSet, companions: &Companions, work: &Workspace, dark: bool) -> Vec<(Line, KeyEntry)> {
+    fn key_entries(&self, marks: &MarkSet, own_is_drawn: bool, cx: &Cx<'_>, dark: bool) -> Vec<(Line, KeyEntry)> {
+        let (work, companions) = (cx.work, &cx.derived.companions);
         let (names, settings, is_fitted) = (Names::new(work), work.settings(), work.shown_fit().is_some());
         let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
         let curve = (LineStyle::Solid, 2.0);
@@ -265,10 +252,10 @@ impl DolpView {
         let band = (Line::Band, tr!("± 1 standard error"), quiet.gamma_multiply(0.5), (LineStyle::Solid, BAND));
         let is_overlaid = self.overlay.get().is_some_and(|overlay| !overlay.is_empty());
         let others = [
-            (true, (Line::Own, names.own, ink, curve)),
+            // Faint while a measured series has its angle.
+            (true, (Line::Own, names.own, if own_is_drawn { ink } else { ink.gamma_multiply(0.35) }, curve)),
             (settings.show_limit, (Line::Limit, names.limit, quiet, (LineStyle::dashed_dense(), 1.0))),
             (is_fitted && settings.show_band, band),
-            (is_fitted, (Line::Ghost, names.ghost, quiet, (LineStyle::dotted_dense(), 1.5))),
             (is_overlaid, (Line::Other, names.other, quiet, (LineStyle::dotted_loose(), 2.0))),
             (settings.view_options.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
         ];
@@ -276,8 +263,10 @@ impl DolpView {
         let lines = series.chain(others);
         let lines =
             lines.map(|(line, name, color, (style, width))| (line, KeyEntry { name, color, style, width, symbol: None, on_map: false }));
-        let companions = companions.iter().map(|companion| (Line::Companion(companion.id), companion.key_entry(dark)));
-        lines.chain(companions).collect()
+        let ghost = is_fitted.then(|| (Line::Companion(CompanionId::LastFit), Look::last_fit().key_entry(dark)));
+        let companions = companions.iter().filter(|companion| companion.id != CompanionId::LastFit);
+        let companions = companions.map(|companion| (Line::Companion(companion.id), companion.key_entry(dark)));
+        lines.chain(ghost).chain(companions).collect()
     }
 }
 
@@ -316,7 +305,6 @@ enum Line {
     Own,
     Limit,
     Band,
-    Ghost,
     /// The other distribution.
     Other,
     Share,
@@ -325,7 +313,6 @@ enum Line {
 /// Names of what has one for all series.
 struct Names {
     limit: String,
-    ghost: String,
     other: String,
     share: String,
     own: String,
@@ -341,7 +328,7 @@ impl Names {
             (SlopeDistribution::Cauchy, _) => tr!("Cauchy, equal σ"),
         };
         let own = tr!("θi = {}° (slider)", settings.theta_i);
-        Self { limit: tr!("Fresnel limit"), ghost: tr!("last fit"), other, share: tr!("specular share"), own }
+        Self { limit: tr!("Fresnel limit"), other, share: tr!("specular share"), own }
     }
 }
 

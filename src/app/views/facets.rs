@@ -7,9 +7,11 @@ use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, R
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
+use crate::app::views::companions::{Pinned, pinned};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
 use crate::app::work::open_measurement::IncidenceSeries;
+use crate::app::work::surface::sigma_of_equal_median;
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, SERIES, Series};
 use egui::{Key, Ui};
@@ -30,6 +32,8 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct FacetsView {
     densities: Memo<DensityKey, [Density; 2]>,
+    /// Those of the pinned surfaces.
+    pinned: Memo<Vec<Pinned>, Vec<Density>>,
     masking: Memo<(f64, f64), Polyline>,
     tilts: AutoRange,
     /// Of the densities, in logarithms where those are drawn.
@@ -37,9 +41,9 @@ pub struct FacetsView {
     plot: FigurePlot<PlotKey>,
 }
 
-/// Stamps of densities and masking, whether densities are logarithmic, how the model masks, the
+/// Stamps of densities, masking and pinned surfaces, whether densities are logarithmic, how the model masks, the
 /// axes, the language.
-type PlotKey = ([u64; 2], bool, Masking, [Option<Range>; 2], Language);
+type PlotKey = ([u64; 3], bool, Masking, [Option<Range>; 2], Language);
 
 /// σ, q, the model's own distribution and whether the other one has the same median slope.
 type DensityKey = (f64, f64, SlopeDistribution, bool);
@@ -55,22 +59,6 @@ pub struct Density {
     half_width: Option<f64>,
     /// α in degrees that half of the projected facets stay below.
     median: f64,
-}
-
-/// The distribution that a model does not have.
-pub fn another(distribution: SlopeDistribution) -> SlopeDistribution {
-    match distribution {
-        SlopeDistribution::Gauss => SlopeDistribution::Cauchy,
-        SlopeDistribution::Cauchy => SlopeDistribution::Gauss,
-    }
-}
-
-/// σ of the other distribution with the same median slope.
-pub fn sigma_of_equal_median(own: SlopeDistribution, sigma: f64, q: f64) -> f64 {
-    match own {
-        SlopeDistribution::Gauss => SlopeDistribution::cauchy_of_equal_median(sigma, q),
-        SlopeDistribution::Cauchy => SlopeDistribution::gauss_of_equal_median(sigma, q),
-    }
 }
 
 impl Density {
@@ -139,9 +127,10 @@ const OTHER: f64 = 0.9;
 impl FacetsView {
     fn follow(&mut self, log: bool, interacting: bool) {
         let Some(densities) = self.densities.get() else { return };
-        let widest = densities.iter().map(|density| density.median).fold(0.0, f64::max);
+        let densities = || densities.iter().chain(self.pinned.get().into_iter().flatten());
+        let widest = densities().map(|density| density.median).fold(0.0, f64::max);
         self.tilts.follow(Range { low: 0.0, high: (5.0 * (widest + 0.5).ceil()).min(90.0) }, interacting);
-        let top = densities.iter().flat_map(|density| finite(&density.p)).map(|[_, y]| y).fold(f64::NEG_INFINITY, f64::max);
+        let top = densities().flat_map(|density| finite(&density.p)).map(|[_, y]| y).fold(f64::NEG_INFINITY, f64::max);
         let range = if log {
             let high = if top > 0.0 { (libm::log10(top) + 0.1).ceil() } else { 1.0 };
             Range { low: high - DECADES, high }
@@ -171,6 +160,10 @@ impl FacetsView {
             }
             let name = tr!("median: {}°", format!("{:.2}", density.median));
             series.push(Series::upright(name, density.median).colored(color));
+        }
+        let pinned = self.pinned.key().into_iter().flatten().zip(self.pinned.get().into_iter().flatten());
+        for (pin, density) in pinned {
+            series.push(pin.look.stroke(density.p.clone()));
         }
         let tilts = Panel {
             title: format!("σ = {}, q = {}", significant(surface.parameters.sigma), significant(surface.parameters.q)),
@@ -204,9 +197,14 @@ impl View for FacetsView {
                 Density::new(distribution, if equal { sigma_of_equal_median(own, sigma, q) } else { sigma }, q)
             })
         });
+        let pinned: Vec<Pinned> = pinned(work).into_iter().filter(|pin| pin.model.specular).collect();
+        self.pinned.refresh(pinned, |pins| {
+            let density = |pin: &Pinned| Density::new(pin.model.distribution, pin.parameters.sigma, pin.parameters.q);
+            pins.iter().map(density).collect()
+        });
         self.masking.refresh((settings.theta_i, settings.dphi), |&(theta_i, dphi)| masking(theta_i, dphi));
         self.follow(shown.facets_log, cx.interacting);
-        let stamps = [self.densities.stamp(), self.masking.stamp()];
+        let stamps = [self.densities.stamp(), self.masking.stamp(), self.pinned.stamp()];
         let key = (stamps, shown.facets_log, model.masking, [self.tilts.get(), self.range.get()], i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, work));
@@ -214,11 +212,12 @@ impl View for FacetsView {
     }
 
     fn ui(&mut self, _cx: &mut Cx<'_>, ui: &mut Ui) {
+        let pins = self.pinned.key().map_or(&[][..], Vec::as_slice);
         let room = ui.available_height();
         let height = if room > 240.0 { DENSITIES * room } else { room };
         let top = ui.cursor().top();
         if let Some(densities) = self.densities.get() {
-            legend_ui(densities, ui);
+            legend_ui(densities, pins, ui);
         }
         let height = (height - (ui.cursor().top() - top)).max(60.0);
         let hover = |name: &str, x: f64, y: f64| format!("{name}\nα = {x:.2}°\n{y:.4e} 1/sr");
@@ -259,7 +258,7 @@ fn name(distribution: SlopeDistribution) -> String {
 
 /// What the lines of the plot mean, and where the upright ones stand: in lines above it, where they
 /// hide nothing.
-fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
+fn legend_ui(densities: &[Density; 2], pins: &[Pinned], ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
     let help = tr!("Dotted: P has fallen to half of P(0). Dashed: half of the projected facets are tilted less.");
     ui.horizontal_wrapped(|ui| {
@@ -281,6 +280,7 @@ fn legend_ui(densities: &[Density; 2], ui: &mut Ui) {
         entry(tr!("half of P(0)"), LineStyle::dotted_dense(), 1.5),
         entry(tr!("median"), LineStyle::dashed_dense(), 1.0),
     ];
+    let entries: Vec<KeyEntry> = entries.into_iter().chain(pins.iter().map(|pin| pin.look.key_entry(dark))).collect();
     key_line_ui(&entries, ui);
 }
 
@@ -289,7 +289,8 @@ const DENSITIES: f32 = 0.62;
 
 #[cfg(test)]
 mod tests {
-    use super::{Density, SlopeDistribution, another, degrees, sigma_of_equal_median};
+    use super::{Density, SlopeDistribution, degrees, sigma_of_equal_median};
+    use crate::app::work::surface::another;
 
     #[test]
     fn equal_median_means_equal_median() {

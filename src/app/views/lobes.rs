@@ -76,7 +76,9 @@ impl LobesView {
     fn follow(&mut self, curves: &CurveSet, marks: &MarkSet, cx: &Cx<'_>) {
         let measured = curves.series.iter().zip(&marks.series).filter(|(_, marks)| !marks.brdf.is_empty()).map(|(curves, _)| curves);
         let of_curves = measured.chain([&curves.own]).flat_map(|curves| axis_values(&curves.total));
-        let others = cx.derived.companions.iter().flat_map(|companion| companion.drawn.brdf_points.iter().map(|point| point.y));
+        let companions = || cx.derived.companions.iter().map(|companion| companion.drawn);
+        let others = companions().flat_map(|drawn| drawn.brdf_points.iter().map(|point| point.y));
+        let others = others.chain(companions().flat_map(|drawn| axis_values(&drawn.brdf)));
         let of_marks = marks.series.iter().flat_map(|marks| marks.brdf.used.iter().map(|point| point.y)).chain(others);
         let log = cx.work.settings().log_brdf;
         let (mut bottom, mut top) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -7,13 +7,13 @@ use crate::app::text::estimate::{uncertainty_help, uncertainty_text};
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::explain;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::workspace::Workspace;
-use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, ScrollArea, TextWrapMode, Ui, Widget};
+use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, Role, ScrollArea, TextWrapMode, Ui, Widget, WidgetInfo};
 use pbrdf::fit::{DistributionComparison, Estimate, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
@@ -58,7 +58,7 @@ impl View for ModelsView {
             return;
         }
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-            models_ui(cx.work, cx.edits, ui);
+            models_ui(cx.work, cx.edits, cx.actions, ui);
             ui.add_space(6.0);
             for sentence in verdicts(comparison) {
                 ui.label(sentence);
@@ -89,12 +89,13 @@ fn narrow_ui(ui: &mut Ui, name: impl Widget) -> Response {
     .inner
 }
 
-fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, ui: &mut Ui) {
+fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>, ui: &mut Ui) {
     let (comparison, current, document) = (work.model_comparison(), work.surface().model, work.active());
     let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.statistics.aicc).fold(f64::INFINITY, f64::min);
     ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.strong(tr!("model"));
+        ui.label("");
         ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
         for (heading, help) in [
             ("χ²/dof", "Where standard deviations are used as weights"),
@@ -119,8 +120,12 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, ui: &mut Ui) {
                 edits.push(Edit::UseModelFit(index));
             }
             match &rung.result {
-                Ok(report) => quality_ui(report, best, ui),
+                Ok(report) => {
+                    pin_ui(&name, index, actions, ui);
+                    quality_ui(report, best, ui);
+                }
                 Err(error) => {
+                    ui.label("");
                     let reason = explain(error, &document.measurement);
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
@@ -130,6 +135,15 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, ui: &mut Ui) {
     });
     ui.add_space(6.0);
     parameters_ui(comparison, ui);
+}
+
+/// A button that pins the surface of a row.
+fn pin_ui(name: &str, index: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
+    let pin = ui.small_button(tr!("Pin")).on_hover_text(tr!("Its surface in every plot until it is removed"));
+    pin.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Pin {}", name)));
+    if pin.clicked() {
+        actions.push(Action::List(ListAction::PinModelFit(index)));
+    }
 }
 
 fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {

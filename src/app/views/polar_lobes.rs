@@ -10,6 +10,7 @@ use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
+use crate::app::views::companions::{Pinned, pinned};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{DECADES, ModelCurves, axis_values};
 use crate::app::work::open_measurement::IncidenceSeries;
@@ -32,14 +33,19 @@ pub static SPEC: PaneSpec = PaneSpec {
 #[derive(Default)]
 pub struct PolarLobesView {
     curves: Memo<CurveKey, ModelCurves>,
+    /// BRDF of each pinned surface.
+    pinned: Memo<PinnedKey, Vec<Polyline>>,
     range: AutoRange,
-    /// Of the curves by their stamp; the radius, whether it is logarithmic and whether lobes are
+    /// Of the curves and pinned surfaces by their stamps; the radius, whether it is logarithmic and whether lobes are
     /// filled; the language.
-    plot: FigurePlot<(u64, Option<Range>, [bool; 2], Language)>,
+    plot: FigurePlot<([u64; 2], Option<Range>, [bool; 2], Language)>,
 }
 
 /// Parameters, model, θi, plane.
 type CurveKey = (Parameters, Model, f64, f64);
+
+/// The surfaces, θi, plane.
+type PinnedKey = (Vec<Pinned>, f64, f64);
 
 /// How a BRDF becomes a radius: 1 at the outermost ring.
 #[derive(Debug, Clone, Copy)]
@@ -126,7 +132,7 @@ fn arrow(theta_r: f64) -> Polyline {
 }
 
 /// The figure, of lobes in a plane at that θi.
-fn describe(curves: &ModelCurves, radius: Radius, (theta_i, plane): (f64, f64), filled: bool, title: String) -> Figure {
+fn describe(curves: &ModelCurves, pins: Vec<Series>, radius: Radius, (theta_i, plane): (f64, f64), filled: bool, title: String) -> Figure {
     let rings = radius.rings();
     let mut series = protractor(&rings);
     if plane == 180.0 {
@@ -141,6 +147,7 @@ fn describe(curves: &ModelCurves, radius: Radius, (theta_i, plane): (f64, f64), 
         }
         series.push(Series::line(term.name(), lobe).colored(term.ink()));
     }
+    series.extend(pins);
     series.push(Series::line(tr!("total"), radius.bend(&curves.total)).colored(FOREGROUND));
     let axis = |sides: &[f64]| {
         let marks = rings.iter().flat_map(|(radius, brdf)| sides.iter().map(move |side| (side * radius, brdf.clone())));
@@ -155,6 +162,13 @@ fn describe(curves: &ModelCurves, radius: Radius, (theta_i, plane): (f64, f64), 
         ..Panel::default()
     };
     Figure { title, panels: vec![panel], ..Figure::default() }
+}
+
+/// All of a surface in a plane, backscatter side included.
+fn curves(model: Model, parameters: Parameters, theta_i: f64, plane: f64) -> ModelCurves {
+    let Ok(surface) = Pbrdf::new(model, parameters) else { return ModelCurves::default() };
+    let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
+    ModelCurves::new(&surface, &series, true, false)
 }
 
 /// Each piece of a curve with the origin, as an area.
@@ -174,14 +188,16 @@ impl View for PolarLobesView {
         let (settings, surface) = (cx.work.settings(), cx.work.surface());
         let log = settings.view_options.polar_log;
         let key = (surface.parameters, surface.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
-        self.curves.refresh(key, |&(parameters, model, theta_i, plane)| {
-            let Ok(surface) = Pbrdf::new(model, parameters) else { return ModelCurves::default() };
-            let series = IncidenceSeries { theta_i, plane, dolp: Vec::new(), brdf: Vec::new(), rows: Vec::new() };
-            ModelCurves::new(&surface, &series, true, false)
+        self.curves.refresh(key, |&(parameters, model, theta_i, plane)| curves(model, parameters, theta_i, plane));
+        let pinned_key = (pinned(cx.work), settings.theta_i, settings.dphi.rem_euclid(360.0));
+        self.pinned.refresh(pinned_key, |(pins, theta_i, plane)| {
+            pins.iter().map(|pin| curves(pin.model, pin.parameters, *theta_i, *plane).total).collect()
         });
         let Some(curves) = self.curves.get() else { return };
         let place = |value: f64| if log { libm::log10(value) } else { value };
-        let values = || axis_values(&curves.total).map(place).filter(|value| value.is_finite());
+        let pinned_curves = self.pinned.get().map_or(&[][..], Vec::as_slice);
+        let values =
+            || axis_values(&curves.total).chain(pinned_curves.iter().flat_map(axis_values)).map(place).filter(|value| value.is_finite());
         let top = values().fold(f64::NEG_INFINITY, f64::max);
         let wanted = if log {
             let high = if top.is_finite() { (top + 0.1).ceil() } else { 1.0 };
@@ -193,8 +209,10 @@ impl View for PolarLobesView {
         let Some(radius) = self.radius(log) else { return };
         let title = cx.work.active().title();
         let filled = settings.view_options.filled;
-        let figure_key = (self.curves.stamp(), self.range.get(), [log, filled], i18n::current());
-        self.plot.refresh(figure_key, |_| Some(describe(curves, radius, (key.2, key.3), filled, title)));
+        let figure_key = ([self.curves.stamp(), self.pinned.stamp()], self.range.get(), [log, filled], i18n::current());
+        let pins = self.pinned.key().map_or(&[][..], |(pins, ..)| pins).iter().zip(pinned_curves);
+        let pins: Vec<Series> = pins.map(|(pin, curve)| pin.look.stroke(radius.bend(curve))).collect();
+        self.plot.refresh(figure_key, |_| Some(describe(curves, pins, radius, (key.2, key.3), filled, title)));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {

@@ -7,7 +7,7 @@ use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
-use crate::app::work::surface::Surface;
+use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Starts};
 use pbrdf::model::{Model, Parameter, Parameters};
 use std::path::PathBuf;
@@ -80,6 +80,18 @@ pub enum Edit {
         number: u64,
         drawn: DrawnSeries,
     },
+    /// Pins a surface: its name, model and values.
+    Pin {
+        name: String,
+        model: Model,
+        parameters: Parameters,
+    },
+    /// Another name or colour of the pinned surface of that place, or whether it is drawn.
+    SetPin(usize, Box<PinnedSurface>),
+    /// Removes the pinned surface of that place.
+    Unpin(usize),
+    /// Takes the values and the model of the pinned surface of that place.
+    UsePin(usize),
     /// Adds a finished fit to the history, shows it and takes its values.
     AddFit(Box<FitEntry>),
     /// Puts a report with intervals in the place of that of the fit with this id. If its minimum is a

@@ -35,9 +35,50 @@ impl Default for Surface {
 pub struct PinnedSurface {
     pub name: String,
     /// Number of its colour among those of series.
+    #[serde(default)]
     pub color: usize,
     pub model: Model,
     pub parameters: Parameters,
+    /// Whether it is drawn.
+    #[serde(default = "yes")]
+    pub shown: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Colours of pinned surfaces in the order in which they are pinned, by their numbers among those of
+/// series: the few series of a measurement do not have them.
+const PIN_COLORS: [usize; 6] = [5, 10, 8, 7, 9, 3];
+
+impl PinnedSurface {
+    /// A snapshot under that name, in a colour that the others do not have, and with a number where
+    /// one of them has the name.
+    pub fn new(name: &str, model: Model, parameters: Parameters, others: &[Self]) -> Self {
+        let is_free = |color: &&usize| others.iter().all(|other| other.color != **color);
+        let color = PIN_COLORS.iter().find(is_free).copied().unwrap_or(PIN_COLORS[others.len() % PIN_COLORS.len()]);
+        let is_taken = |name: &str| others.iter().any(|other| other.name == name);
+        let mut names = [name.to_owned()].into_iter().chain((2..).map(|number| format!("{name} ({number})")));
+        let name = names.find(|name| !is_taken(name)).unwrap_or_default();
+        Self { name, color, model, parameters, shown: true }
+    }
+}
+
+/// The distribution that a model does not have.
+pub fn another(distribution: SlopeDistribution) -> SlopeDistribution {
+    match distribution {
+        SlopeDistribution::Gauss => SlopeDistribution::Cauchy,
+        SlopeDistribution::Cauchy => SlopeDistribution::Gauss,
+    }
+}
+
+/// σ of the other distribution with the same median slope.
+pub fn sigma_of_equal_median(own: SlopeDistribution, sigma: f64, q: f64) -> f64 {
+    match own {
+        SlopeDistribution::Gauss => SlopeDistribution::cauchy_of_equal_median(sigma, q),
+        SlopeDistribution::Cauchy => SlopeDistribution::gauss_of_equal_median(sigma, q),
+    }
 }
 
 /// Whether sliders can hold these parameters. They can stand at n = k = 0, which is no surface:
@@ -50,6 +91,15 @@ pub fn can_be_set(parameters: &Parameters, used: ParameterSet) -> Result<(), Par
 }
 
 impl Surface {
+    /// The same with the other distribution of slopes, so that half of the facets stay below the same
+    /// slope; none without a specular lobe.
+    pub fn of_equal_median(&self) -> Option<(Model, Parameters)> {
+        let own = self.model.distribution;
+        let sigma = sigma_of_equal_median(own, self.parameters.sigma, self.parameters.q);
+        let model = Model { distribution: another(own), ..self.model };
+        self.model.specular.then_some((model, Parameters { sigma, ..self.parameters }))
+    }
+
     /// The defaults for data with or without a BRDF.
     pub fn for_measurement(measurement: &Measurement) -> Self {
         let mut surface = Self::default();

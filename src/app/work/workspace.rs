@@ -225,6 +225,10 @@ impl Workspace {
                     open.set_drawn(&drawn);
                 }
             }
+            Edit::Pin { name, model, parameters } => self.pin(&name, model, parameters),
+            Edit::SetPin(place, pin) => self.set_pin(place, *pin),
+            Edit::Unpin(place) => self.unpin(place),
+            Edit::UsePin(place) => self.use_pin(place),
             Edit::SetProfiled(parameter) => self.active_results().diagnostics.parameter = Some(parameter),
             Edit::SetProfile(profile) => self.active_results().diagnostics.profile = profile,
             Edit::SetReplicates(replicates) => self.active_results().diagnostics.replicates = replicates,

@@ -8,7 +8,7 @@ use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::{short, significant};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, ListAction};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, TextWrapMode, Ui};
@@ -60,6 +60,9 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mu
             }
         }
     });
+    if ui.button(tr!("Pin this fit")).on_hover_text(tr!("Its surface in every plot until it is removed")).clicked() {
+        commands.push(Action::List(ListAction::PinFit));
+    }
     ui.add_space(6.0);
     estimates_ui(report, work.diagnostics().scatter.as_ref(), ui);
     if !fit.problem.free().is_empty() && !fit.problem.is_empty() {

@@ -3,7 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::{compare_models, find_intervals, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
-use crate::app::shell::app::measurements;
+use crate::app::shell::app::lists;
 use crate::app::shell::app::open::{cancel_import, open, open_files, start_import};
 use crate::app::shell::dialogs::OverwritePrompt;
 use crate::app::shell::docking::Dock;
@@ -44,12 +44,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Replace => return app.dialogs.overwrite.take().map_or(Ok(()), |asked| execute(app, ctx, asked.command)),
         Action::KeepFile => app.dialogs.overwrite = None,
         Action::SaveMeasurement(path) => app.jobs.files.save(path, app.work.active().measurement.clone())?,
-        Action::ActivateMeasurement(number) => app.work.apply(Edit::Activate(number)),
-        Action::StepMeasurement(by) => measurements::step(app, by),
-        Action::RenameMeasurement => app.measurement_panel.rename(app.work.active()),
-        Action::MoveMeasurement(by) => app.work.apply(Edit::MoveMeasurement { number: app.work.active().number, by }),
-        Action::ShowMeasurements(shown) => measurements::show_all(app, shown),
-        Action::CloseMeasurement(number) => measurements::close(app, number),
+        Action::List(action) => lists::execute(app, action)?,
         Action::OpenExample(index) => open_example(app, index)?,
         Action::ShowStep(lesson, step) => show_step(app, lesson, step)?,
         Action::CloseLesson => end_lesson(app)?,
@@ -142,7 +137,7 @@ fn export(app: &mut App, kind: ExportKind, path: PathBuf) -> Result<(), String> 
     kind.check(&path)?;
     let figure = if let ExportKind::Plot(pane) = kind { app.figure(pane) } else { None };
     let write = kind.snapshot(&app.work, figure)?;
-    app.jobs.files.export(kind, path, write)
+    app.jobs.files.export(kind, app.work.revision(), path, write)
 }
 
 fn open_example(app: &mut App, index: usize) -> Result<(), String> {

@@ -38,7 +38,7 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.import, imported, reading_panicked);
     poll(app, |jobs| &mut jobs.files.session, |app, loaded| session_read(app, &loaded.path, loaded.result), reading_panicked);
     poll(app, |jobs| &mut jobs.files.save, measurement_saved, writing_panicked);
-    poll(app, |jobs| &mut jobs.files.export, |app, file| exported(app, file.kind, file.result), writing_panicked);
+    poll(app, |jobs| &mut jobs.files.export, exported, writing_panicked);
     poll(app, |jobs| &mut jobs.files.autosave, autosaved,
         || tr!("Saving the working state ended unexpectedly; it is saved again after the next change."));
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);

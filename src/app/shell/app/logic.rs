@@ -7,6 +7,7 @@ use crate::app::shell::app::execute::execute;
 use crate::app::shell::app::fits::{follow_active, refit_if_moved};
 use crate::app::shell::app::job_results::poll_jobs;
 use crate::app::shell::app::open::open_waiting;
+use crate::app::shell::app::title::show_title;
 use crate::app::shell::commands;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
@@ -35,6 +36,7 @@ pub fn logic(app: &mut App, ctx: &egui::Context) {
         app.work.record_step();
     }
     refresh(app);
+    show_title(app, ctx);
     remember_window(app, ctx);
     save_when_rested(app, ctx);
     autosave_when_rested(app, ctx);

@@ -6,15 +6,15 @@ pub mod execute;
 mod fits;
 pub mod job_results;
 mod lesson;
+mod lists;
 pub mod logic;
-mod measurements;
 pub mod open;
 pub mod session;
+pub mod title;
 pub mod ui;
 
 use crate::app::jobs::spawner::Spawner;
-use crate::app::panels::MeasurementPanel;
-use crate::app::shell::dialogs::Dialogs;
+use crate::app::shell::dialogs::{Dialogs, Lists};
 use crate::app::shell::docking::Dock;
 use crate::app::shell::frame_times::FrameTimes;
 use crate::app::shell::lessons::Lessons;
@@ -48,7 +48,6 @@ pub struct App {
     pub toasts: Toasts,
     pub views: Views,
     pub dock: Dock,
-    pub measurement_panel: MeasurementPanel,
     pub dialogs: Dialogs,
     pub lessons: Lessons,
     pub persistence: Persistence,
@@ -78,7 +77,6 @@ impl App {
             benchmarks: Benchmarks::default(),
             toasts: Toasts::default(),
             views: Views::default(),
-            measurement_panel: MeasurementPanel::default(),
             dialogs: Dialogs::default(),
             lessons: Lessons::default(),
             persistence: Persistence::default(),
@@ -107,11 +105,11 @@ impl App {
         (cx, views, dock)
     }
 
-    /// What panels get to see, and the panel of measurements.
-    pub fn split_panel(&mut self) -> (Cx<'_>, &mut MeasurementPanel) {
-        let Self { work, derived, jobs, benchmarks, edits, actions, interacting, measurement_panel, .. } = self;
+    /// What panels get to see, and the lists above the sliders.
+    pub fn split_lists(&mut self) -> (Cx<'_>, &mut Lists) {
+        let Self { work, derived, jobs, benchmarks, edits, actions, interacting, dialogs, .. } = self;
         let cx = Cx { work, derived, jobs, benchmarks, edits, actions, interacting: *interacting };
-        (cx, measurement_panel)
+        (cx, &mut dialogs.lists)
     }
 
     /// The figure of a pane, for files and the clipboard.

@@ -3,6 +3,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::lesson::close_lesson;
+use crate::app::shell::app::title::mark_saved;
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::lessons::{Lessons, own_folder};
 use crate::app::storage::export::ExportKind;
@@ -32,6 +33,7 @@ pub fn begin(app: &mut App) {
         }
         Err(error) => app.toasts.error(tr!("The bundled example cannot be read: {}.", error.localized())),
     }
+    mark_saved(app);
     // The settings file knows this.
     app.persistence.saved_settings = Some((app.work.revision(), app.window.clone()));
 }

@@ -1,9 +1,11 @@
 //! Sessions open, and exports end.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::title::mark_saved;
 use crate::app::shell::lessons::LessonSession;
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::session_file::OpenedSession;
+use crate::app::tasks::files::ExportedFile;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::edit::Edit;
@@ -23,6 +25,9 @@ pub fn session_read(app: &mut App, path: &Path, result: Result<Box<OpenedSession
             if !left_out.is_empty() {
                 let left_out = left_out.join(&tr!("; "));
                 app.toasts.error(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out));
+            }
+            if !is_autosave {
+                mark_saved(app);
             }
             if is_autosave {
                 app.persistence.autosaved_revision = Some(app.autosave_revision());
@@ -62,14 +67,16 @@ fn show_session(app: &mut App, mut opened: OpenedSession, file: Option<PathBuf>)
 }
 
 /// An export has ended.
-pub fn exported(app: &mut App, kind: ExportKind, result: Result<PathBuf, String>) {
+pub fn exported(app: &mut App, ExportedFile { kind, revision, result }: ExportedFile) {
     match result {
         Ok(path) => {
             app.dialogs.path_entry.clear_if(&path);
             app.toasts.info(tr!("{0} is saved to {1}.", translated(kind.name()), path.display()));
             // What was saved out of a lesson is no file of the work that comes back.
             if kind == ExportKind::Session && app.lessons.session.is_none() {
+                let is_unchanged = app.work.revision() == revision;
                 app.work.apply(Edit::SetSessionFile(Some(path)));
+                app.persistence.saved_session = is_unchanged.then(|| app.work.revision());
             }
         }
         Err(sentence) => app.toasts.error(sentence),

@@ -36,10 +36,11 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
 }
 
 fn parameters_ui(app: &mut App, ui: &mut Ui) {
-    if app.work.measurements().has_rows() {
+    if app.work.measurements().has_rows() || !app.work.pinned().is_empty() {
         Panel::top("measurements").show(ui, |ui| {
-            let (mut cx, panel) = app.split_panel();
-            panel.ui(&mut cx, ui);
+            let (mut cx, lists) = app.split_lists();
+            lists.measurements.ui(&mut cx, ui);
+            lists.pinned.ui(&mut cx, ui);
         });
     }
     let mut refusals = Vec::new();

@@ -1,8 +1,10 @@
-//! Measurements are opened, closed, named and chosen.
+//! Measurements are opened, closed, named and chosen; surfaces are pinned.
 
 use super::Workspace;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+use crate::app::work::surface::PinnedSurface;
+use pbrdf::model::{Model, Parameters};
 
 impl Workspace {
     /// Adds a measurement to those that are open, and makes it the active one. Its sliders begin
@@ -58,6 +60,29 @@ impl Workspace {
     pub(super) fn set_style(&mut self, number: u64, style: MeasurementStyle) {
         if let Some(open) = self.measurements.get_mut(number) {
             open.style = style;
+        }
+    }
+
+    pub(super) fn pin(&mut self, name: &str, model: Model, parameters: Parameters) {
+        self.pinned.push(PinnedSurface::new(name, model, parameters, &self.pinned));
+    }
+
+    pub(super) fn set_pin(&mut self, place: usize, pin: PinnedSurface) {
+        if let Some(pinned) = self.pinned.get_mut(place) {
+            *pinned = pin;
+        }
+    }
+
+    pub(super) fn unpin(&mut self, place: usize) {
+        if place < self.pinned.len() {
+            self.pinned.remove(place);
+        }
+    }
+
+    pub(super) fn use_pin(&mut self, place: usize) {
+        if let Some(&PinnedSurface { model, parameters, .. }) = self.pinned.get(place) {
+            self.measurements.active_mut().surface.model = model;
+            self.move_to(parameters);
         }
     }
 }
