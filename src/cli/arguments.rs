@@ -1,7 +1,8 @@
 //! The arguments of the command line.
 
 use crate::cli::values;
-use crate::cli::values::{Assignment, Criterion, Grid, Interval, Priors};
+use crate::cli::values::{Assignment, Criterion, Grid, OwnParameters, Priors, Targeted};
+use crate::report::TableFormat;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
@@ -70,11 +71,15 @@ pub struct EvaluateArguments {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct FitArguments {
-    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
-    pub input: PathBuf,
+    /// Measurements: theta_i, theta_r and dolp or brdf, in degrees and 1/sr; a column set makes several of one file.
+    #[arg(required = true)]
+    pub inputs: Vec<PathBuf>,
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
+    /// Parameters that each measurement has for itself, such as n,k, or all; the others are shared.
+    #[arg(long, value_name = "NAMES|all", value_parser = values::own)]
+    pub own: Option<OwnParameters>,
     #[command(flatten)]
     pub problem: ProblemArguments,
     /// Scan these parameters: hold each on a grid and fit the rest again, for an honest interval.
@@ -86,6 +91,9 @@ pub struct FitArguments {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+    /// Print the results as a table for a paper: a row for each parameter, a column for each measurement.
+    #[arg(long, value_name = "FORM", value_parser = values::table_format(), conflicts_with = "json")]
+    pub table: Option<TableFormat>,
     /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
@@ -101,33 +109,40 @@ pub struct FitArguments {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct CompareArguments {
-    /// Measurement: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
-    pub input: PathBuf,
+    /// Measurements: theta_i, theta_r and dolp or brdf, in degrees and 1/sr; a column set makes several of one file.
+    #[arg(required = true)]
+    pub inputs: Vec<PathBuf>,
     /// Models to compare; all without.
     #[arg(long, value_delimiter = ',', value_parser = values::preset)]
     pub models: Vec<&'static Preset>,
+    /// Fit several measurements together: parameters that each has for itself, such as n,k, or all; the others are shared.
+    #[arg(long, value_name = "NAMES|all", value_parser = values::own)]
+    pub own: Option<OwnParameters>,
     #[command(flatten)]
     pub problem: ProblemArguments,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+    /// Print the results as a table for a paper: a row for each parameter, a column for each measurement and model.
+    #[arg(long, value_name = "FORM", value_parser = values::table_format(), conflicts_with = "json")]
+    pub table: Option<TableFormat>,
 }
 
 /// What `fit` and `compare` have in common.
 #[derive(Debug, Args)]
 pub struct ProblemArguments {
-    /// Values to start from, such as n=2,k=3; defaults for the rest.
-    #[arg(long, value_delimiter = ',', value_parser = values::assignment)]
-    pub start: Vec<Assignment>,
+    /// Values to start from, such as n=2,k=3; defaults for the rest. For one of several measurements: n@B.csv=2.
+    #[arg(long, value_delimiter = ',', value_parser = values::targeted_assignment)]
+    pub start: Vec<Targeted<f64>>,
     /// Parameters that stay as they are, such as ks=1,c.
-    #[arg(long, value_delimiter = ',', value_parser = values::parameter_or_assignment)]
-    pub fix: Vec<(Parameter, Option<f64>)>,
+    #[arg(long, value_delimiter = ',', value_parser = values::targeted_fix)]
+    pub fix: Vec<Targeted<Option<f64>>>,
     /// Parameters to free that would be fixed, such as ks.
-    #[arg(long, value_delimiter = ',', value_parser = values::parameter)]
-    pub free: Vec<Parameter>,
+    #[arg(long, value_delimiter = ',', value_parser = values::targeted_parameter)]
+    pub free: Vec<Targeted<()>>,
     /// Bounds, such as n=0.1..5.
-    #[arg(long, value_delimiter = ',', value_parser = values::interval)]
-    pub bounds: Vec<Interval>,
+    #[arg(long, value_delimiter = ',', value_parser = values::targeted_interval)]
+    pub bounds: Vec<Targeted<(f64, f64)>>,
     /// How many starts; without, a first guess and as many as find something new. 1 is the start alone.
     #[arg(long, value_parser = values::count)]
     pub starts: Option<usize>,

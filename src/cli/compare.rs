@@ -2,10 +2,11 @@
 
 use crate::cli::arguments::CompareArguments;
 use crate::cli::failure::Failure;
-use crate::cli::problem::{NoProblem, fitted, problem};
+use crate::cli::problem::{NoProblem, check, fitted, problem_of};
+use crate::cli::sets::{MeasurementSets, NamedMeasurement};
 use crate::cli::watched::Watched;
-use crate::cli::{input, interrupt, output};
-use crate::report::fit_json;
+use crate::cli::{compare_joint, interrupt, output};
+use crate::report::{English, ResultColumn, ResultTable, fit_json};
 use pbrdf::fit::{
     DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, Verdict, ends_text, special_cases_first,
     with_special_cases,
@@ -25,46 +26,82 @@ const PAIRS: [(&str, &str); 2] = [("gauss", "cauchy"), ("specular-gauss", "specu
 
 pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let bytes = input::bytes(&arguments.input)?;
-    let measurement = input::measurement(&arguments.input, &bytes)?;
-    let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
-    let problems = problems(&presets, arguments, &measurement)?;
-    let results = results(&presets, &problems, arguments);
+    let sets = MeasurementSets::read(&arguments.inputs)?;
+    check(&arguments.problem, &sets)?;
+    if arguments.own.is_some() && sets.all.len() > 1 {
+        return compare_joint::run(arguments, &sets);
+    }
+    let ladders: Vec<Vec<ModelResult>> = sets.all.iter().map(|set| ladder(arguments, &sets, set)).collect::<Result<_, _>>()?;
     let is_complete = !interrupt::asked();
     if arguments.json {
-        let fits: Vec<Value> = results
-            .iter()
-            .map(|(preset, result)| match result {
-                Ok((_, report)) => fit_json(preset, report),
-                Err(reason) => json!({ "model": preset.key, "skipped": reason }),
-            })
-            .collect();
+        let fits: Vec<Value> = sets.all.iter().zip(&ladders).flat_map(|(set, results)| json_of(&sets, set, results)).collect();
         let mut json = json!({ "fits": fits });
-        if let Some(object) = json.as_object_mut().filter(|_| !is_complete) {
-            object.insert("complete".to_owned(), json!(false));
+        if !is_complete {
+            json["complete"] = json!(false);
         }
         output::write_json(&json)?;
+    } else if let Some(format) = arguments.table {
+        let columns = sets.all.iter().zip(&ladders).flat_map(|(set, results)| columns(&sets, set, results)).collect();
+        output::write(None, |out| write!(out, "{}", ResultTable { columns }.text(format, &English)))?;
     } else {
-        // A fit that was stopped on its way is worth no verdict.
-        let verdicts = if is_complete { verdicts(&results) } else { vec!["Interrupted: the comparison is not complete.".to_owned()] };
-        output::write(None, |out| {
-            print(out, &measurement, &results)?;
-            verdicts.iter().try_for_each(|verdict| writeln!(out, "\n{verdict}"))
-        })?;
+        for (set, results) in sets.all.iter().zip(&ladders) {
+            // A fit that was stopped on its way is worth no verdict.
+            let verdicts = if is_complete { verdicts(results) } else { vec!["Interrupted: the comparison is not complete.".to_owned()] };
+            output::write(None, |out| {
+                if sets.all.len() > 1 {
+                    writeln!(out, "{}", set.name)?;
+                }
+                print(out, &set.measurement, results)?;
+                verdicts.iter().try_for_each(|verdict| writeln!(out, "\n{verdict}"))?;
+                if sets.all.len() > 1 { writeln!(out) } else { Ok(()) }
+            })?;
+        }
     }
     Ok(output::exit_code())
+}
+
+/// The fits of a measurement as JSON, with its file where there are several measurements.
+fn json_of(sets: &MeasurementSets, set: &NamedMeasurement, results: &[ModelResult]) -> Vec<Value> {
+    let of = |(preset, result): &ModelResult| {
+        let mut fit = match result {
+            Ok((_, report)) => fit_json(preset, report),
+            Err(reason) => json!({ "model": preset.key, "skipped": reason }),
+        };
+        if sets.all.len() > 1 {
+            fit["file"] = json!(sets.path(set).display().to_string());
+            fit["set"] = json!(set.name);
+        }
+        fit
+    };
+    results.iter().map(of).collect()
+}
+
+/// The fits of a measurement as columns of a table.
+fn columns(sets: &MeasurementSets, set: &NamedMeasurement, results: &[ModelResult]) -> Vec<ResultColumn> {
+    let rows = set.measurement.rows.iter().filter(|row| !row.masked).count();
+    let title = |preset: &Preset| if sets.all.len() > 1 { format!("{}, {}", set.name, preset.key) } else { preset.key.to_owned() };
+    let fits = results.iter().filter_map(|(preset, result)| Some((preset, &result.as_ref().ok()?.1)));
+    fits.map(|(preset, fit)| ResultColumn::single(title(preset), fit, rows)).collect()
+}
+
+/// The ladder of models on one measurement.
+fn ladder(arguments: &CompareArguments, sets: &MeasurementSets, set: &NamedMeasurement) -> Result<Vec<ModelResult>, Failure> {
+    let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
+    let problems = problems(&presets, arguments, sets, set)?;
+    Ok(results(&presets, &problems, arguments))
 }
 
 /// The problem of each model, or why there is none.
 fn problems(
     presets: &[&'static Preset],
     arguments: &CompareArguments,
-    measurement: &Measurement,
+    sets: &MeasurementSets,
+    set: &NamedMeasurement,
 ) -> Result<Vec<Result<Problem, String>>, Failure> {
-    let of = |preset: &&'static Preset| match problem(preset, &arguments.problem, measurement) {
+    let of = |preset: &&'static Preset| match problem_of(preset, &arguments.problem, &set.measurement, &|name| sets.is_meant(set, name)) {
         Ok(problem) => Ok(Ok(problem)),
         Err(NoProblem::Data(reason @ ProblemError::NothingToPredict)) => Ok(Err(reason.to_string())),
-        Err(other) => Err(other.about(&arguments.input, measurement)),
+        Err(other) => Err(other.about(sets.path(set), &set.measurement)),
     };
     presets.iter().map(of).collect()
 }

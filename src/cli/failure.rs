@@ -39,6 +39,12 @@ impl Failure {
         Self::usage(format!("{}: {reason}.", input_name(path)))
     }
 
+    /// Several failures at once: all sentences, one a line, with the code of the first.
+    pub fn all(failures: Vec<Self>) -> Self {
+        let code = failures.first().map_or(USAGE, |failure| failure.code);
+        Self { message: failures.into_iter().map(|failure| failure.message).collect::<Vec<_>>().join("\n"), code }
+    }
+
     /// A file or stream that could not be written.
     pub fn output(to: impl std::fmt::Display, error: &std::io::Error) -> Self {
         Self { message: format!("{to} could not be written: {error}."), code: OUTPUT }

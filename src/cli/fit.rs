@@ -2,15 +2,14 @@
 
 use crate::cli::arguments::FitArguments;
 use crate::cli::failure::{Failure, input_name, is_standard_input};
-use crate::cli::problem::{fitted, problem};
+use crate::cli::fit_text::{NAME_WIDTH, notice_left_out, print_course, print_estimate, print_head, print_open};
+use crate::cli::problem::{check, fitted, joint_failure, model, own_parameters, problem};
+use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
-use crate::cli::{input, interrupt, output};
+use crate::cli::{interrupt, joint, output};
 use crate::files::export;
-use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, fit_json, fitted_cells};
-use pbrdf::fit::{
-    Bootstrap, BootstrapEstimate, BrdfResiduals, Edge, EstimateStatus, FitResult, Loss, Problem, Profile, StopReason, Weights, bootstrap,
-    ends_text, profile,
-};
+use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, ResultColumn, ResultTable, fit_json, fitted_cells};
+use pbrdf::fit::{Bootstrap, BootstrapEstimate, FitResult, JointError, Problem, Profile, StopReason, bootstrap, profile};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
 use serde_json::{Map, Value, json};
@@ -19,16 +18,22 @@ use std::process::ExitCode;
 
 pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let bytes = input::bytes(&arguments.input)?;
-    let measurement = input::measurement(&arguments.input, &bytes)?;
-    let problem =
-        problem(arguments.model, &arguments.problem, &measurement).map_err(|reason| reason.about(&arguments.input, &measurement))?;
-    if problem.left_out() > 0 {
-        output::notice(format_args!(
-            "Measured BRDF values of 0, which have no relative or logarithmic residual and are left out: {}.",
-            problem.left_out()
-        ));
+    let sets = MeasurementSets::read(&arguments.inputs)?;
+    match &sets.all[..] {
+        [_] => run_single(arguments, &sets),
+        _ => joint::run(arguments, &sets),
     }
+}
+
+fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode, Failure> {
+    let (path, bytes, measurement) = (&arguments.inputs[0], &sets.bytes[0], &sets.all[0].measurement);
+    check(&arguments.problem, sets)?;
+    let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem));
+    if let Some(stranger) = own.without_all(model(arguments.model, &arguments.problem).parameters()).iter().next() {
+        return Err(joint_failure(&JointError::OwnOfNone(stranger), sets));
+    }
+    let problem = problem(arguments.model, &arguments.problem, measurement).map_err(|reason| reason.about(path, measurement))?;
+    notice_left_out(problem.left_out());
     if let Some(parameter) = arguments.profile.iter().find(|parameter| !problem.free().contains(parameter)) {
         return Err(Failure::usage(format!("{} is not free in this fit and has no profile.", parameter.key())));
     }
@@ -43,10 +48,10 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
 
     if let Some(path) = &arguments.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&measurement, &surface, arguments.model.dolp_only);
-        output::write(Some(path), |out| append_columns(&bytes, &FITTED_COLUMNS, &measurement.lines, &cells, out))?;
+        let cells = fitted_cells(measurement, &surface, arguments.model.dolp_only);
+        output::write(Some(path), |out| append_columns(bytes, &FITTED_COLUMNS, &measurement.lines, &cells, out))?;
     }
-    write_documents(arguments, &bytes, &measurement, &problem, &report)?;
+    write_documents(arguments, bytes, measurement, &problem, &report)?;
     if arguments.json {
         let mut json = fit_json(arguments.model, &report);
         if is_cut_short(&report) {
@@ -54,9 +59,13 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
         }
         add_scans(&mut json, &profiles, scatter.as_ref());
         output::write_json(&json)?;
+    } else if let Some(format) = arguments.table {
+        let rows = measurement.rows.iter().filter(|row| !row.masked).count();
+        let table = ResultTable { columns: vec![ResultColumn::single(sets.all[0].name.clone(), &report, rows)] };
+        output::write(None, |out| write!(out, "{}", table.text(format, &English)))?;
     } else {
         output::write(None, |out| {
-            print(out, arguments, &measurement, &report)?;
+            print(out, arguments, measurement, &report)?;
             print_scans(out, &profiles, scatter.as_ref())
         })?;
     }
@@ -76,8 +85,9 @@ fn write_documents(
     problem: &Problem,
     report: &FitResult,
 ) -> Result<(), Failure> {
-    let file_name = arguments.input.file_name().filter(|_| !is_standard_input(&arguments.input));
-    let name = file_name.map_or_else(|| input_name(&arguments.input), |name| name.to_string_lossy().into_owned());
+    let path = &arguments.inputs[0];
+    let file_name = path.file_name().filter(|_| !is_standard_input(path));
+    let name = file_name.map_or_else(|| input_name(path), |name| name.to_string_lossy().into_owned());
     let source = DataSource { name, sha256: Some(export::sha256(bytes)) };
     let (program, date) = (export::program(), export::now());
     let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
@@ -99,53 +109,18 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
     writeln!(
         out,
         "{}: {used} of {} rows, model {} ({})",
-        input_name(&arguments.input),
+        input_name(&arguments.inputs[0]),
         measurement.rows.len(),
         arguments.model.key,
         arguments.model.name
     )?;
-    let number = |value: Option<f64>| value.map_or_else(|| "not defined".to_owned(), |value| format!("{value:.6e}"));
-    writeln!(
-        out,
-        "{} ({} evaluations, {:.1} ms)",
-        capitalised(report.stop_reason.text()),
-        report.course.evaluations,
-        report.course.elapsed_ms
-    )?;
-    writeln!(out, "ΔE {} -> {}", number(report.start_objective), number(report.objective))?;
-    if !report.statistics.minimises_delta_e {
-        let (before, after) = (number(report.statistics.start_rss), number(Some(report.statistics.rss)));
-        writeln!(out, "minimised, instead of ΔE: sum of squares of the {} {before} -> {after}", residuals_in_words(arguments))?;
-    }
-    if let Some(chi2) = report.statistics.chi2 {
-        writeln!(out, "χ² {chi2:.4} with {} degrees of freedom", report.statistics.dof)?;
-    }
-    writeln!(out, "\n{:<8} {:>14} {:>12} {:>12}", "", "value", "± (68 %)", "start")?;
-    for estimate in &report.estimates {
-        let error = match estimate.status() {
-            EstimateStatus::Fixed => "fixed".to_owned(),
-            EstimateStatus::AtBound(Edge::Lower) => "at lower".to_owned(),
-            EstimateStatus::AtBound(Edge::Upper) => "at upper".to_owned(),
-            EstimateStatus::Determined(error) => format!("{error:.3e}"),
-            EstimateStatus::NoDegreesOfFreedom => "no d.o.f.".to_owned(),
-            EstimateStatus::Within(interval) => ends_text(estimate.value, interval),
-            EstimateStatus::Undetermined => "not determined".to_owned(),
-        };
-        let unit = estimate.parameter.unit();
-        writeln!(out, "{:<8} {:>14.8} {error:>12} {:>12.6} {unit}", estimate.parameter.key(), estimate.value, estimate.start)?;
-    }
-    if report.statistics.dof == 0 && !report.correlations.parameters.is_empty() {
-        writeln!(out, "\nNo degree of freedom is left: there are no more data than parameters, and nothing to tell standard errors from.")?;
-    }
+    print_course(out, arguments, (report.start_objective, report.objective), report.stop_reason, &report.course, &report.statistics)?;
+    print_head(out, NAME_WIDTH)?;
+    report.estimates.iter().try_for_each(|estimate| print_estimate(out, estimate.parameter.key(), NAME_WIDTH, estimate))?;
     if is_cut_short(report) {
         return writeln!(out, "\nInterrupted: this is the best so far; intervals that were not followed to their ends are not known.");
     }
-    let open = report.describe_undetermined();
-    if !open.is_empty() {
-        writeln!(out, "\nThe data leave open:")?;
-        open.iter().try_for_each(|what| writeln!(out, "  {what}"))?;
-    }
-    Ok(())
+    print_open(out, &report.statistics, !report.correlations.parameters.is_empty(), &report.describe_undetermined())
 }
 
 /// Profiles and bootstrap beside the agreed keys.
@@ -196,20 +171,4 @@ fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatter: Option<&Boots
         writeln!(out, "  {:<8} {:>12.3e} {:>14.8} {:>14.8}", scatter.parameter.key(), scatter.std_error, scatter.low, scatter.high)?;
     }
     Ok(())
-}
-
-fn residuals_in_words(arguments: &FitArguments) -> String {
-    let weights = if matches!(arguments.problem.weights, Weights::Sigma) { "weighted " } else { "" };
-    let form = match arguments.problem.brdf_residuals {
-        BrdfResiduals::Absolute => "residuals",
-        BrdfResiduals::Relative => "residuals, relative for BRDF",
-        BrdfResiduals::Log => "residuals, logarithmic for BRDF",
-    };
-    let loss = if matches!(arguments.problem.loss, Loss::Squared) { "" } else { ", under a robust loss" };
-    format!("{weights}{form}{loss}")
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default() + letters.as_str()
 }

@@ -50,6 +50,16 @@ pub fn measurement(path: &Path, bytes: &[u8]) -> Result<Measurement, Failure> {
     Ok(measurement)
 }
 
+/// The measurements of a file, one for each set and wavelength, with a notice of the columns that are not used.
+pub fn measurements(path: &Path, bytes: &[u8]) -> Result<Vec<Measurement>, Failure> {
+    let read = Measurement::read_sets(bytes, &mut while_reading());
+    let measurements = read.map_err(|error| measurement_failure(path, bytes, &error))?;
+    if let Some(first) = measurements.first() {
+        notice_of_reading(path, first);
+    }
+    Ok(measurements)
+}
+
 /// What the reader of a file has to say: the columns that no row uses, and its notices.
 pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
     for note in &measurement.notes {

@@ -5,14 +5,17 @@
 
 mod arguments;
 mod compare;
+mod compare_joint;
 mod draws;
 mod evaluate;
 mod failure;
 mod fit;
+mod fit_text;
 mod import;
 mod import_command;
 mod input;
 mod interrupt;
+mod joint;
 mod metals;
 mod mitsuba;
 mod output;
@@ -20,6 +23,7 @@ mod plan;
 mod posterior;
 mod problem;
 mod report;
+mod sets;
 mod simulate;
 mod values;
 mod watched;

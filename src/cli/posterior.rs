@@ -3,7 +3,7 @@
 use crate::cli::arguments::PosteriorArguments;
 use crate::cli::failure::Failure;
 use crate::cli::output::Progress;
-use crate::cli::problem::problem;
+use crate::cli::problem::{named_set, problem};
 use crate::cli::watched::Watched;
 use crate::cli::{input, interrupt, output};
 use pbrdf::fit::posterior::{
@@ -58,6 +58,9 @@ fn posed(arguments: &PosteriorArguments) -> Result<Problem, Failure> {
     let options = &arguments.problem;
     if options.starts.is_some() || options.loss != Loss::Squared || options.loss_scale.is_some() {
         return Err(Failure::usage("A posterior takes no --starts and no --loss: its likelihood is Gaussian."));
+    }
+    if let Some(set) = named_set(options) {
+        return Err(Failure::usage(format!("All measurements of a posterior share their parameters; nothing can be said of {set} alone.")));
     }
     let mut all = Measurement::default();
     // Which file each row comes from, for messages.

@@ -2,10 +2,15 @@
 
 use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
-use crate::cli::{output, values};
-use pbrdf::fit::{Fit, FitError, FitOptions, FitResult, Intervals, Observer, Problem, ProblemError, Starts, fit, with_intervals};
+use crate::cli::output;
+use crate::cli::sets::MeasurementSets;
+use crate::cli::values::{OwnParameters, Targeted};
+use pbrdf::fit::{
+    Fit, FitError, FitOptions, FitResult, Intervals, JointError, JointFit, JointProblem, JointResult, Observer, Problem, ProblemError,
+    Starts, fit, fit_jointly, with_intervals,
+};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Parameter, ParameterSet, Preset};
+use pbrdf::model::{Model, Parameter, ParameterSet, Preset};
 use std::path::Path;
 
 /// Why there is no problem.
@@ -58,6 +63,11 @@ pub fn fitted(problem: &Problem, arguments: &ProblemArguments, observer: Observe
     }
 }
 
+/// The same of several measurements.
+pub fn fitted_jointly(problem: &JointProblem, arguments: &ProblemArguments, observer: Observer<'_>) -> JointResult {
+    fit_jointly(problem, starts(arguments), arguments.seed, arguments.intervals, observer)
+}
+
 /// How many starts are asked for.
 fn starts(arguments: &ProblemArguments) -> Starts {
     match arguments.starts {
@@ -67,57 +77,152 @@ fn starts(arguments: &ProblemArguments) -> Starts {
     }
 }
 
-/// That no option says two things of one parameter.
-fn check_once(arguments: &ProblemArguments) -> Result<(), NoProblem> {
-    let ProblemArguments { start, fix, free, bounds, .. } = arguments;
-    let fixed: Vec<Parameter> = fix.iter().map(|&(parameter, _)| parameter).collect();
-    let twice = values::twice(start.iter().map(|&(parameter, _)| parameter))
-        .map(|parameter| (parameter, "start"))
-        .or_else(|| values::twice(fixed.iter().copied()).map(|parameter| (parameter, "fix")))
-        .or_else(|| values::twice(bounds.iter().map(|&(parameter, ..)| parameter)).map(|parameter| (parameter, "bounds")));
-    if let Some((parameter, option)) = twice {
-        return Err(NoProblem::Usage(format!("--{option} names {} twice", parameter.key())));
+/// That no option says two things of one parameter of one measurement.
+fn check_once(arguments: &ProblemArguments) -> Result<(), String> {
+    fn keys<T>(options: &[Targeted<T>]) -> Vec<(Parameter, Option<&str>)> {
+        options.iter().map(|option| (option.parameter, option.set.as_deref())).collect()
     }
-    match fixed.iter().find(|parameter| free.contains(parameter)) {
-        Some(parameter) => Err(NoProblem::Usage(format!("--fix and --free both name {}", parameter.key()))),
+    let ProblemArguments { start, fix, free, bounds, .. } = arguments;
+    for (option, keys) in [("start", keys(start)), ("fix", keys(fix)), ("bounds", keys(bounds))] {
+        if let Some((_, (twice, _))) = keys.iter().enumerate().find(|(index, key)| keys[..*index].contains(key)) {
+            return Err(format!("--{option} names {} twice", twice.key()));
+        }
+    }
+    match keys(fix).iter().find(|key| keys(free).contains(key)) {
+        Some((parameter, _)) => Err(format!("--fix and --free both name {}", parameter.key())),
         None => Ok(()),
     }
 }
 
-/// The problem of fitting that preset.
-pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
-    check_once(arguments)?;
-    let model = preset.model.with_dolp_formula(arguments.eq17);
-    let options = FitOptions {
+/// The model of a preset, as the options read Eq. (17).
+pub fn model(preset: &Preset, arguments: &ProblemArguments) -> Model {
+    preset.model.with_dolp_formula(arguments.eq17)
+}
+
+/// Notices of parameters that options name and the model does not have.
+fn notice_strangers(preset: &Preset, arguments: &ProblemArguments) {
+    let has = model(preset, arguments).parameters();
+    let started = arguments.start.iter().map(|option| option.parameter);
+    let fixed = arguments.fix.iter().map(|option| option.parameter);
+    let freed = arguments.free.iter().map(|option| option.parameter);
+    let bounded = arguments.bounds.iter().map(|option| option.parameter);
+    let strangers: ParameterSet = started.chain(fixed).chain(freed).chain(bounded).filter(|&parameter| !has.contains(parameter)).collect();
+    for parameter in strangers {
+        output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));
+    }
+}
+
+/// What the options say of one measurement; `is_meant` tells whether a name in them is its own.
+pub fn described<'a>(mut fit: Fit<'a>, arguments: &ProblemArguments, dolp_only: bool, is_meant: &dyn Fn(&str) -> bool) -> Fit<'a> {
+    fit = fit.options(FitOptions {
         weights: arguments.weights,
         brdf_residuals: arguments.brdf_residuals,
         loss: arguments.loss,
         loss_scale: arguments.loss_scale,
-        dolp_only: preset.dolp_only,
-    };
-    let started: Vec<Parameter> = arguments.start.iter().map(|&(parameter, _)| parameter).collect();
-    let fixed: Vec<Parameter> = arguments.fix.iter().map(|&(parameter, _)| parameter).collect();
-    let bounded: Vec<Parameter> = arguments.bounds.iter().map(|&(parameter, ..)| parameter).collect();
-    let named = [&started, &fixed, &arguments.free, &bounded].into_iter().flatten();
-    let strangers: ParameterSet = named.copied().filter(|&parameter| !model.parameters().contains(parameter)).collect();
-    for parameter in strangers {
-        output::notice(format_args!("The model {} has no parameter {}: what is said of it is ignored.", preset.key, parameter.key()));
-    }
-    let fit = Fit::new(measurement, model).options(options);
-    let fit = arguments.bounds.iter().fold(fit, |fit, &(parameter, low, high)| fit.bound(parameter, low..=high));
-    let fit = arguments.start.iter().fold(fit, |fit, &(parameter, value)| fit.start(parameter, value));
-    let fit = arguments.fix.iter().fold(fit, |fit, &(parameter, value)| match value {
-        Some(value) => fit.fix(parameter, value),
-        None => fit.hold(parameter),
+        dolp_only,
     });
-    let fit = arguments.free.iter().fold(fit, |fit, &parameter| fit.free(parameter));
-    let problem = fit.problem()?;
+    for &Targeted { parameter, value: (low, high), .. } in in_order(&arguments.bounds, is_meant) {
+        fit = fit.bound(parameter, low..=high);
+    }
+    for &Targeted { parameter, value, .. } in in_order(&arguments.start, is_meant) {
+        fit = fit.start(parameter, value);
+    }
+    for &Targeted { parameter, value, .. } in in_order(&arguments.fix, is_meant) {
+        fit = match value {
+            Some(value) => fit.fix(parameter, value),
+            None => fit.hold(parameter),
+        };
+    }
+    in_order(&arguments.free, is_meant).into_iter().fold(fit, |fit, option| fit.free(option.parameter))
+}
+
+/// Options for all measurements, then those for that one, which overrule them.
+fn in_order<'a, T>(options: &'a [Targeted<T>], is_meant: &dyn Fn(&str) -> bool) -> Vec<&'a Targeted<T>> {
+    let of_all = options.iter().filter(|option| option.set.is_none());
+    of_all.chain(options.iter().filter(|option| option.set.as_ref().is_some_and(|set| is_meant(set)))).collect()
+}
+
+/// The first measurement that an option names.
+pub fn named_set(arguments: &ProblemArguments) -> Option<&str> {
+    let of_values = arguments.start.iter().filter_map(|option| option.set.as_deref());
+    let of_fixed = arguments.fix.iter().filter_map(|option| option.set.as_deref());
+    let of_free = arguments.free.iter().filter_map(|option| option.set.as_deref());
+    let of_bounds = arguments.bounds.iter().filter_map(|option| option.set.as_deref());
+    of_values.chain(of_fixed).chain(of_free).chain(of_bounds).next()
+}
+
+/// Whether an option gives a parameter a value to start from.
+fn is_given(arguments: &ProblemArguments, parameter: Parameter) -> bool {
+    arguments.start.iter().any(|option| option.parameter == parameter)
+        || arguments.fix.iter().any(|option| option.parameter == parameter && option.value.is_some())
+}
+
+/// Refuses options that contradict each other or name a measurement that is not there.
+pub fn check(arguments: &ProblemArguments, sets: &MeasurementSets) -> Result<(), Failure> {
+    check_once(arguments).map_err(|reason| Failure::usage(format!("{reason}.")))?;
+    sets.check(arguments)
+}
+
+/// The problem of fitting that preset to one measurement.
+pub fn problem(preset: &Preset, arguments: &ProblemArguments, measurement: &Measurement) -> Result<Problem, NoProblem> {
+    problem_of(preset, arguments, measurement, &|_| true)
+}
+
+/// The same of one of several measurements; `is_meant` tells whether a name in the options is its own.
+pub fn problem_of(
+    preset: &Preset,
+    arguments: &ProblemArguments,
+    measurement: &Measurement,
+    is_meant: &dyn Fn(&str) -> bool,
+) -> Result<Problem, NoProblem> {
+    check_once(arguments).map_err(NoProblem::Usage)?;
+    notice_strangers(preset, arguments);
+    let fit = Fit::new(measurement, model(preset, arguments));
+    let problem = described(fit, arguments, preset.dolp_only, is_meant).problem()?;
     for &parameter in problem.free() {
         let start = problem.start()[parameter];
-        let is_given = started.contains(&parameter) || arguments.fix.iter().any(|&(fixed, value)| fixed == parameter && value.is_some());
-        if !is_given && start != parameter.default_value() {
+        if !is_given(arguments, parameter) && start != parameter.default_value() {
             output::notice(format_args!("{} starts at {start}, in the middle of its bounds.", parameter.key()));
         }
     }
     Ok(problem)
+}
+
+/// The problem of fitting that preset to several measurements, with those own parameters.
+pub fn joint_problem(
+    preset: &Preset,
+    arguments: &ProblemArguments,
+    own: ParameterSet,
+    sets: &MeasurementSets,
+) -> Result<JointProblem, JointError> {
+    notice_strangers(preset, arguments);
+    let mut fit = JointFit::new(sets.all.iter().map(|set| &set.measurement), model(preset, arguments)).own(own);
+    for set in &sets.all {
+        fit = fit.only(&set.name, |fit| described(fit, arguments, preset.dolp_only, &|name| sets.is_meant(set, name)))?;
+    }
+    fit.problem()
+}
+
+/// The parameters of a model that each measurement has for itself.
+pub fn own_parameters(own: Option<&OwnParameters>, model: Model) -> ParameterSet {
+    match own {
+        None => ParameterSet::EMPTY,
+        Some(OwnParameters::All) => model.parameters(),
+        Some(OwnParameters::These(these)) => *these,
+    }
+}
+
+/// The failure of a command on several measurements.
+pub fn joint_failure(error: &JointError, sets: &MeasurementSets) -> Failure {
+    if let JointError::Fit { set, error: FitError::Problem(reason @ ProblemError::MissingSigma { .. }) } = error
+        && let Some(found) = sets.all.iter().find(|found| found.name == *set)
+    {
+        return NoProblem::Data(reason.clone()).about(sets.path(found), &found.measurement);
+    }
+    let hint = error.hint().map_or_else(String::new, |hint| format!("; {hint}"));
+    let text = error.to_string();
+    let mut letters = text.chars();
+    let first = letters.next().filter(|_| !matches!(error, JointError::Fit { .. } | JointError::SharedDiffers { .. }));
+    let text = first.map_or(text.clone(), |first| first.to_uppercase().to_string() + letters.as_str());
+    Failure::usage(format!("{text}{hint}."))
 }

@@ -1,6 +1,7 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
 use crate::files::export;
+use crate::report::TableFormat;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
@@ -13,6 +14,21 @@ pub type Assignment = (Parameter, f64);
 /// `n=0.1..5`.
 pub type Interval = (Parameter, f64, f64);
 
+/// What is said of a parameter: of all measurements, or of the one that is named, as in `n@B.csv=1.2`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Targeted<T> {
+    pub parameter: Parameter,
+    /// The measurement; all without.
+    pub set: Option<String>,
+    pub value: T,
+}
+
+impl<T> Targeted<T> {
+    fn new(set: Option<&str>, parameter: Parameter, value: T) -> Self {
+        Self { parameter, set: set.map(|set| set.trim().to_owned()), value }
+    }
+}
+
 /// What chosen angles are to be good for.
 #[derive(Debug, Clone)]
 pub enum Criterion {
@@ -22,6 +38,15 @@ pub enum Criterion {
     Variances(Vec<Parameter>),
     /// Telling the first model from the second.
     Tell(&'static Preset, &'static Preset),
+}
+
+/// The parameters that each measurement has for itself.
+#[derive(Debug, Clone)]
+pub enum OwnParameters {
+    /// All of the model: separate surfaces.
+    All,
+    /// These.
+    These(ParameterSet),
 }
 
 /// Priors of parameters.
@@ -54,6 +79,16 @@ fn choice<T: Copy + Send + Sync + 'static>(choices: &'static [Choice<T>]) -> imp
 pub fn weights() -> impl TypedValueParser<Value = Weights> {
     const CHOICES: [Choice<Weights>; 2] =
         [("none", "Nothing: Eq. (18)", Weights::None), ("sigma", "The stated standard deviations: χ²", Weights::Sigma)];
+    choice(&CHOICES)
+}
+
+/// The form of a table of results.
+pub fn table_format() -> impl TypedValueParser<Value = TableFormat> {
+    const CHOICES: [Choice<TableFormat>; 3] = [
+        ("csv", "For a spreadsheet", TableFormat::Csv),
+        ("markdown", "For a text", TableFormat::Markdown),
+        ("latex", "For a paper, with the rules of booktabs", TableFormat::Latex),
+    ];
     choice(&CHOICES)
 }
 
@@ -212,6 +247,45 @@ pub fn parameter_or_assignment(text: &str) -> Result<(Parameter, Option<f64>), S
     } else {
         parameter(text).map(|parameter| (parameter, None))
     }
+}
+
+/// `n@B.csv=1.2` as `n=1.2` and `B.csv`: an option without its measurement, and the measurement.
+fn without_set(text: &str) -> (String, Option<&str>) {
+    let (names, value) = text.rsplit_once('=').map_or((text, None), |(names, value)| (names, Some(value)));
+    let (name, set) = names.split_once('@').map_or((names, None), |(name, set)| (name, Some(set)));
+    (value.map_or_else(|| name.to_owned(), |value| format!("{name}={value}")), set)
+}
+
+/// `name=value` or `name@measurement=value`.
+pub fn targeted_assignment(text: &str) -> Result<Targeted<f64>, String> {
+    let (option, set) = without_set(text);
+    assignment(&option).map(|(parameter, value)| Targeted::new(set, parameter, value))
+}
+
+/// `name`, `name=value`, and either with `@measurement` after the name.
+pub fn targeted_fix(text: &str) -> Result<Targeted<Option<f64>>, String> {
+    let (option, set) = without_set(text);
+    parameter_or_assignment(&option).map(|(parameter, value)| Targeted::new(set, parameter, value))
+}
+
+/// `name` or `name@measurement`.
+pub fn targeted_parameter(text: &str) -> Result<Targeted<()>, String> {
+    let (name, set) = text.split_once('@').map_or((text, None), |(name, set)| (name, Some(set)));
+    parameter(name).map(|parameter| Targeted::new(set, parameter, ()))
+}
+
+/// `name=low..high` or `name@measurement=low..high`.
+pub fn targeted_interval(text: &str) -> Result<Targeted<(f64, f64)>, String> {
+    let (option, set) = without_set(text);
+    interval(&option).map(|(parameter, low, high)| Targeted::new(set, parameter, (low, high)))
+}
+
+/// The own parameters of measurements: names, or `all`.
+pub fn own(text: &str) -> Result<OwnParameters, String> {
+    if text.trim() == "all" {
+        return Ok(OwnParameters::All);
+    }
+    text.split(',').map(parameter).collect::<Result<_, _>>().map(OwnParameters::These)
 }
 
 /// `name=low..high`.

@@ -175,11 +175,16 @@ impl<'a> Fit<'a> {
     ///
     /// [`FitError`] where a value, a bound, or what is measured does not allow the fit.
     pub fn problem(&self) -> Result<Problem, FitError> {
+        self.problem_freeing(ParameterSet::EMPTY)
+    }
+
+    /// The same with more parameters free by default.
+    pub(crate) fn problem_freeing(&self, also: ParameterSet) -> Result<Problem, FitError> {
         let mut bounds = Bounds::default();
         for &(parameter, low, high) in &self.bounds {
             bounds.set(parameter, low, high)?;
         }
-        let free = free_by_default(self.model, self.measurement, &self.options).without_all(self.fixed);
+        let free = free_by_default(self.model, self.measurement, &self.options).union(also).without_all(self.fixed);
         let free = free.union(self.freed.intersection(self.model.parameters()));
         let mut start = self.start;
         for parameter in free {

@@ -1,5 +1,6 @@
 //! One parameter after a fit: its value, and how well the data determine it.
 
+use crate::fit::fit_problem::UnknownName;
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
 use crate::fit::rounding::{significant, trimmed, with_error};
@@ -63,6 +64,12 @@ pub enum EstimateStatus {
 }
 
 impl Estimate {
+    /// Of a parameter that a fit held at a value.
+    pub(crate) fn fixed(parameter: Parameter, value: f64) -> Self {
+        let (std_error, at_bound, interval68, interval95) = (None, None, None, None);
+        Self { parameter, start: value, value, free: false, std_error, at_bound, interval68, interval95, determined: false }
+    }
+
     /// How well the data determine it.
     #[must_use]
     pub fn status(&self) -> EstimateStatus {
@@ -175,23 +182,23 @@ pub fn is_poorly_determined(parameter: Parameter, value: f64, error: f64) -> boo
 
 /// Something that the data do not determine, or hardly.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Undetermined {
+pub enum Undetermined<N = Parameter> {
     /// A direction that they do not determine at all.
-    Direction(UndeterminedDirection),
+    Direction(UndeterminedDirection<N>),
     /// Parameters whose interval at 68.3 % is open on both sides.
-    Parameters(Vec<Parameter>),
+    Parameters(Vec<N>),
     /// Parameters that they determine with a standard error above half of the value.
-    Poorly(Vec<Parameter>),
+    Poorly(Vec<N>),
 }
 
-impl Undetermined {
+impl<N: UnknownName> Undetermined<N> {
     /// Whether it names nothing.
     pub(crate) fn is_empty(&self) -> bool {
         matches!(self, Self::Parameters(parameters) | Self::Poorly(parameters) if parameters.is_empty())
     }
 }
 
-impl fmt::Display for Undetermined {
+impl<N: UnknownName> fmt::Display for Undetermined<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Direction(direction) => direction.fmt(f),
@@ -203,8 +210,8 @@ impl fmt::Display for Undetermined {
 
 /// Symbols of parameters, with commas between them.
 #[must_use]
-pub fn symbols(parameters: &[Parameter]) -> String {
-    parameters.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
+pub fn symbols<N: UnknownName>(names: &[N]) -> String {
+    names.iter().map(|name| name.symbol()).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What the solver solves: a sum of squared residuals of some unknowns in a box.
 
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// A sum of squares to be minimised over a box, `Σ rᵢ(x)²` with low ≤ x ≤ high.
 ///
@@ -22,6 +23,13 @@ pub trait LeastSquares {
 
     /// Writes the derivatives of the residuals (rows) by the unknowns (columns); false where one is not a finite number.
     fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool;
+
+    /// The residuals that an unknown has a part in; by default all of them. In the other rows its column of the Jacobian is 0.
+    ///
+    /// Unknowns with equal parts stand side by side, those with a part in all residuals last.
+    fn rows_of(&self, _unknown: usize) -> Range<usize> {
+        0..self.residual_count()
+    }
 
     /// The objective that a trace shows: by default the sum of squares itself.
     fn objective_at(&self, sum_of_squares: f64, _x: &DVector<f64>) -> f64 {

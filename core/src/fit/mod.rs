@@ -37,8 +37,10 @@ mod builder;
 mod design;
 mod distribution_comparison;
 mod estimate;
+mod fit_problem;
 mod free_parameters;
 mod intervals;
+mod joint;
 mod landscape;
 mod least_squares;
 mod local;
@@ -51,6 +53,7 @@ mod options;
 pub mod posterior;
 mod result;
 pub mod rounding;
+mod single;
 mod solve;
 mod special_cases;
 mod stop_reason;
@@ -66,12 +69,17 @@ pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixed
 pub use estimate::{
     Edge, Estimate, EstimateStatus, Undetermined, ends_text, is_determined, is_poorly_determined, relative_error_base, symbols,
 };
+pub use fit_problem::{FitProblem, UnknownName};
 pub use free_parameters::{fittable, free_by_default};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{Bootstrap, BootstrapEstimate, bootstrap};
 pub use intervals::interval::Interval;
 pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, UndeterminedReason};
 pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, set_intervals, with_intervals};
+pub use joint::builder::{JointError, JointFit, fit_jointly};
+pub use joint::problem::JointProblem;
+pub use joint::result::{JointResult, SetResult, profile_jointly};
+pub use joint::unknown::JointUnknown;
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
 #[cfg(feature = "selftest")]

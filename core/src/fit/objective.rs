@@ -78,6 +78,13 @@ pub struct Problem {
     block_weights: [f64; 2],
 }
 
+/// Where the Jacobian of a problem stands in a larger one.
+pub(crate) struct JacobianPlace<'a> {
+    pub first_row: usize,
+    /// The column of each free parameter.
+    pub column: &'a dyn Fn(usize) -> usize,
+}
+
 /// Columns of predictions, used again from evaluation to evaluation on the same thread.
 #[derive(Default)]
 struct Columns {
@@ -135,6 +142,36 @@ impl Problem {
             loss_scales: observations.scales().map(|scale| options.loss_scale.unwrap_or(1.0) * scale),
             block_weights: [1.0; 2],
             observations: Arc::new(observations),
+        })
+    }
+
+    /// Scales the residuals of several measurements for Eq. (18) over the union of their rows.
+    pub(crate) fn normalise_together(problems: &mut [Self]) {
+        let mut observations: Vec<Observations> = problems.iter().map(|problem| (*problem.observations).clone()).collect();
+        if let Some(problem) = problems.first() {
+            Observations::normalise_together(&mut observations, &problem.options);
+        }
+        for (problem, observations) in problems.iter_mut().zip(observations) {
+            problem.loss_scales = observations.scales().map(|scale| problem.options.loss_scale.unwrap_or(1.0) * scale);
+            problem.observations = Arc::new(observations);
+        }
+    }
+
+    /// The rows of all those problems under one surface: the first one's start, bounds and choices, free what is free in any; none
+    /// without problems.
+    pub(crate) fn pooled(problems: &[Self]) -> Option<Self> {
+        let observations: Vec<&Observations> = problems.iter().map(|problem| &*problem.observations).collect();
+        let observations = Arc::new(Observations::concatenated(&observations)?);
+        let free: ParameterSet = problems.iter().flat_map(|problem| problem.free.iter().copied()).collect();
+        Some(Self { observations, free: free.iter().collect(), ..problems.first()?.clone() })
+    }
+
+    /// Σ (X − Xm)² of DoLP and of BRDF; none where the parameters are no surface.
+    pub(crate) fn misfit_sums(&self, parameters: &Parameters) -> Option<[f64; 2]> {
+        let surface = Pbrdf::new(self.model, *parameters).ok()?;
+        with_columns(|columns| {
+            self.predict(&surface, &mut columns.radiances);
+            Some(self.observations.misfit_sums(&columns.radiances))
         })
     }
 
@@ -206,11 +243,6 @@ impl Problem {
         let mut residuals = DVector::zeros(self.len());
         self.with_block_weights([1.0; 2]).residuals(parameters, &mut residuals);
         self.observations.by_block(residuals.as_slice()).map(|block| (block.iter().map(|residual| residual * residual).sum(), block.len()))
-    }
-
-    /// Whether DoLP and BRDF are minimised together, each in units of its own unknown standard deviation.
-    pub(crate) fn has_two_variances(&self) -> bool {
-        self.observations.has_dolp() && self.observations.has_brdf() && self.options.weights == Weights::None
     }
 
     /// What residuals of DoLP and BRDF are multiplied by: 1, or one over their own standard deviations.
@@ -312,6 +344,11 @@ impl Problem {
 
     /// Writes the residuals; false where the parameters are no surface or a residual is not finite.
     pub fn residuals(&self, parameters: &Parameters, out: &mut DVector<f64>) -> bool {
+        self.write_residuals(parameters, out.as_mut_slice())
+    }
+
+    /// The same into a part of a longer column.
+    pub(crate) fn write_residuals(&self, parameters: &Parameters, out: &mut [f64]) -> bool {
         let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
         with_columns(|columns| {
             self.predict(&surface, &mut columns.radiances);
@@ -355,12 +392,17 @@ impl Problem {
 
     /// Writes the Jacobian of the residuals by the free parameters; false where an element is not finite.
     pub fn jacobian(&self, parameters: &Parameters, out: &mut DMatrix<f64>) -> bool {
+        self.write_jacobian(parameters, &JacobianPlace { first_row: 0, column: &|j| j }, out)
+    }
+
+    /// The same into some rows and columns of a larger matrix.
+    pub(crate) fn write_jacobian(&self, parameters: &Parameters, place: &JacobianPlace<'_>, out: &mut DMatrix<f64>) -> bool {
         let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
         with_columns(|columns| {
             let mut finite = true;
             for (block, is_measured) in [self.observations.has_dolp(), self.observations.has_brdf()].into_iter().enumerate() {
                 if is_measured {
-                    finite &= self.jacobian_of_block(&surface, block, columns, out);
+                    finite &= self.jacobian_of_block(&surface, block, columns, place, out);
                 }
             }
             finite
@@ -368,7 +410,14 @@ impl Problem {
     }
 
     /// Writes the rows of DoLP (0) or BRDF (1).
-    fn jacobian_of_block(&self, surface: &Pbrdf, block: usize, columns: &mut Columns, out: &mut DMatrix<f64>) -> bool {
+    fn jacobian_of_block(
+        &self,
+        surface: &Pbrdf,
+        block: usize,
+        columns: &mut Columns,
+        place: &JacobianPlace<'_>,
+        out: &mut DMatrix<f64>,
+    ) -> bool {
         let Columns { radiances, slopes, factors } = columns;
         let batch = self.observations.batch();
         let value = if block == 0 { &mut radiances.dolp } else { &mut radiances.brdf };
@@ -391,10 +440,11 @@ impl Problem {
         factors.extend(members().map(factor));
         let mut finite = true;
         for (j, &parameter) in self.free.iter().enumerate() {
-            let (mut column, slopes) = (out.column_mut(j), &slopes[parameter]);
+            let (mut column, slopes) = (out.column_mut((place.column)(j)), &slopes[parameter]);
             for ((i, datum), factor) in members().zip(factors.iter()) {
-                column[i] = factor * slopes[datum.point];
-                finite &= column[i].is_finite();
+                let slot = &mut column[place.first_row + i];
+                *slot = factor * slopes[datum.point];
+                finite &= slot.is_finite();
             }
         }
         finite

@@ -81,6 +81,15 @@ pub(crate) struct Observations {
     left_out: usize,
 }
 
+/// ΔE of Eq. (18), given Σ (X − Xm)² and Σ Xm² of DoLP and of BRDF: of DoLP if measured, else of BRDF; with both, the sum.
+pub(crate) fn delta_e(sums: [f64; 2], wholes: [Option<f64>; 2]) -> Option<f64> {
+    let present = |block: usize| wholes[block].map(|whole| sums[block] / whole);
+    match (present(0), present(1)) {
+        (Some(dolp), Some(brdf)) => Some(dolp + brdf),
+        (dolp, brdf) => dolp.or(brdf),
+    }
+}
+
 impl Observations {
     /// Of the rows that are not masked.
     pub(crate) fn new(measurement: &Measurement, options: &FitOptions) -> Result<Self, UnstatedSigma> {
@@ -102,7 +111,7 @@ impl Observations {
                 observations.add(point, row, brdf_kind, brdf, options)?;
             }
         }
-        observations.normalise(options);
+        Self::normalise_together(std::slice::from_mut(&mut observations), options);
         Ok(observations)
     }
 
@@ -132,13 +141,36 @@ impl Observations {
         Ok(())
     }
 
-    /// Divides the residuals of each quantity by the root of what makes the sum of squares ΔE, Eq. (18).
-    fn normalise(&mut self, options: &FitOptions) {
+    /// Those of several measurements as one.
+    pub(crate) fn concatenated(all: &[&Self]) -> Option<Self> {
+        let mut whole = (*all.first()?).clone();
+        let mut facets = Vec::new();
+        whole.data.clear();
+        for observations in all {
+            let shifted = observations.data.iter().map(|datum| Datum { point: facets.len() + datum.point, ..*datum });
+            whole.data.extend(shifted);
+            facets.extend_from_slice(observations.batch.facets());
+        }
+        for other in &all[1..] {
+            for block in [0, 1] {
+                whole.has[block] |= other.has[block];
+                whole.square_sums[block] = match (whole.square_sums[block], other.square_sums[block]) {
+                    (Some(one), Some(other)) => Some(one + other),
+                    (one, other) => one.or(other),
+                };
+            }
+            whole.left_out += other.left_out;
+        }
+        Some(Self { batch: Arc::new(Batch::from_facets(facets)), ..whole })
+    }
+
+    /// Scales the residuals of each quantity by the root of what makes the sum of squares ΔE, Eq. (18), over the union of the rows.
+    pub(crate) fn normalise_together(all: &mut [Self], options: &FitOptions) {
         if options.weights == Weights::Sigma {
             return;
         }
         for block in [0, 1] {
-            let members = || self.data.iter().filter(|datum| datum.kind.block() == block);
+            let members = || all.iter().flat_map(|observations| &observations.data).filter(|datum| datum.kind.block() == block);
             #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
             let count = members().count() as f64;
             let whole = if block == 0 || options.brdf_residuals == BrdfResiduals::Absolute {
@@ -147,11 +179,17 @@ impl Observations {
                 count
             };
             if whole > 0.0 {
-                let scale = 1.0 / whole.sqrt();
-                self.data.iter_mut().filter(|datum| datum.kind.block() == block).for_each(|datum| datum.weight *= scale);
-                self.scales[block] = scale;
+                let scale = 1.0 / f64::sqrt(whole);
+                all.iter_mut().for_each(|observations| observations.rescale(block, scale));
             }
         }
+    }
+
+    /// Scales the residuals of DoLP (0) or BRDF (1) by that number.
+    fn rescale(&mut self, block: usize, scale: f64) {
+        let change = scale / self.scales[block];
+        self.data.iter_mut().filter(|datum| datum.kind.block() == block).for_each(|datum| datum.weight *= change);
+        self.scales[block] = scale;
     }
 
     /// The measured values, those of one geometry side by side.
@@ -189,19 +227,21 @@ impl Observations {
         self.square_sums[block].filter(|&sum| sum > 0.0)
     }
 
-    /// ΔE of Eq. (18), given DoLP and BRDF at each geometry: of DoLP if measured, else of BRDF; with both, the sum.
-    pub(crate) fn delta_e(&self, predicted: &Radiances) -> Option<f64> {
+    /// Σ (X − Xm)² of DoLP and of BRDF, given both at each geometry.
+    pub(crate) fn misfit_sums(&self, predicted: &Radiances) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for datum in &self.data {
             let column = if datum.kind == Kind::Dolp { &predicted.dolp } else { &predicted.brdf };
             let difference = datum.difference(column[datum.point]);
             sums[datum.kind.block()] += difference * difference;
         }
-        let present = |block: usize| self.square_sum(block).map(|whole| sums[block] / whole);
-        match (present(0), present(1).filter(|_| self.has_brdf())) {
-            (Some(dolp), Some(brdf)) => Some(dolp + brdf),
-            (dolp, brdf) => dolp.or(brdf),
-        }
+        sums
+    }
+
+    /// ΔE of Eq. (18), given DoLP and BRDF at each geometry: of DoLP if measured, else of BRDF; with both, the sum.
+    pub(crate) fn delta_e(&self, predicted: &Radiances) -> Option<f64> {
+        let wholes = [self.square_sum(0), self.square_sum(1).filter(|_| self.has_brdf())];
+        delta_e(self.misfit_sums(predicted), wholes)
     }
 
     /// About so many of the values, one of each of as many equal parts of the list, at a place that a low-discrepancy sequence picks: no

@@ -1,6 +1,7 @@
 //! The result of a fit: values, uncertainties, what the data leave undetermined, and how the fit came about.
 
 use crate::fit::estimate::{Edge, Estimate, EstimateStatus, Undetermined};
+use crate::fit::fit_problem::UnknownName;
 use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
@@ -17,9 +18,9 @@ use std::ops::Index;
 
 /// A distinct minimum that starts ended in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Minimum {
+pub struct Minimum<T = Parameters> {
     /// Where it is.
-    pub parameters: Parameters,
+    pub parameters: T,
     /// ΔE of Eq. (18).
     pub objective: f64,
     /// Why the best start ended there.
@@ -28,7 +29,7 @@ pub struct Minimum {
     pub hits: usize,
 }
 
-impl Serialize for Minimum {
+impl<T> Serialize for Minimum<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut minimum = serializer.serialize_struct("Minimum", 3)?;
         minimum.serialize_field("objective", &self.objective)?;
@@ -62,16 +63,16 @@ pub struct Statistics {
 
 /// Correlations of the determined parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Correlations {
+pub struct Correlations<N = Parameter> {
     /// The determined parameters, in the order of rows and columns.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<N>,
     /// Correlation coefficients, −1 to 1.
     pub matrix: DMatrix<f64>,
 }
 
-impl Serialize for Correlations {
+impl<N: UnknownName> Serialize for Correlations<N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let names: Vec<&str> = self.parameters.iter().map(|parameter| parameter.key()).collect();
+        let names: Vec<_> = self.parameters.iter().map(|parameter| parameter.key()).collect();
         let matrix: Vec<Vec<f64>> = self.matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
         let mut correlations = serializer.serialize_struct("Correlations", 2)?;
         correlations.serialize_field("names", &names)?;
@@ -81,9 +82,9 @@ impl Serialize for Correlations {
 }
 
 /// How a fit came about.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Course {
+pub struct Course<T = Parameters> {
     /// Residual evaluations of all starts.
     pub evaluations: usize,
     /// Milliseconds from the first residual evaluation to the last, by the clock of the observer.
@@ -93,14 +94,28 @@ pub struct Course {
     /// Whether all intervals were followed to their ends; none without intervals.
     pub intervals_complete: Option<bool>,
     /// The distinct minima, best first; empty where they are not known.
-    pub minima: Vec<Minimum>,
+    pub minima: Vec<Minimum<T>>,
     /// The improvements of the winning start, in their order.
     pub trace: Vec<TracePoint>,
     /// The parameters at each improvement.
-    pub path: Vec<Parameters>,
+    pub path: Vec<T>,
 }
 
-impl Course {
+impl<T> Default for Course<T> {
+    fn default() -> Self {
+        Self {
+            evaluations: 0,
+            elapsed_ms: 0.0,
+            intervals_ms: 0.0,
+            intervals_complete: None,
+            minima: Vec::new(),
+            trace: Vec::new(),
+            path: Vec::new(),
+        }
+    }
+}
+
+impl<T> Course<T> {
     /// How many starts there were.
     #[must_use]
     pub fn starts(&self) -> usize {
@@ -235,7 +250,7 @@ struct JsonEstimate {
 }
 
 /// Estimates by the keys of their parameters.
-struct ByKey<'a>(&'a [Estimate]);
+pub(crate) struct ByKey<'a>(pub &'a [Estimate]);
 
 impl Serialize for ByKey<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

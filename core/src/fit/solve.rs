@@ -1,6 +1,7 @@
 //! The fit of a problem: multistart search and analysis, in stages where a variance or the scale of a loss is to be found first.
 
-use crate::fit::analysis::analyse;
+use crate::fit::analysis::Analysis;
+use crate::fit::fit_problem::FitProblem;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult};
@@ -27,26 +28,36 @@ const FOLLOWED: usize = 6;
 /// each is weighted by its own, estimated in turn until they settle.
 #[must_use]
 pub fn fit(problem: &Problem, starts: Starts, seed: u64, observer: Observer<'_>) -> FitResult {
+    solve(problem, starts, seed, observer).1.into_result(problem)
+}
+
+/// The fit of any problem: what was minimised in the end, and what is said of its minimum.
+pub(crate) fn solve<P: FitProblem>(problem: &P, starts: Starts, seed: u64, observer: Observer<'_>) -> (P, Analysis<P>) {
     let options = problem.options();
     let is_squared = options.loss == Loss::Squared || options.loss_scale.is_some();
     let first = if is_squared { problem.clone() } else { problem.with_squared_loss() };
     let mut search = multistart(&first, starts, seed, observer);
     let mut fitted = first;
     if !is_squared {
-        let solution = search.basins[0].local_fit.parameters;
-        fitted = problem.with_loss_scale_of(&solution).with_start(solution);
+        let solution = &search.basins[0].local_fit.parameters;
+        fitted = problem.with_loss_scale_of(solution).starting_at(solution);
         let robust = multistart(&fitted, starts, seed, observer);
         search = MultistartResult { evaluations: search.evaluations + robust.evaluations, ..robust };
-        fitted = fitted.with_start(*problem.start());
+        fitted = fitted.starting_at(problem.start_point());
     }
     if problem.has_two_variances() {
         (fitted, search) = settle_variances(fitted, search, observer);
     }
-    analyse(&fitted, search, (observer.clock)())
+    let analysis = Analysis::new(&fitted, search, (observer.clock)());
+    (fitted, analysis)
 }
 
 /// Weights DoLP and BRDF by their own variances and follows the best minima until these change no more.
-fn settle_variances(problem: Problem, mut search: MultistartResult, observer: Observer<'_>) -> (Problem, MultistartResult) {
+fn settle_variances<P: FitProblem>(
+    problem: P,
+    mut search: MultistartResult<P::Point>,
+    observer: Observer<'_>,
+) -> (P, MultistartResult<P::Point>) {
     let mut weighted = problem;
     for _ in 0..ROUNDS {
         let best = &search.basins[0].local_fit;
@@ -62,7 +73,7 @@ fn settle_variances(problem: Problem, mut search: MultistartResult, observer: Ob
         weighted = weighted.with_block_weights(weights);
         let mut followed = MultistartResult { basins: Vec::new(), evaluations: search.evaluations };
         for basin in search.basins.into_iter().take(FOLLOWED) {
-            let further = fit_local(&weighted.with_start(basin.local_fit.parameters), Effort::Polish, observer);
+            let further = fit_local(&weighted.starting_at(&basin.local_fit.parameters), Effort::Polish, observer);
             followed.evaluations += further.evaluations;
             let local_fit = LocalFit { sum_of_squares: f64::INFINITY, ..basin.local_fit };
             followed.merge(Basin { local_fit: local_fit.followed_by(further), hits: basin.hits });

@@ -92,7 +92,7 @@ fn starts(problem: &Problem, report: &FitResult, seed: u64) -> Vec<Parameters> {
     let minima = report.course.minima.iter().skip(1).map(|minimum| minimum.parameters);
     let mut starts: Vec<Parameters> = std::iter::once(report.parameters).chain(minima).take(STARTS).collect();
     if starts.len() < STARTS {
-        let further = StartSequence::new(problem, seed).take(STARTS - starts.len());
+        let further = StartSequence::new(problem, seed, Observer::NONE).take(STARTS - starts.len());
         starts.extend(further);
     }
     starts

@@ -2,6 +2,7 @@
 
 use crate::fit::least_squares::LeastSquares;
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// The problem with the box of one unknown shrunk to a point. The solver never moves it, and the others keep their places.
 pub(crate) struct Held<'a, P> {
@@ -23,6 +24,10 @@ impl<P: LeastSquares> LeastSquares for Held<'_, P> {
 
     fn bounds_of(&self, unknown: usize) -> (f64, f64) {
         if unknown == self.unknown { (self.value, self.value) } else { self.problem.bounds_of(unknown) }
+    }
+
+    fn rows_of(&self, unknown: usize) -> Range<usize> {
+        self.problem.rows_of(unknown)
     }
 
     fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool {

@@ -5,22 +5,21 @@
 //! Regression Analysis*, 1988, ch. 6). Under a robust loss the rise is multiplied by the ratio of the plain to the sandwich
 //! variance of the parameter.
 
-use crate::fit::analysis::analyse;
+use crate::fit::analysis::Analysis;
 use crate::fit::estimate::Estimate;
+use crate::fit::fit_problem::FitProblem;
 use crate::fit::intervals::confidence::{Profiles, profiles};
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::quantile::{chi_squared_quantile, f_quantile};
 use crate::fit::intervals::walk::{Landmarks, ProfileFit};
-use crate::fit::least_squares::LeastSquares;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult};
-use crate::fit::multistart::initial_guess::grid_minima;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
 use crate::fit::result::FitResult;
-use crate::model::{Parameter, Parameters};
+use crate::model::Parameter;
 use nalgebra::DVector;
 use serde::Serialize;
 
@@ -53,9 +52,9 @@ pub struct ProfilePoint {
 
 /// A parameter's profile.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct Profile<N = Parameter> {
     /// Which parameter.
-    pub parameter: Parameter,
+    pub parameter: N,
     /// Held fits from one limit of 95 % to the other, or to the bound, in ascending values.
     pub points: Vec<ProfilePoint>,
     /// The interval at 68.3 %.
@@ -73,43 +72,65 @@ pub struct Profile {
 /// Where a profile finds a minimum better than that of the search, the result is the better one. Cancelled, the intervals are as
 /// far as they came, and [`crate::fit::Course::intervals_complete`] says so.
 #[must_use]
-pub fn with_intervals(problem: &Problem, mut result: FitResult, observer: Observer<'_>) -> FitResult {
+pub fn with_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>) -> FitResult {
+    let (analysis, intervals) = profile_all(problem, Analysis::of_result(problem, &result), observer);
+    let mut result = analysis.into_result(problem);
+    if let Some(intervals) = intervals {
+        set_intervals(&result.fitted(problem), &mut result, &intervals);
+    }
+    result
+}
+
+/// The intervals of all unknowns, and the analysis of the best minimum that was met on the way; none without data or unknowns.
+pub(crate) fn profile_all<P: FitProblem>(
+    problem: &P,
+    mut analysis: Analysis<P>,
+    observer: Observer<'_>,
+) -> (Analysis<P>, Option<Vec<[Interval; 2]>>) {
     let begin = (observer.clock)();
+    let mut intervals = None;
     for round in 1..=MOST_MINIMA {
-        let fitted = result.fitted(problem);
-        if fitted.is_empty() || fitted.free().is_empty() {
+        let fitted = analysis.fitted(problem);
+        if fitted.residual_count() == 0 || fitted.names().is_empty() {
             break;
         }
-        let found = profiles_of(&fitted, &result, fitted.free(), observer);
-        result.course.evaluations += found.evaluations;
+        let all: Vec<usize> = (0..fitted.names().len()).collect();
+        let found = profiles_of(&fitted, &analysis, &all, observer);
+        analysis.course.evaluations += found.evaluations;
         let is_settled = found.better.is_empty() || round == MOST_MINIMA || (observer.cancelled)();
         if !found.better.is_empty() {
-            result = with_better_minimum(problem, result, &found.better, observer);
+            analysis = with_better_minimum(&fitted, analysis, &found.better, observer);
         }
         if is_settled {
-            result.course.intervals_complete = Some(found.is_complete);
-            set_intervals(&fitted, &mut result, &found.ends.into_iter().map(intervals_of).collect::<Vec<_>>());
+            analysis.course.intervals_complete = Some(found.is_complete);
+            intervals = Some(found.ends.into_iter().map(intervals_of).collect());
             break;
         }
     }
-    result.course.intervals_ms = (observer.clock)() - begin;
-    result
+    analysis.course.intervals_ms = (observer.clock)() - begin;
+    (analysis, intervals)
 }
 
 /// Follows the profile of a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
 #[must_use]
 pub fn profile(problem: &Problem, result: &FitResult, parameter: Parameter, observer: Observer<'_>) -> Profile {
-    let fitted = result.fitted(problem);
-    let found = profiles_of(&fitted, result, &[parameter], observer);
-    let Some(unknown) = fitted.free().iter().position(|&free| free == parameter) else {
+    profile_of(problem, &Analysis::of_result(problem, result), &parameter, observer)
+}
+
+/// The same of any problem.
+pub(crate) fn profile_of<P: FitProblem>(problem: &P, analysis: &Analysis<P>, name: &P::Name, observer: Observer<'_>) -> Profile<P::Name> {
+    let fitted = analysis.fitted(problem);
+    let parameter = name.clone();
+    let Some(unknown) = fitted.names().iter().position(|free| free == name) else {
         let [interval68, interval95] = [Interval::OPEN; 2];
         return Profile { parameter, points: Vec::new(), interval68, interval95, limits: [f64::INFINITY; 2], is_complete: true };
     };
-    let sum_of_squares = fitted.sum_of_squares(&result.parameters).unwrap_or(f64::NAN);
-    let limits = rises(&fitted, result, sum_of_squares, parameter).map(|rise| (sum_of_squares + rise) * fitted.rss_scale());
+    let found = profiles_of(&fitted, analysis, &[unknown], observer);
+    let sum_of_squares = fitted.sum_of_squares_at(&analysis.x).unwrap_or(f64::NAN);
+    let limits = rises(&fitted, analysis, sum_of_squares, unknown).map(|rise| (sum_of_squares + rise) * fitted.rss_scale());
     let point = |fit: &ProfileFit| ProfilePoint {
         value: fit.x[unknown],
-        objective: fitted.objective(fit.sum_of_squares, &fitted.parameters_at(&fit.x)),
+        objective: fitted.objective_at(fit.sum_of_squares, &fit.x),
         rss: fit.sum_of_squares * fitted.rss_scale(),
     };
     let [interval68, interval95] = intervals_of(found.ends[unknown]);
@@ -117,78 +138,71 @@ pub fn profile(problem: &Problem, result: &FitResult, parameter: Parameter, obse
     Profile { parameter, points, interval68, interval95, limits, is_complete: found.is_complete }
 }
 
-fn unknowns_at(problem: &Problem, parameters: &Parameters) -> DVector<f64> {
-    LeastSquares::start(&problem.with_start(*parameters))
-}
-
-fn profiles_of(problem: &Problem, result: &FitResult, of: &[Parameter], observer: Observer<'_>) -> Profiles {
-    let x = unknowns_at(problem, &result.parameters);
-    let sum_of_squares = problem.sum_of_squares(&result.parameters).unwrap_or(f64::NAN);
-    let others: Vec<DVector<f64>> =
-        result.course.minima.iter().skip(1).take(OTHER_MINIMA).map(|minimum| unknowns_at(problem, &minimum.parameters)).collect();
+fn profiles_of<P: FitProblem>(problem: &P, analysis: &Analysis<P>, of: &[usize], observer: Observer<'_>) -> Profiles {
+    let sum_of_squares = problem.sum_of_squares_at(&analysis.x).unwrap_or(f64::NAN);
+    let minima = analysis.course.minima.iter().skip(1).take(OTHER_MINIMA);
+    let others: Vec<DVector<f64>> = minima.map(|minimum| problem.unknowns_of(&minimum.parameters)).collect();
     let elsewhere = |unknown: usize, value: f64| {
-        let held = problem.free()[unknown];
-        let mut start = result.parameters;
-        start[held] = value;
-        let rest = problem.free().iter().copied().filter(|&free| free != held).collect();
-        let guesses = grid_minima(&problem.with_free(rest).with_start(start));
-        guesses.into_iter().take(GUESSES).map(|guess| unknowns_at(problem, &guess.parameters)).collect()
+        let mut x = analysis.x.clone();
+        x[unknown] = value;
+        problem.guesses_with_held(unknown, &x).iter().take(GUESSES).map(|guess| problem.unknowns_of(guess)).collect()
     };
-    let minimum = &ProfileFit { x, sum_of_squares };
+    let minimum = &ProfileFit { x: analysis.x.clone(), sum_of_squares };
     let landmarks = Landmarks { problem, minimum, others: &others, elsewhere: &elsewhere, observer };
-    let is_wanted = |parameter: Parameter| of.contains(&parameter) && !is_idle(result, parameter);
-    let unknowns: Vec<usize> = (0..problem.free().len()).filter(|&j| is_wanted(problem.free()[j])).collect();
-    let errors: Vec<Option<f64>> = problem.free().iter().map(|&parameter| result.band.uncertainty().standard_error(parameter)).collect();
-    let rises: Vec<[f64; 2]> = problem.free().iter().map(|&parameter| rises(problem, result, sum_of_squares, parameter)).collect();
+    let names = problem.names();
+    let unknowns: Vec<usize> = of.iter().copied().filter(|&j| !is_idle(analysis, &names[j])).collect();
+    let errors: Vec<Option<f64>> = names.iter().map(|name| analysis.uncertainty.error_of(name)).collect();
+    let rises: Vec<[f64; 2]> = (0..names.len()).map(|j| rises(problem, analysis, sum_of_squares, j)).collect();
     if !sum_of_squares.is_finite() || rises.iter().flatten().any(|rise| !rise.is_finite()) {
         // Without a degree of freedom there is no limit to cross.
-        return Profiles::open(problem.free().len());
+        return Profiles::open(names.len());
     }
     profiles(&landmarks, &unknowns, &errors, &rises)
 }
 
-/// Whether the parameter changes nothing.
-fn is_idle(result: &FitResult, parameter: Parameter) -> bool {
-    result.undetermined.iter().any(|undetermined| matches!(undetermined.direction[..], [(only, _)] if only == parameter))
+/// Whether the unknown changes nothing.
+fn is_idle<P: FitProblem>(analysis: &Analysis<P>, name: &P::Name) -> bool {
+    let directions = &analysis.uncertainty.undetermined;
+    directions.iter().any(|undetermined| matches!(&undetermined.direction[..], [(only, _)] if only == name))
 }
 
 /// The rises of the sum of squares at the limits of both levels.
-fn rises(problem: &Problem, result: &FitResult, sum_of_squares: f64, parameter: Parameter) -> [f64; 2] {
-    let inflation = result.band.uncertainty().inflation(parameter);
+fn rises<P: FitProblem>(problem: &P, analysis: &Analysis<P>, sum_of_squares: f64, unknown: usize) -> [f64; 2] {
+    let inflation = analysis.uncertainty.inflation(&problem.names()[unknown]);
+    let dof = analysis.statistics.dof;
     LEVELS.map(|level| {
         let rise = match problem.options().weights {
             Weights::Sigma => chi_squared_quantile(level),
             #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-            Weights::None => sum_of_squares.max(ROUNDING) * f_quantile(level, result.statistics.dof) / result.statistics.dof as f64,
+            Weights::None => sum_of_squares.max(ROUNDING) * f_quantile(level, dof) / dof as f64,
         };
         inflation * rise
     })
 }
 
 /// The same fit from the better points.
-fn with_better_minimum(problem: &Problem, result: FitResult, better: &[ProfileFit], observer: Observer<'_>) -> FitResult {
-    let fitted = result.fitted(problem);
-    let polished = |fit: &ProfileFit| fit_local(&fitted.with_start(fitted.parameters_at(&fit.x)), Effort::Polish, observer);
-    let followed: Vec<LocalFit> = better.iter().take(POLISHED).map(polished).collect();
-    let course = result.course;
-    let known = |parameters: Parameters| LocalFit {
+fn with_better_minimum<P: FitProblem>(fitted: &P, analysis: Analysis<P>, better: &[ProfileFit], observer: Observer<'_>) -> Analysis<P> {
+    let polished = |fit: &ProfileFit| fit_local(&fitted.starting_at(&fitted.point_at(&fit.x)), Effort::Polish, observer);
+    let followed: Vec<LocalFit<P::Point>> = better.iter().take(POLISHED).map(polished).collect();
+    let Analysis { x, course, stop_reason, .. } = analysis;
+    let known = |parameters: P::Point| LocalFit {
+        sum_of_squares: fitted.sum_of_squares_at(&fitted.unknowns_of(&parameters)).unwrap_or(f64::INFINITY),
         parameters,
-        sum_of_squares: fitted.sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
-        stop_reason: result.stop_reason,
+        stop_reason,
         evaluations: 0,
         trace: Vec::new(),
         path: Vec::new(),
     };
     let evaluations = followed.iter().map(|further| further.evaluations).sum::<usize>();
     let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations + evaluations };
-    let before = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(result.parameters) };
+    let before = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(fitted.point_at(&x)) };
     for further in followed {
         found.merge(Basin { local_fit: before.clone().followed_by(further), hits: 1 });
     }
     for minimum in course.minima {
         found.merge(Basin { local_fit: known(minimum.parameters), hits: minimum.hits });
     }
-    analyse(&fitted, found, course.elapsed_ms)
+    Analysis::new(fitted, found, course.elapsed_ms)
 }
 
 /// The intervals at both levels between the ends below and above the minimum.
@@ -199,15 +213,19 @@ fn intervals_of([low, high]: [[Option<f64>; 2]; 2]) -> [Interval; 2] {
 /// Sets intervals at 68.3 and 95 % that were found before, one pair for each free parameter of the problem; a linear standard error
 /// stays only where it agrees.
 pub fn set_intervals(problem: &Problem, result: &mut FitResult, intervals: &[[Interval; 2]]) {
-    let dof = result.statistics.dof;
+    let (weights, dof) = (problem.options().weights, result.statistics.dof);
     for estimate in result.estimates.iter_mut().filter(|estimate| estimate.free) {
         let found = problem.free().iter().position(|&free| free == estimate.parameter).and_then(|j| intervals.get(j));
-        let [interval68, interval95] = found.copied().unwrap_or([Interval::OPEN; 2]);
-        estimate.interval68 = Some(interval68);
-        estimate.interval95 = Some(interval95);
-        estimate.determined = !interval68.is_open() || (dof == 0 && estimate.determined);
-        estimate.std_error = estimate.std_error.filter(|&error| agrees(estimate, interval68, error, problem.options().weights, dof));
+        set_interval(estimate, found.copied().unwrap_or([Interval::OPEN; 2]), weights, dof);
     }
+}
+
+/// Sets the intervals of one estimate.
+pub(crate) fn set_interval(estimate: &mut Estimate, [interval68, interval95]: [Interval; 2], weights: Weights, dof: usize) {
+    estimate.interval68 = Some(interval68);
+    estimate.interval95 = Some(interval95);
+    estimate.determined = !interval68.is_open() || (dof == 0 && estimate.determined);
+    estimate.std_error = estimate.std_error.filter(|&error| agrees(estimate, interval68, error, weights, dof));
 }
 
 /// Whether both ends of the interval are where the linear error expects them.

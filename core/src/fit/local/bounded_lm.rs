@@ -14,6 +14,7 @@ use crate::fit::local::recorder::Recorder;
 use crate::fit::local::tall_qr::{TallQr, dot};
 use crate::fit::stop_reason::StopReason;
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// Square of the relative offset at which the sum of squares is at its minimum to every digit that matters.
 pub(crate) const GRADIENT_TOLERANCE: f64 = 1e-12;
@@ -66,6 +67,8 @@ pub(crate) struct BoundedLm<'a, P: LeastSquares> {
     problem: &'a P,
     /// The box.
     bounds: Vec<(f64, f64)>,
+    /// The rows of each unknown.
+    rows: Vec<Range<usize>>,
     current: Point,
     trial: Point,
     jacobian: DMatrix<f64>,
@@ -115,6 +118,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             acceleration: Vec::with_capacity(n),
             buffers: Buffers::default(),
             damping: FIRST_DAMPING,
+            rows: (0..n).map(|j| problem.rows_of(j)).collect(),
             bounds,
         }
     }
@@ -157,7 +161,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
 
     /// Writes Jacobian, moving unknowns and factorisation at the current point; false where a derivative is not finite.
     fn linearise(&mut self) -> bool {
-        let Self { problem, current, jacobian, moving, scale, qr, step_bounds, .. } = self;
+        let Self { problem, current, jacobian, moving, scale, qr, step_bounds, rows, .. } = self;
         if !problem.jacobian_at(&current.x, jacobian) {
             return false;
         }
@@ -169,17 +173,17 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             if !at_low && !at_high {
                 return true;
             }
-            let slope = dot(jacobian.column(j).as_slice(), current.residuals.as_slice());
+            let slope = dot(part(jacobian, j, &rows[j]), &current.residuals.as_slice()[rows[j].clone()]);
             !((at_low && slope >= 0.0) || (at_high && slope <= 0.0))
         }));
         problem.to_local(&current.x, moving, jacobian);
         let insensitive = INSENSITIVE * current.residuals.norm();
         moving.retain(|&j| {
             let (low, high) = problem.local_bounds(&current.x, j);
-            let column = jacobian.column(j);
-            dot(column.as_slice(), column.as_slice()).sqrt() * (high - low) > insensitive
+            let column = part(jacobian, j, &rows[j]);
+            dot(column, column).sqrt() * (high - low) > insensitive
         });
-        qr.reduce(jacobian, moving, &current.residuals);
+        qr.reduce_blocks(jacobian, moving, &current.residuals, rows);
         // The norm of a column of R is that of the column of J.
         let norm = |j: usize| (0..=j).map(|i| qr.r(i, j) * qr.r(i, j)).sum::<f64>().sqrt();
         scale.clear();
@@ -237,7 +241,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
 
     /// Adds the geodesic acceleration to the step; true if the step is too long for its curvature.
     fn geodesic_acceleration(&mut self, recorder: &mut Recorder<'_>) -> bool {
-        let Self { problem, current, trial, jacobian, moving, scale, qr, step, acceleration, second, buffers, damping, .. } = self;
+        let Self { problem, current, trial, jacobian, moving, scale, qr, step, acceleration, second, buffers, damping, rows, .. } = self;
         acceleration.clear();
         acceleration.extend(step.iter().map(|d| DIFFERENCE_STEP * d));
         problem.retract(&current.x, moving, acceleration, &mut trial.x);
@@ -249,10 +253,10 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         second.extend(differences.map(|(there, here)| (there - here) / (DIFFERENCE_STEP * DIFFERENCE_STEP)));
         for (&j, d) in moving.iter().zip(step.iter()) {
             let along = d / DIFFERENCE_STEP;
-            second.iter_mut().zip(jacobian.column(j).iter()).for_each(|(s, slope)| *s -= along * slope);
+            second[rows[j].clone()].iter_mut().zip(part(jacobian, j, &rows[j])).for_each(|(s, slope)| *s -= along * slope);
         }
         acceleration.clear();
-        acceleration.extend(moving.iter().map(|&j| dot(jacobian.column(j).as_slice(), second)));
+        acceleration.extend(moving.iter().map(|&j| dot(part(jacobian, j, &rows[j]), &second[rows[j].clone()])));
         if acceleration.iter().any(|x| !x.is_finite()) {
             return true;
         }
@@ -298,6 +302,12 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         recorder.accept(&self.current.x, self.current.sum_of_squares, ROUNDING);
         StopReason::Converged
     }
+}
+
+/// Those rows of a column.
+fn part<'m>(jacobian: &'m DMatrix<f64>, column: usize, rows: &Range<usize>) -> &'m [f64] {
+    let first = column * jacobian.nrows();
+    &jacobian.as_slice()[first + rows.start..first + rows.end]
 }
 
 /// Clamps to the box what rounding took out of it.

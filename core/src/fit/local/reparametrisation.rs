@@ -12,13 +12,13 @@ use crate::optics::SlopeDistribution;
 use nalgebra::{DMatrix, DVector};
 
 /// Below this objective the relative misfit is 1e-13, which is rounding.
-const ROUNDING_OBJECTIVE: f64 = 1e-26;
+pub(crate) const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
 /// The part of its upper bound that the origin of the logarithm of a weight lies below 0.
 const WEIGHT_ORIGIN: f64 = 1e-9;
 
 /// Origin of the logarithm of a parameter with logarithmic steps; none where steps are linear.
-fn origin(parameter: Parameter) -> Option<f64> {
+pub(crate) fn origin(parameter: Parameter) -> Option<f64> {
     match parameter {
         // n and k may be 0, which has no logarithm.
         Parameter::N => Some(-0.05),
@@ -50,7 +50,7 @@ impl Problem {
     }
 
     /// σ²/h, one over the peak height of the specular lobe.
-    fn inverse_peak_height(&self, parameters: &Parameters) -> f64 {
+    pub(crate) fn inverse_peak_height(&self, parameters: &Parameters) -> f64 {
         parameters.sigma * parameters.sigma / self.model().distribution.height(parameters.q)
     }
 

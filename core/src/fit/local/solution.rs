@@ -22,11 +22,11 @@ pub struct Solution {
     pub path: Vec<DVector<f64>>,
 }
 
-/// Where a fit from one start ended.
+/// Where a fit from one start ended, with the parameters of one surface or of several.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LocalFit {
+pub struct LocalFit<T = Parameters> {
     /// The best parameters seen.
-    pub parameters: Parameters,
+    pub parameters: T,
     /// Sum of squares of the residuals there, [`crate::fit::Problem::sum_of_squares`]; infinite if none was finite.
     pub sum_of_squares: f64,
     /// Why it ended.
@@ -36,10 +36,10 @@ pub struct LocalFit {
     /// The improvements, in their order.
     pub trace: Vec<TracePoint>,
     /// The parameters at each improvement.
-    pub path: Vec<Parameters>,
+    pub path: Vec<T>,
 }
 
-impl LocalFit {
+impl<T> LocalFit<T> {
     /// This descent and a further one that began at its end.
     pub(crate) fn followed_by(mut self, further: Self) -> Self {
         self.append(further);

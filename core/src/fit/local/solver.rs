@@ -5,12 +5,12 @@
 //! - [`crate::fit::local::minpack`], the crate `levenberg-marquardt` under a sin² transform, never quite reaches a bound, so it
 //!   passes by. It makes the first steps from each of many starts, and a second attempt where the bounded solver alone fails.
 
+use crate::fit::fit_problem::FitProblem;
 use crate::fit::least_squares::LeastSquares;
 use crate::fit::local::bounded_lm::{BoundedLm, GRADIENT_TOLERANCE, Limits};
 use crate::fit::local::minpack::{MinpackLimits, minpack_sin2};
 use crate::fit::local::recorder::Recorder;
 use crate::fit::local::solution::{LocalFit, Solution};
-use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::stop_reason::StopReason;
 use nalgebra::DVector;
@@ -51,10 +51,10 @@ pub(crate) const LIMITS: Limits =
 
 /// Fits from the start of the problem.
 #[must_use]
-pub fn fit_local(problem: &Problem, effort: Effort, observer: Observer<'_>) -> LocalFit {
+pub fn fit_local<P: FitProblem>(problem: &P, effort: Effort, observer: Observer<'_>) -> LocalFit<P::Point> {
     let Solution { x, sum_of_squares, stop_reason, evaluations, trace, path } = minimise(problem, effort, observer);
-    let path = path.iter().map(|x| problem.parameters_at(x)).collect();
-    LocalFit { parameters: problem.parameters_at(&x), sum_of_squares, stop_reason, evaluations, trace, path }
+    let path = path.iter().map(|x| problem.point_at(x)).collect();
+    LocalFit { parameters: problem.point_at(&x), sum_of_squares, stop_reason, evaluations, trace, path }
 }
 
 /// Minimises a sum of squares from its start.

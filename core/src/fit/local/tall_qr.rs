@@ -5,6 +5,7 @@
 //! is not kept. The working set is one block, whatever the number of rows.
 
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// Rows of a block: with nine columns it fits into the first-level cache.
 const BLOCK: usize = 256;
@@ -23,21 +24,75 @@ pub(crate) struct TallQr {
 impl TallQr {
     /// Factorises those columns of a matrix with the residuals beside them.
     pub(crate) fn reduce(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>) {
-        let rows = matrix.nrows();
+        self.reduce_rows(matrix, columns, residuals, 0..matrix.nrows());
+    }
+
+    fn reduce_rows(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>, rows: Range<usize>) {
         self.clear(columns.len());
-        if rows <= CHUNK {
-            self.add_rows(matrix, columns, residuals, 0..rows);
+        if rows.len() <= CHUNK {
+            self.add_rows(matrix, columns, residuals, rows);
             return;
         }
         let chunk = |first: usize| {
             let mut part = Self::default();
             part.clear(columns.len());
-            part.add_rows(matrix, columns, residuals, first..rows.min(first + CHUNK));
+            part.add_rows(matrix, columns, residuals, first..rows.end.min(first + CHUNK));
             part
         };
-        for part in map_chunks(rows, &chunk) {
+        for part in map_chunks(rows.clone(), &chunk) {
             self.add_triangle(&part);
         }
+    }
+
+    /// The same of a matrix whose columns, all but the last ones, are 0 outside some rows: `extents` has the rows of each column of the matrix,
+    /// those of equal rows side by side. Each block of rows is made triangular in its own columns first; what is left of it meets the others
+    /// in the columns that all have. The cost is the sum of the blocks.
+    pub(crate) fn reduce_blocks(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>, extents: &[Range<usize>]) {
+        let whole = 0..matrix.nrows();
+        let border = columns.iter().position(|&j| extents[j] == whole).unwrap_or(columns.len());
+        // Blocks of which no own column takes part count as well.
+        let mut blocks: Vec<Range<usize>> = extents.iter().filter(|rows| **rows != whole).cloned().collect();
+        blocks.dedup();
+        if blocks.is_empty() || blocks.iter().map(ExactSizeIterator::len).sum::<usize>() != whole.len() {
+            return self.reduce(matrix, columns, residuals);
+        }
+        let (n, shared) = (columns.len(), columns.len() - border);
+        self.clear(n);
+        let mut meeting = Self::default();
+        meeting.clear(shared);
+        let mut first = 0;
+        for rows in blocks {
+            let own = columns[first..border].iter().take_while(|&&j| extents[j] == rows).count();
+            let of_block: Vec<usize> = columns[first..first + own].iter().chain(&columns[border..]).copied().collect();
+            let mut part = Self::default();
+            part.reduce_rows(matrix, &of_block, residuals, rows);
+            // The place of a column of the block in the whole; the residuals stand last in both.
+            let place = |k: usize| if k < own { first + k } else { border + k - own };
+            for k in 0..=own + shared {
+                for i in 0..own.min(k + 1) {
+                    self.r[place(k) * n + first + i] = part.r[k * part.columns + i];
+                }
+            }
+            meeting.add_corner(&part, own);
+            first += own;
+        }
+        for k in 0..=shared {
+            for i in 0..shared.min(k + 1) {
+                self.r[(border + k) * n + border + i] = meeting.r[k * shared + i];
+            }
+        }
+    }
+
+    /// Adds the rows of another triangle without its first rows and columns.
+    fn add_corner(&mut self, other: &Self, skipped: usize) {
+        if self.columns == 0 {
+            return;
+        }
+        self.block.clear();
+        for column in other.r.chunks_exact(other.columns).skip(skipped) {
+            self.block.extend_from_slice(&column[skipped..]);
+        }
+        self.eliminate(self.columns);
     }
 
     fn clear(&mut self, columns: usize) {
@@ -46,7 +101,7 @@ impl TallQr {
         self.r.resize(columns * (columns + 1), 0.0);
     }
 
-    fn add_rows(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>, rows: std::ops::Range<usize>) {
+    fn add_rows(&mut self, matrix: &DMatrix<f64>, columns: &[usize], residuals: &DVector<f64>, rows: Range<usize>) {
         let height = matrix.nrows();
         for first in rows.clone().step_by(BLOCK) {
             let end = rows.end.min(first + BLOCK);
@@ -130,8 +185,8 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The chunks in their order, on all threads.
-fn map_chunks(rows: usize, chunk: &(dyn Fn(usize) -> TallQr + Sync)) -> Vec<TallQr> {
-    let firsts: Vec<usize> = (0..rows).step_by(CHUNK).collect();
+fn map_chunks(rows: Range<usize>, chunk: &(dyn Fn(usize) -> TallQr + Sync)) -> Vec<TallQr> {
+    let firsts: Vec<usize> = rows.step_by(CHUNK).collect();
     #[cfg(feature = "threads")]
     {
         use rayon::prelude::*;
@@ -173,6 +228,30 @@ mod tests {
                 let mut solved = along.as_slice().to_vec();
                 qr.solve_transposed(&mut solved);
                 assert!((DVector::from_vec(solved) - DVector::from_column_slice(qr.rotated())).amax() < ROUNDING, "{rows}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bordered_matrix_has_the_triangle_of_the_dense_one() {
+        // Two blocks with columns of their own, a third one of whose columns none takes part, and two columns that all have.
+        let extents = [0..7, 0..7, 7..12, 12..20, 0..20, 0..20];
+        let mut matrix = DMatrix::from_iterator(20, 6, numbers(2.0_f64.sqrt()).take(120));
+        for (j, rows) in extents.iter().enumerate() {
+            (0..20).filter(|i| !rows.contains(i)).for_each(|i| matrix[(i, j)] = 0.0);
+        }
+        let residuals = DVector::from_iterator(20, numbers(3.0_f64.sqrt()).take(20));
+        for columns in [vec![0, 1, 2, 4, 5], vec![0, 1, 2, 3, 4, 5], vec![1, 3], vec![4], vec![]] {
+            let (mut dense, mut bordered) = (TallQr::default(), TallQr::default());
+            dense.reduce(&matrix, &columns, &residuals);
+            bordered.reduce_blocks(&matrix, &columns, &residuals, &extents);
+            let n = columns.len();
+            // The rows of a triangle have a sign each.
+            for i in 0..n {
+                let sign = (dense.r(i, i) * bordered.r(i, i)).signum();
+                let is_same = |one: f64, other: f64| (one - sign * other).abs() < ROUNDING;
+                assert!((i..n).all(|j| is_same(dense.r(i, j), bordered.r(i, j))), "{columns:?}: row {i}");
+                assert!(is_same(dense.rotated()[i], bordered.rotated()[i]), "{columns:?}: residual {i}");
             }
         }
     }

@@ -2,21 +2,22 @@
 
 use crate::fit::local::solution::LocalFit;
 use crate::fit::stop_reason::StopReason;
+use crate::model::Parameters;
 
 /// One minimum and how many starts led to it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Basin {
+pub struct Basin<T = Parameters> {
     /// The best descent that ended there.
-    pub local_fit: LocalFit,
+    pub local_fit: LocalFit<T>,
     /// How many starts ended there.
     pub hits: usize,
 }
 
 /// What all starts together have found: at least one minimum.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct MultistartResult {
+#[derive(Debug, Clone, PartialEq)]
+pub struct MultistartResult<T = Parameters> {
     /// The distinct minima, best first.
-    pub(crate) basins: Vec<Basin>,
+    pub(crate) basins: Vec<Basin<T>>,
     /// Residual evaluations of all starts.
     pub(crate) evaluations: usize,
 }
@@ -43,10 +44,16 @@ pub(crate) fn unseen_share(minima: usize, starts: usize) -> Option<f64> {
     (starts > 1).then(|| (w * (w + 1.0) / (n * (n - 1.0))).min(1.0))
 }
 
-impl MultistartResult {
+impl<T> Default for MultistartResult<T> {
+    fn default() -> Self {
+        Self { basins: Vec::new(), evaluations: 0 }
+    }
+}
+
+impl<T> MultistartResult<T> {
     /// Of the distinct minima, best first, and the residual evaluations of all starts; none without a minimum.
     #[must_use]
-    pub fn new(basins: Vec<Basin>, evaluations: usize) -> Option<Self> {
+    pub fn new(basins: Vec<Basin<T>>, evaluations: usize) -> Option<Self> {
         (!basins.is_empty()).then_some(Self { basins, evaluations })
     }
 
@@ -66,16 +73,16 @@ impl MultistartResult {
     }
 
     /// Adds the descent of one start.
-    pub(crate) fn add(&mut self, local_fit: LocalFit) {
+    pub(crate) fn add(&mut self, local_fit: LocalFit<T>) {
         self.evaluations += local_fit.evaluations;
         self.merge(Basin { local_fit, hits: 1 });
     }
 
     /// Adds the descents of further starts. One that ends in a minimum already found, and no lower, tells nothing.
-    pub(crate) fn add_further(&mut self, local_fits: Vec<LocalFit>) {
+    pub(crate) fn add_further(&mut self, local_fits: Vec<LocalFit<T>>) {
         for local_fit in local_fits {
             let sum = local_fit.sum_of_squares;
-            let is_known = |basin: &Basin| {
+            let is_known = |basin: &Basin<T>| {
                 let known = basin.local_fit.sum_of_squares;
                 is_same(sum, known) && sum >= known * (1.0 - ROUNDING)
             };
@@ -88,7 +95,7 @@ impl MultistartResult {
     }
 
     /// Merges a minimum into one already found, or adds it, in the order of sums of squares.
-    pub(crate) fn merge(&mut self, new: Basin) {
+    pub(crate) fn merge(&mut self, new: Basin<T>) {
         let value = new.local_fit.sum_of_squares;
         if let Some(i) = self.basins.iter().position(|basin| is_same(value, basin.local_fit.sum_of_squares)) {
             self.basins[i].hits += new.hits;

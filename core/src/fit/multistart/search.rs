@@ -6,14 +6,12 @@
 //! followed on all. Then the lobes of the best minima are searched again, and the best minima are polished. Descents of a
 //! round run in parallel where there are threads and are judged in their order: the result does not depend on the number of threads.
 
+use crate::fit::fit_problem::FitProblem;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult, SAME, is_same};
-use crate::fit::multistart::initial_guess::lobe_grid_minima;
 use crate::fit::multistart::sequence::StartSequence;
-use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
-use crate::model::Parameters;
 use serde::{Deserialize, Serialize};
 
 /// How many starts.
@@ -44,6 +42,12 @@ const BROAD_PROBES: usize = 1024;
 const UNSEEN_SHARE: f64 = 0.02;
 /// The same with a BRDF, whose lobes of more free weights have narrower basins.
 const UNSEEN_SHARE_OF_BRDF: f64 = 0.004;
+/// The same of a problem whose first guesses come from searches of its parts: what is left to be searched for is how these go together.
+const ROUND_OF_COMPOSED: usize = 6;
+const MAX_STARTS_OF_COMPOSED: usize = 36;
+const UNSEEN_SHARE_OF_COMPOSED: f64 = 0.07;
+const LOBE_BASINS_OF_COMPOSED: usize = 4;
+const LOBE_EFFORT_OF_COMPOSED: (usize, usize) = (4, 2);
 /// Number of starts up to which each is followed to its minimum. With more, each is probed and the best distinct ones are followed.
 const MAX_FOLLOWED: usize = 128;
 /// Number of the best distinct probes that are followed.
@@ -68,18 +72,17 @@ const LOBE_BASINS: usize = 14;
 const LOBE_EFFORT: (usize, usize) = (6, 2);
 /// The same where the search has found more distinct minima than `RUGGED`.
 const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
-/// Minima of the lobe grid that are followed: those within this factor of the lowest.
-const NEAR_LOWEST: f64 = 30.0;
 /// Distinct minima beyond which the objective counts as rugged.
 const RUGGED: usize = 5;
 
 /// Fits from many starts. The seed shifts the points that the starts are spread over.
 #[must_use]
-pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observer<'_>) -> MultistartResult {
+pub fn multistart<P: FitProblem>(problem: &P, starts: Starts, seed: u64, observer: Observer<'_>) -> MultistartResult<P::Point> {
     let mut found = MultistartResult::default();
     let most = match starts {
-        _ if problem.is_empty() || problem.free().is_empty() => 1,
+        _ if problem.residual_count() == 0 || problem.names().is_empty() => 1,
         Starts::One | Starts::Exactly(0) => 1,
+        Starts::Automatic if problem.is_composed() => MAX_STARTS_OF_COMPOSED,
         Starts::Automatic => MAX_STARTS,
         Starts::Exactly(count) => count,
     };
@@ -88,13 +91,17 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
         found.add_further(further_fits(problem, Effort::Thorough, observer));
         return found;
     }
-    if problem.len() > MANY_RESIDUALS {
+    let parts = problem.apart();
+    if !parts.is_empty() {
+        return searched_apart(problem, &parts, starts, seed, observer);
+    }
+    if problem.residual_count() > MANY_RESIDUALS {
         let explored = multistart(&problem.thinned(SUBSET), starts, seed, Observer { progress: &|_| {}, ..observer });
         let mut found = finished_on_all(problem, explored, observer);
         found.add_further(further_fits(problem, Effort::Polish, observer));
         return found;
     }
-    let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed), found };
+    let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed, observer), found };
     if most > MAX_FOLLOWED {
         search.keep_best(most);
         search.found.add_further(further_fits(problem, Effort::Thorough, observer));
@@ -102,32 +109,59 @@ pub fn multistart(problem: &Problem, starts: Starts, seed: u64, observer: Observ
         search.rounds(starts, most);
         search.found.add_further(further_fits(problem, Effort::Thorough, observer));
         if starts == Starts::Automatic {
-            if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() {
+            if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() && !problem.is_composed() {
                 search.keep_best(BROAD_PROBES);
             }
             search.restart_lobes();
         }
     }
     search.polish(POLISH_PASSES);
+    search.found.evaluations += search.sequence.evaluations;
     search.found
 }
 
 /// Descents from the further starts of the problem. They take no part in the count of hits that ends the rounds: they are no random
 /// starts.
-fn further_fits(problem: &Problem, effort: Effort, observer: Observer<'_>) -> Vec<LocalFit> {
-    if problem.free().is_empty() {
+fn further_fits<P: FitProblem>(problem: &P, effort: Effort, observer: Observer<'_>) -> Vec<LocalFit<P::Point>> {
+    if problem.names().is_empty() {
         return Vec::new();
     }
-    problem.further_starts().iter().map(|start| fit_local(&problem.with_start(*start), effort, observer)).collect()
+    problem.further_starts().iter().map(|start| fit_local(&problem.starting_at(start), effort, observer)).collect()
+}
+
+/// The minima of problems that do not concern each other: the best of each, and each of the next ones beside the best of the others.
+fn searched_apart<P: FitProblem>(
+    problem: &P,
+    parts: &[P],
+    starts: Starts,
+    seed: u64,
+    observer: Observer<'_>,
+) -> MultistartResult<P::Point> {
+    let quiet = Observer { progress: &|_| {}, ..observer };
+    let searches: Vec<MultistartResult<P::Point>> = parts.iter().map(|part| multistart(part, starts, seed, quiet)).collect();
+    let mut found = MultistartResult { basins: Vec::new(), evaluations: searches.iter().map(|search| search.evaluations).sum() };
+    let best: Vec<P::Point> = searches.iter().map(|search| search.basins[0].local_fit.parameters.clone()).collect();
+    let mut follow = |points: &[P::Point]| {
+        found.add(fit_local(&problem.starting_at(&problem.joined(points)), Effort::Polish, observer));
+    };
+    follow(&best);
+    for (place, search) in searches.iter().enumerate() {
+        for basin in search.basins.iter().take(POLISHED_BASINS).skip(1) {
+            let mut points = best.clone();
+            points[place] = basin.local_fit.parameters.clone();
+            follow(&points);
+        }
+    }
+    found
 }
 
 /// The best minima of a part of the data, followed on all of them.
-fn finished_on_all(problem: &Problem, explored: MultistartResult, observer: Observer<'_>) -> MultistartResult {
+fn finished_on_all<P: FitProblem>(problem: &P, explored: MultistartResult<P::Point>, observer: Observer<'_>) -> MultistartResult<P::Point> {
     let mut found = MultistartResult { basins: Vec::new(), evaluations: explored.evaluations };
     let best = explored.best();
-    let is_near = |basin: &Basin| basin.local_fit.sum_of_squares <= best * NEAR_BEST;
+    let is_near = |basin: &Basin<P::Point>| basin.local_fit.sum_of_squares <= best * NEAR_BEST;
     for Basin { local_fit, hits } in explored.basins.into_iter().take_while(is_near).take(POLISHED_BASINS) {
-        let local_fit = fit_local(&problem.with_start(local_fit.parameters), Effort::Polish, observer);
+        let local_fit = fit_local(&problem.starting_at(&local_fit.parameters), Effort::Polish, observer);
         found.evaluations += local_fit.evaluations;
         found.merge(Basin { local_fit, hits });
     }
@@ -135,14 +169,14 @@ fn finished_on_all(problem: &Problem, explored: MultistartResult, observer: Obse
 }
 
 /// A search under way.
-struct Search<'a> {
-    problem: &'a Problem,
+struct Search<'a, P: FitProblem> {
+    problem: &'a P,
     observer: Observer<'a>,
-    sequence: StartSequence<'a>,
-    found: MultistartResult,
+    sequence: StartSequence<'a, P>,
+    found: MultistartResult<P::Point>,
 }
 
-impl Search<'_> {
+impl<P: FitProblem> Search<'_, P> {
     fn is_cancelled(&self) -> bool {
         (self.observer.cancelled)()
     }
@@ -156,9 +190,11 @@ impl Search<'_> {
         let own = self.sequence.take(1);
         self.follow(&own);
         let mut done = 1;
+        let in_round = if self.problem.is_composed() { ROUND_OF_COMPOSED } else { ROUND };
         while done < most && !(is_automatic && self.found.is_exact()) && !self.is_cancelled() {
-            let count = (ROUND - done % ROUND).min(most - done);
-            let round = if is_automatic && done >= ROUND { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
+            let count = (in_round - done % in_round).min(most - done);
+            let is_mixed = is_automatic && done >= in_round && !self.problem.is_composed();
+            let round = if is_mixed { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
             done += count;
             self.follow(&round);
             if is_automatic && self.has_seen_enough() {
@@ -173,23 +209,29 @@ impl Search<'_> {
 
     /// Whether the best minimum was hit several times and the expected share of unseen minima is small.
     fn has_seen_enough(&self) -> bool {
-        let enough = if self.problem.knows_only_ratios() { UNSEEN_SHARE } else { UNSEEN_SHARE_OF_BRDF };
+        let enough = if self.problem.is_composed() {
+            UNSEEN_SHARE_OF_COMPOSED
+        } else if self.problem.knows_only_ratios() {
+            UNSEEN_SHARE
+        } else {
+            UNSEEN_SHARE_OF_BRDF
+        };
         self.best_hits() >= ENOUGH_HITS && self.found.unseen_share().is_some_and(|share| share < enough)
     }
 
     /// Half of the starts the most promising of many probes, half fresh ones: a few steps do not tell everything.
-    fn mixed_round(&mut self, count: usize, promising: &mut Vec<Parameters>) -> Vec<Parameters> {
+    fn mixed_round(&mut self, count: usize, promising: &mut Vec<P::Point>) -> Vec<P::Point> {
         if promising.is_empty() {
             let starts = self.sequence.take(PROBES);
             *promising = distinct(self.probe(&starts)).into_iter().map(|local_fit| local_fit.parameters).collect();
         }
-        let mut round: Vec<Parameters> = promising.drain(..(count / 2).min(promising.len())).collect();
+        let mut round: Vec<P::Point> = promising.drain(..(count / 2).min(promising.len())).collect();
         round.extend(self.sequence.take(count - round.len()));
         round
     }
 
     /// Adds the coarse descents from those starts.
-    fn follow(&mut self, starts: &[Parameters]) {
+    fn follow(&mut self, starts: &[P::Point]) {
         for local_fit in self.run_all(starts, Effort::Coarse) {
             self.found.add(local_fit);
         }
@@ -203,7 +245,8 @@ impl Search<'_> {
                 return;
             }
             let before = self.found.best();
-            let ends: Vec<Parameters> = self.found.basins.iter().take(POLISHED_BASINS).map(|basin| basin.local_fit.parameters).collect();
+            let best = self.found.basins.iter().take(POLISHED_BASINS);
+            let ends: Vec<P::Point> = best.map(|basin| basin.local_fit.parameters.clone()).collect();
             for (i, further) in self.run_all(&ends, Effort::Polish).into_iter().enumerate() {
                 self.found.evaluations += further.evaluations;
                 self.found.basins[i].local_fit.append(further);
@@ -218,31 +261,34 @@ impl Search<'_> {
     /// From the best minima with other lobes: where k_v or k_d is small, so is the slope along σ_v or c, and no descent leaves.
     fn restart_lobes(&mut self) {
         let mut seen: Vec<f64> = Vec::new();
-        let (most, passes) = if self.found.basins.len() > RUGGED { RUGGED_LOBE_EFFORT } else { LOBE_EFFORT };
+        let basins = if self.problem.is_composed() { LOBE_BASINS_OF_COMPOSED } else { LOBE_BASINS };
+        let (most, passes) = if self.problem.is_composed() {
+            LOBE_EFFORT_OF_COMPOSED
+        } else if self.found.basins.len() > RUGGED {
+            RUGGED_LOBE_EFFORT
+        } else {
+            LOBE_EFFORT
+        };
         for _ in 0..passes {
             if self.found.is_exact() || self.is_cancelled() {
                 return;
             }
-            let best = || self.found.basins.iter().take(LOBE_BASINS).map(|basin| &basin.local_fit);
-            let is_seen = |end: &&LocalFit| seen.iter().any(|&other| is_same(end.sum_of_squares, other));
-            let fresh: Vec<Parameters> = best().filter(|end| !is_seen(end)).map(|end| end.parameters).collect();
+            let best = || self.found.basins.iter().take(basins).map(|basin| &basin.local_fit);
+            let is_seen = |end: &&LocalFit<P::Point>| seen.iter().any(|&other| is_same(end.sum_of_squares, other));
+            let fresh: Vec<P::Point> = best().filter(|end| !is_seen(end)).map(|end| end.parameters.clone()).collect();
             if fresh.is_empty() {
                 return;
             }
             seen.extend(best().map(|end| end.sum_of_squares));
-            let guesses = |at: &Parameters| {
-                let guesses = lobe_grid_minima(self.problem, at);
-                let highest = guesses.first().map_or(0.0, |lowest| NEAR_LOWEST * lowest.misfit);
-                guesses.into_iter().take(most).take_while(move |guess| guess.misfit <= highest).map(|guess| guess.parameters)
-            };
-            let starts: Vec<Parameters> = fresh.iter().flat_map(guesses).collect();
+            let guesses = |at: &P::Point| self.problem.lobe_guesses(at).into_iter().take(most);
+            let starts: Vec<P::Point> = fresh.iter().flat_map(guesses).collect();
             self.follow(&starts);
             self.polish(1);
         }
     }
 
     /// A few steps from each start.
-    fn probe(&mut self, starts: &[Parameters]) -> Vec<LocalFit> {
+    fn probe(&mut self, starts: &[P::Point]) -> Vec<LocalFit<P::Point>> {
         let probes = self.run_all(starts, Effort::Probe);
         self.found.evaluations += probes.iter().map(|probe| probe.evaluations).sum::<usize>();
         probes
@@ -261,13 +307,13 @@ impl Search<'_> {
             best.truncate(KEPT_PROBES);
         }
         best.truncate(if self.is_cancelled() { 1 } else { KEPT_PROBES });
-        let kept: Vec<Parameters> = best.into_iter().map(|probe| probe.parameters).collect();
+        let kept: Vec<P::Point> = best.into_iter().map(|probe| probe.parameters).collect();
         self.follow(&kept);
     }
 
     /// Descents from all those starts, in their order.
-    fn run_all(&self, starts: &[Parameters], effort: Effort) -> Vec<LocalFit> {
-        let run = |start: &Parameters| fit_local(&self.problem.with_start(*start), effort, self.observer);
+    fn run_all(&self, starts: &[P::Point], effort: Effort) -> Vec<LocalFit<P::Point>> {
+        let run = |start: &P::Point| fit_local(&self.problem.starting_at(start), effort, self.observer);
         #[cfg(feature = "threads")]
         {
             use rayon::prelude::*;
@@ -279,7 +325,7 @@ impl Search<'_> {
 }
 
 /// The best first, each minimum once.
-fn distinct(mut local_fits: Vec<LocalFit>) -> Vec<LocalFit> {
+fn distinct<T>(mut local_fits: Vec<LocalFit<T>>) -> Vec<LocalFit<T>> {
     local_fits.sort_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
     local_fits.dedup_by(|a, b| (a.sum_of_squares - b.sum_of_squares).abs() <= SAME * b.sum_of_squares);
     local_fits

@@ -4,9 +4,10 @@
 //! The points are a Kronecker sequence on the roots of Roberts' generalised golden ratio, shifted by the seed (Cranley and
 //! Patterson, SIAM J. Numer. Anal. 13, 904 (1976)). Every other point is spread logarithmically, the others linearly.
 
-use crate::fit::multistart::initial_guess::grid_minima;
-use crate::fit::objective::Problem;
-use crate::model::{Parameter, Parameters};
+use crate::fit::fit_problem::FitProblem;
+use crate::fit::observer::Observer;
+use crate::model::Parameter;
+use nalgebra::DVector;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -14,57 +15,62 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 const GUESSES: usize = 64;
 
 /// The starts of a search, in their order.
-pub(crate) struct StartSequence<'a> {
-    problem: &'a Problem,
+pub(crate) struct StartSequence<'a, P: FitProblem> {
+    problem: &'a P,
+    seed: u64,
+    observer: Observer<'a>,
     /// Whether the problem's own start was taken.
     has_begun: bool,
     /// First guesses, once they are asked for.
-    guesses: Option<std::vec::IntoIter<Parameters>>,
-    shift: [f64; Parameter::COUNT],
+    guesses: Option<std::vec::IntoIter<P::Point>>,
+    /// Residual evaluations that the first guesses took.
+    pub evaluations: usize,
+    /// Of each unknown.
+    shift: Vec<f64>,
     next: u32,
 }
 
-impl<'a> StartSequence<'a> {
-    pub(crate) fn new(problem: &'a Problem, seed: u64) -> Self {
+impl<'a, P: FitProblem> StartSequence<'a, P> {
+    pub(crate) fn new(problem: &'a P, seed: u64, observer: Observer<'a>) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
-        let mut shift = [0.0; Parameter::COUNT];
+        let mut shift = vec![0.0; problem.names().len().max(Parameter::COUNT)];
         // 32 bits are more than a shift needs.
         shift.fill_with(|| f64::from(random.next_u32()) / 4_294_967_296.0);
-        Self { problem, has_begun: false, guesses: None, shift, next: 0 }
+        Self { problem, seed, observer, has_begun: false, guesses: None, evaluations: 0, shift, next: 0 }
     }
 
     /// The next starts.
-    pub(crate) fn take(&mut self, count: usize) -> Vec<Parameters> {
+    pub(crate) fn take(&mut self, count: usize) -> Vec<P::Point> {
         (0..count).map(|_| self.following()).collect()
     }
 
-    fn following(&mut self) -> Parameters {
+    fn following(&mut self) -> P::Point {
         if !std::mem::replace(&mut self.has_begun, true) {
-            return *self.problem.start();
+            return self.problem.start_point().clone();
         }
         let guesses = self.guesses.get_or_insert_with(|| {
-            let lowest = grid_minima(self.problem).into_iter().take(GUESSES).map(|guess| guess.parameters);
-            lowest.collect::<Vec<Parameters>>().into_iter()
+            let (mut lowest, evaluations) = self.problem.first_guesses(self.seed, self.observer);
+            self.evaluations = evaluations;
+            lowest.truncate(GUESSES);
+            lowest.into_iter()
         });
-        guesses.next().unwrap_or_else(|| self.spread())
+        let guess = guesses.next();
+        guess.unwrap_or_else(|| self.spread())
     }
 
     /// The next point of the shifted Kronecker sequence in the box of the free parameters.
-    fn spread(&mut self) -> Parameters {
+    fn spread(&mut self) -> P::Point {
         self.next += 1;
-        let free = self.problem.free();
-        let ratio = generalised_golden_ratio(free.len());
-        let mut start = *self.problem.start();
+        let count = self.problem.names().len();
+        let ratio = generalised_golden_ratio(count);
+        // Either spread alone seldom visits some corner of the box.
+        let by_factors = self.next.is_multiple_of(2);
         let mut step = 1.0;
-        for (j, &parameter) in free.iter().enumerate() {
+        let start = DVector::from_fn(count, |j, _| {
             step /= ratio;
-            let fraction = (self.shift[j] + f64::from(self.next) * step).fract();
-            let bounds = self.problem.bounds();
-            // Either spread alone seldom visits some corner of the box.
-            start[parameter] =
-                if self.next.is_multiple_of(2) { bounds.spread(parameter, fraction) } else { bounds.at(parameter, fraction) };
-        }
-        start
+            self.problem.spread(j, (self.shift[j] + f64::from(self.next) * step).fract(), by_factors)
+        });
+        self.problem.point_at(&start)
     }
 }
 

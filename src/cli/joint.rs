@@ -1,0 +1,112 @@
+//! `fit` on several measurements, with shared and own parameters.
+
+use crate::cli::arguments::FitArguments;
+use crate::cli::failure::Failure;
+use crate::cli::fit_text::{NAME_WIDTH, notice_left_out, number, print_course, print_estimate, print_head, print_open};
+use crate::cli::output;
+use crate::cli::problem::{check, fitted_jointly, joint_failure, joint_problem, model, own_parameters};
+use crate::cli::sets::{MeasurementSets, NamedMeasurement};
+use crate::cli::watched::Watched;
+use crate::report::{English, FITTED_COLUMNS, ResultColumn, ResultTable, fitted_cells, joint_json};
+use pbrdf::fit::{JointProblem, JointResult, UnknownName as _};
+use pbrdf::measurement::{Measurement, append_columns, write_measurements};
+use pbrdf::model::{ParameterSet, Pbrdf};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+pub fn run(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode, Failure> {
+    check(&arguments.problem, sets)?;
+    let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem));
+    let problem = joint_problem(arguments.model, &arguments.problem, own, sets).map_err(|error| joint_failure(&error, sets))?;
+    if !arguments.profile.is_empty() || arguments.bootstrap.is_some() {
+        return Err(Failure::usage(
+            "A fit of several measurements takes no --profile and no --bootstrap; its intervals are profiled anyway.",
+        ));
+    }
+    let left_out: usize = problem.parts().iter().map(pbrdf::fit::Problem::left_out).sum();
+    notice_left_out(left_out);
+    let watched = Watched::new("fitting");
+    let watch = watched.watch();
+    let result = fitted_jointly(&problem, &arguments.problem, watch.as_watch());
+    drop(watch);
+    drop(watched);
+    write_fitted(arguments, sets, &result)?;
+    if arguments.json {
+        let sources: Vec<(String, usize)> =
+            sets.all.iter().map(|set| (sets.path(set).display().to_string(), used(&set.measurement))).collect();
+        output::write_json(&joint_json(arguments.model, &result, &sources))?;
+    } else if let Some(format) = arguments.table {
+        let column =
+            |(index, set): (usize, &NamedMeasurement)| ResultColumn::of_set(set.name.clone(), &result, index, used(&set.measurement));
+        let table = ResultTable { columns: sets.all.iter().enumerate().map(column).collect() };
+        output::write(None, |out| write!(out, "{}", table.text(format, &English)))?;
+    } else {
+        output::write(None, |out| print(out, arguments, sets, &problem, &result))?;
+    }
+    Ok(output::exit_code())
+}
+
+/// Number of rows that are not masked.
+fn used(measurement: &Measurement) -> usize {
+    measurement.rows.iter().filter(|row| !row.masked).count()
+}
+
+/// All rows with the fitted columns beside them: the table itself where there is one file, else all in one table with a column `set`.
+fn write_fitted(arguments: &FitArguments, sets: &MeasurementSets, result: &JointResult) -> Result<(), Failure> {
+    let Some(path) = &arguments.output else { return Ok(()) };
+    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+    for (set, fitted) in sets.all.iter().zip(&result.sets) {
+        let surface = Pbrdf::new(result.model, fitted.parameters).map_err(|error| Failure::usage(error.to_string()))?;
+        let cells = fitted_cells(&set.measurement, &surface, arguments.model.dolp_only);
+        rows.extend(set.measurement.lines.iter().copied().zip(cells));
+    }
+    let mut table = Vec::new();
+    let source: &[u8] = if let [bytes] = &sets.bytes[..] {
+        // The sets of a file may take turns.
+        rows.sort_by_key(|row| row.0);
+        bytes
+    } else {
+        let measurements: Vec<Measurement> = sets.all.iter().map(|set| set.measurement.clone()).collect();
+        let written = write_measurements(&measurements, &mut table)
+            .and_then(|()| Measurement::read(&table[..]).map_err(io::Error::other))
+            .map_err(|error| Failure::output(path.display(), &error))?;
+        rows.iter_mut().zip(written.lines).for_each(|(row, line)| row.0 = line);
+        &table
+    };
+    let (lines, cells): (Vec<u64>, Vec<Vec<String>>) = rows.into_iter().unzip();
+    output::write(Some(path), |out| append_columns(source, &FITTED_COLUMNS, &lines, &cells, out))
+}
+
+/// The report for a person.
+fn print(
+    out: &mut dyn Write,
+    arguments: &FitArguments,
+    sets: &MeasurementSets,
+    problem: &JointProblem,
+    result: &JointResult,
+) -> io::Result<()> {
+    let keys = |set: ParameterSet| set.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(", ");
+    let own = result.model.parameters().intersection(problem.own());
+    let own = if own.is_empty() { "all parameters shared".to_owned() } else { format!("own {}", keys(own)) };
+    let (used, all) =
+        sets.all.iter().fold((0, 0), |(used, all), set| (used + self::used(&set.measurement), all + set.measurement.rows.len()));
+    writeln!(
+        out,
+        "{} measurements: {used} of {all} rows, model {} ({}), {own}",
+        sets.all.len(),
+        arguments.model.key,
+        arguments.model.name
+    )?;
+    print_course(out, arguments, (result.start_objective, result.objective), result.stop_reason, &result.course, &result.statistics)?;
+    let width = result.estimates().map(|(name, _)| name.key().chars().count()).max().unwrap_or(0).max(NAME_WIDTH);
+    print_head(out, width)?;
+    for (name, estimate) in result.estimates() {
+        print_estimate(out, &name.key(), width, estimate)?;
+    }
+    let width = sets.all.iter().map(|set| set.name.chars().count()).max().unwrap_or(0).max(NAME_WIDTH);
+    writeln!(out, "\n{:<width$} {:>8} {:>14}", "", "rows", "ΔE")?;
+    for (set, fitted) in sets.all.iter().zip(&result.sets) {
+        writeln!(out, "{:<width$} {:>8} {:>14}", set.name, self::used(&set.measurement), number(fitted.objective))?;
+    }
+    print_open(out, &result.statistics, !result.correlations.parameters.is_empty(), &result.describe_undetermined())
+}
