@@ -400,3 +400,74 @@ fn the_same_seed_finds_the_same_fit_on_any_number_of_threads() {
         assert_eq!(one[key], two[key], "{key}");
     }
 }
+
+/// Two wavelengths of one sample, few rows.
+fn two_wavelengths(folder: &Folder) -> [String; 2] {
+    [("blue.csv", "n=1.6,k=2.4"), ("red.csv", "n=2.6,k=3.6")].map(|(name, set)| {
+        let path = folder.path(name).display().to_string();
+        answer(&[
+            "simulate",
+            "--model",
+            "specular",
+            "--set",
+            set,
+            "--theta-i",
+            "30,50,70",
+            "--theta-r",
+            "20:80:20",
+            "--noise",
+            "0.002",
+            "-o",
+            &path,
+        ]);
+        path
+    })
+}
+
+#[test]
+fn several_measurements_are_fitted_with_shared_and_own_parameters() {
+    let folder = Folder::new();
+    let [blue, red] = two_wavelengths(&folder);
+    let output = folder.path("all.csv").display().to_string();
+    let fit = ["fit", &blue, &red, "--model", "specular", "--own", "n,k", "--fix", "k@red.csv=3.6"];
+    let json: Value = serde_json::from_str(&answer(&[&fit[..], &["--json", "-o", &output]].concat())).expect("JSON");
+    let names = |value: &Value| value.as_object().expect("an object").keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&json["parameters"]), ["ks", "q", "sigma"]);
+    let sets = json["sets"].as_array().expect("a list");
+    assert_eq!((sets.len(), names(&sets[1]["parameters"])), (2, vec!["k".to_owned(), "n".to_owned()]));
+    assert_eq!(
+        (&sets[0]["file"], &sets[0]["set"], &sets[0]["rows"]),
+        (&Value::from(blue.as_str()), &Value::from("blue.csv"), &Value::from(12))
+    );
+    let k_of_red = &sets[1]["parameters"]["k"];
+    assert_eq!((&k_of_red["value"], &k_of_red["free"]), (&Value::from(3.6), &Value::from(false)));
+    assert!(json["correlations"]["names"].as_array().expect("a list").contains(&Value::from("n@red.csv")));
+    let written = std::fs::read_to_string(&output).expect("the fit wrote it");
+    let header = written.lines().find(|line| !line.starts_with('#')).expect("a header");
+    assert_eq!(header, "set,theta_i,theta_r,dphi,dolp,dolp_sigma,dolp_model,dolp_residual,brdf_model,brdf_residual");
+    // What was written is read as two measurements again.
+    let again: Value = serde_json::from_str(&answer(&[&["fit", &output][..], &fit[3..], &["--json"]].concat())).expect("JSON");
+    assert_eq!(again["objective"], json["objective"]);
+    let table = answer(&[&fit[..], &["--table", "markdown"]].concat());
+    assert!(table.starts_with("|  | blue.csv | red.csv |\n") && table.contains("held fixed"), "{table}");
+}
+
+#[test]
+fn several_measurements_that_do_not_go_together_are_refused_in_a_sentence() {
+    let folder = Folder::new();
+    let [blue, red] = two_wavelengths(&folder);
+    let absent = folder.path("absent.csv").display().to_string();
+    let empty = folder.file("empty.csv", "");
+    let [blue, red, absent, empty] = [&blue, &red, &absent, &empty].map(String::as_str);
+    for (arguments, sentence) in [
+        (vec![blue, absent, empty], "absent.csv: there is no such file."),
+        (vec![blue, absent, empty], "empty.csv: "),
+        (vec![blue, blue], "Two measurements are called "),
+        (vec![blue, red, "--own", "q", "--model", "gauss"], "No measurement can have its own q"),
+        (vec![blue, red, "--fix", "n@green.csv=2"], "No measurement is called green.csv; there are blue.csv, red.csv."),
+        (vec![blue, red, "--fix", "n@red.csv=2"], "n is shared, and what is said of it for red.csv differs from the others"),
+    ] {
+        let message = refusal(&[&["fit"][..], &arguments].concat());
+        assert!(message.contains(sentence), "{message}");
+    }
+}
