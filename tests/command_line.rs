@@ -350,6 +350,17 @@ fn an_interruption_gives_the_best_so_far_and_says_that_it_is_incomplete() {
 }
 
 #[test]
+fn a_grid_of_more_than_a_million_rows_tells_its_progress() {
+    let output = run(&["plan", "--theta-i", "0:79:0.1", "--theta-r", "0:89:0.05"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stderr).contains("predicting: "), "{}", text(&output.stderr));
+    let folder = Folder::new();
+    let path = folder.path("many.csv").display().to_string();
+    let output = run(&["simulate", "--theta-i", "0:79:0.1", "--theta-r", "0:89:0.05", "-o", &path]);
+    assert!(text(&output.stderr).contains("writing: "), "{}", text(&output.stderr));
+}
+
+#[test]
 fn plan_predicts_what_angles_determine() {
     let surface = ["--set", "n=2.07,k=2.9,sigma=0.35,kd=0.12,kv=0.2,q=2.2,c=-0.4,sigma_v=0.6", "--noise", "0.005", "--json"];
     let error = |angles: [&str; 4]| -> f64 {

@@ -6,6 +6,7 @@ use crate::files::write_file::write_file;
 use std::io::{self, IsTerminal as _, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Writes a file atomically, or stdout without a path.
@@ -54,6 +55,24 @@ impl Progress {
         // A closed stderr is no reason to stop.
         let _ = stderr.write_fmt(text).and_then(|()| stderr.flush());
     }
+}
+
+/// Runs what cannot tell how far it is, and tells meanwhile how long it takes.
+pub fn while_waiting<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    let is_done = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let teller = scope.spawn(|| {
+            let (mut progress, begun) = (Progress::new(what), Instant::now());
+            while !is_done.load(Ordering::Relaxed) {
+                progress.tell(|| format!("{:.0} s", begun.elapsed().as_secs_f64()));
+                std::thread::park_timeout(Duration::from_millis(200));
+            }
+        });
+        let result = work();
+        is_done.store(true, Ordering::Relaxed);
+        teller.thread().unpark();
+        result
+    })
 }
 
 impl Drop for Progress {

@@ -52,7 +52,7 @@ pub fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
         None => (0..grid.len()).map(|candidate| grid.geometry(candidate)).collect(),
     }
     .map_err(|error| Failure::usage(format!("{error}.")))?;
-    let prediction = design.predict().map_err(|error| Failure::usage(format!("{error}.")))?;
+    let prediction = output::while_waiting("predicting", || design.predict()).map_err(|error| Failure::usage(format!("{error}.")))?;
     if let (Some(path), Some(chosen)) = (&arguments.output, &chosen) {
         output::write(Some(path), |out| write_table(out, arguments.columns, chosen))?;
     }
