@@ -367,7 +367,7 @@ mod tests {
         let hidden = MeasurementStyle { color: 3, marker: Symbol::Square, shown: false };
         let open = vec![opened(0, 1.5, hidden), opened(1, 2.5, MeasurementStyle::default()), opened(2, 3.5, hidden)];
         let shared = ParameterSet::EMPTY.with(Parameter::Sigma).with(Parameter::Q);
-        let pinned = PinnedSurface::new("steel", Surface::default().model, Parameters::default(), &[]);
+        let pinned = PinnedSurface::new("steel", Surface::default().model, Parameters::default(), &[], &[]);
         let list = MeasurementList::several(open, 1, shared);
         let before = Workspace::restored(Settings::default(), Layout::default(), list, vec![pinned], []);
         let mut text = Vec::new();

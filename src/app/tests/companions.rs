@@ -165,8 +165,9 @@ fn fits_and_rows_of_the_comparison_are_pinned_and_a_session_keeps_them() {
     order(&mut harness, Action::List(ListAction::PinFit));
     let pins = explorer(&mut harness).work.pinned().to_vec();
     assert!(pins[0].name.starts_with("Fit 1: ") && pins[1].name == row && pins[2].name == format!("{} (2)", pins[0].name), "{pins:?}");
-    let colors: BTreeSet<usize> = pins.iter().map(|pin| pin.color).collect();
-    assert_eq!(colors.len(), 3);
+    let mut colors: BTreeSet<usize> = pins.iter().map(|pin| pin.color).collect();
+    colors.insert(explorer(&mut harness).work.active().style.color);
+    assert_eq!(colors.len(), 4, "no two have the same colour");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("work.pbrdf.json");
     order(&mut harness, Action::Export(ExportKind::Session, path.clone()));

@@ -50,14 +50,16 @@ fn yes() -> bool {
 
 /// Colours of pinned surfaces in the order in which they are pinned, by their numbers among those of
 /// series: the few series of a measurement do not have them.
-const PIN_COLORS: [usize; 6] = [5, 10, 8, 7, 9, 3];
+const PIN_COLORS: [usize; 8] = [5, 10, 8, 7, 9, 3, 11, 6];
 
 impl PinnedSurface {
-    /// A snapshot under that name, in a colour that the others do not have, and with a number where
-    /// one of them has the name.
-    pub fn new(name: &str, model: Model, parameters: Parameters, others: &[Self]) -> Self {
+    /// A snapshot under that name, with a number where one of the others has it, in a colour that
+    /// neither they nor measurements have, while there is one.
+    pub fn new(name: &str, model: Model, parameters: Parameters, others: &[Self], of_measurements: &[usize]) -> Self {
         let is_free = |color: &&usize| others.iter().all(|other| other.color != **color);
-        let color = PIN_COLORS.iter().find(is_free).copied().unwrap_or(PIN_COLORS[others.len() % PIN_COLORS.len()]);
+        let is_unseen = |color: &&usize| is_free(color) && !of_measurements.contains(*color);
+        let color = PIN_COLORS.iter().find(is_unseen).or_else(|| PIN_COLORS.iter().find(is_free));
+        let color = color.copied().unwrap_or(PIN_COLORS[others.len() % PIN_COLORS.len()]);
         let is_taken = |name: &str| others.iter().any(|other| other.name == name);
         let mut names = [name.to_owned()].into_iter().chain((2..).map(|number| format!("{name} ({number})")));
         let name = names.find(|name| !is_taken(name)).unwrap_or_default();

@@ -64,7 +64,8 @@ impl Workspace {
     }
 
     pub(super) fn pin(&mut self, name: &str, model: Model, parameters: Parameters) {
-        self.pinned.push(PinnedSurface::new(name, model, parameters, &self.pinned));
+        let colors: Vec<usize> = self.measurements.iter().map(|open| open.style.color).collect();
+        self.pinned.push(PinnedSurface::new(name, model, parameters, &self.pinned, &colors));
     }
 
     pub(super) fn set_pin(&mut self, place: usize, pin: PinnedSurface) {
