@@ -7,7 +7,7 @@ use crate::app::shell::toasts::Toasts;
 use crate::app::text::glossary;
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
-use crate::app::views::choice_ui;
+use crate::app::views::choice_menu_ui;
 use crate::app::views::curves::Decimation;
 use egui::accesskit::Live;
 use egui::{Label, RichText};
@@ -48,7 +48,7 @@ pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
         if let Some(left_out) = derived.marks.get().and_then(|marks| marks.left_out) {
             ui.separator();
             if matches!(left_out, Decimation::Series { .. }) {
-                ui.menu_button(left_out.text(), |ui| choice_ui(open, edits, ui));
+                choice_menu_ui(left_out.text(), open, edits, ui);
             } else {
                 ui.label(left_out.text());
             }

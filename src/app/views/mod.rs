@@ -37,7 +37,7 @@ pub use context::{Cx, PaneSpec, View};
 pub use data::table_text;
 pub use metals::values;
 pub use models::running_model_ui;
-pub use series_choice::choice_ui;
+pub use series_choice::choice_menu_ui;
 
 #[cfg(test)]
 pub use {

@@ -4,7 +4,8 @@ use crate::app::plots::theme;
 use crate::app::views::curves::series_ink;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::OpenMeasurement;
-use egui::{Checkbox, RichText, ScrollArea, Ui};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Checkbox, PopupCloseBehavior, RichText, ScrollArea, Ui};
 use tr::tr;
 
 /// Height of the list in points.
@@ -19,8 +20,14 @@ pub fn series_choice_ui(open: &OpenMeasurement, edits: &mut Vec<Edit>, ui: &mut 
     ui.menu_button(text, |ui| choice_ui(open, edits, ui));
 }
 
+/// The same outside of a menu, under another text: it stays open while boxes are ticked.
+pub fn choice_menu_ui(text: String, open: &OpenMeasurement, edits: &mut Vec<Edit>, ui: &mut Ui) {
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    MenuButton::new(text).config(config).ui(ui, |ui| choice_ui(open, edits, ui));
+}
+
 /// The tick boxes.
-pub fn choice_ui(open: &OpenMeasurement, edits: &mut Vec<Edit>, ui: &mut Ui) {
+fn choice_ui(open: &OpenMeasurement, edits: &mut Vec<Edit>, ui: &mut Ui) {
     let count = open.series.len();
     let choose = |drawn: Vec<usize>| Edit::SetDrawnSeries { number: open.number, drawn: drawn.into() };
     ui.horizontal(|ui| {

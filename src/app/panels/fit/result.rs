@@ -11,7 +11,7 @@ use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::workspace::Workspace;
-use egui::{Button, Grid, RichText, TextWrapMode, Ui};
+use egui::{Button, Grid, RichText, Role, TextWrapMode, Ui, WidgetInfo};
 use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
 use pbrdf::rounding;
 use tr::tr;
@@ -21,7 +21,7 @@ const MOST_MINIMA: usize = 8;
 
 pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mut Vec<Action>, ui: &mut Ui) {
     let (report, surface) = (&fit.report, work.surface());
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let are_sliders = surface.parameters == report.parameters && surface.model == report.model;
         let take = ui.add_enabled(!are_sliders, Button::new(tr!("Use as sliders"))).on_hover_text(tr!("The fitted values to the sliders"));
         if take.on_disabled_hover_text(tr!("The sliders are those of the fit.")).clicked() {
@@ -29,6 +29,11 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mu
         }
         if ui.button(tr!("Back to before the fit")).on_hover_text(tr!("The sliders as they were before the fit")).clicked() {
             commands.push(Action::UseValuesBeforeFit);
+        }
+        let pin = ui.button(tr!("Pin")).on_hover_text(tr!("Its surface in every plot until it is removed"));
+        pin.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Pin this fit")));
+        if pin.clicked() {
+            commands.push(Action::List(ListAction::PinFit));
         }
     });
     ui.add_space(4.0);
@@ -60,9 +65,6 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mu
             }
         }
     });
-    if ui.button(tr!("Pin this fit")).on_hover_text(tr!("Its surface in every plot until it is removed")).clicked() {
-        commands.push(Action::List(ListAction::PinFit));
-    }
     ui.add_space(6.0);
     estimates_ui(report, work.diagnostics().scatter.as_ref(), ui);
     if !fit.problem.free().is_empty() && !fit.problem.is_empty() {
