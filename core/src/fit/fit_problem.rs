@@ -2,6 +2,7 @@
 //! are, and how its quantities are weighted.
 
 use crate::fit::least_squares::LeastSquares;
+use crate::fit::multistart::initial_guess::SpecularLobes;
 use crate::fit::observer::Observer;
 use crate::fit::options::{FitOptions, Weights};
 use crate::model::Parameter;
@@ -84,6 +85,11 @@ pub trait FitProblem: LeastSquares + Clone + Send + Sync {
 
     /// Guesses with other lobes, optical constants as they are there, the most promising first.
     fn lobe_guesses(&self, at: &Self::Point) -> Vec<Self::Point>;
+
+    /// Guesses of total reflection that come near the point there, the most promising first; none where the problem offers none.
+    fn total_reflection_guesses(&self, _at: &Self::Point, _lobes: SpecularLobes) -> Vec<Self::Point> {
+        Vec::new()
+    }
 
     /// Guesses with an unknown held at its value in x, the most promising first.
     fn guesses_with_held(&self, unknown: usize, x: &DVector<f64>) -> Vec<Self::Point>;

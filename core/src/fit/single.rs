@@ -1,7 +1,7 @@
 //! The fit of one measurement as search, analysis and intervals see it.
 
 use crate::fit::fit_problem::FitProblem;
-use crate::fit::multistart::initial_guess::{Guess, grid_minima, lobe_grid_minima};
+use crate::fit::multistart::initial_guess::{Guess, SpecularLobes, grid_minima, lobe_grid_minima, total_reflection_minima};
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::FitOptions;
@@ -59,6 +59,10 @@ impl FitProblem for Problem {
         let guesses = lobe_grid_minima(self, at);
         let highest = guesses.first().map_or(0.0, |lowest| NEAR_LOWEST * lowest.misfit);
         guesses.into_iter().take_while(|guess| guess.misfit <= highest).map(|guess| guess.parameters).collect()
+    }
+
+    fn total_reflection_guesses(&self, at: &Parameters, lobes: SpecularLobes) -> Vec<Parameters> {
+        points(total_reflection_minima(self, at, lobes))
     }
 
     fn guesses_with_held(&self, unknown: usize, x: &DVector<f64>) -> Vec<Parameters> {

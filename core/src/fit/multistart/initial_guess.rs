@@ -31,6 +31,12 @@ const LOBES: [(Parameter, &[f64]); 4] = [
 ];
 /// Rows of data on which the grid is judged, at most: the time of the grid is proportional to their number.
 const ROWS: usize = 32;
+/// Distance of two sines below which their rows have one critical angle.
+const APART: f64 = 1e-6;
+/// Where the first guess after a kink stands, as a fraction of the way to the next.
+const ABOVE_KINK: f64 = 0.005;
+/// Misfit of a guess of total reflection, at most, over that of the minimum it is held against: guesses are rough.
+const NEAR_MINIMUM: f64 = 4.0;
 /// The weights, in the order of the unknowns of the least squares.
 const WEIGHTS: [Parameter; 3] = [Parameter::Ks, Parameter::Kd, Parameter::Kv];
 
@@ -50,6 +56,41 @@ pub(crate) fn grid_minima(problem: &Problem) -> Vec<Guess> {
 /// The lowest points over σ, q, c and σ_v with n and k as they are there, the lowest first.
 pub(crate) fn lobe_grid_minima(problem: &Problem, at: &Parameters) -> Vec<Guess> {
     minima_over(problem, at, &LOBES)
+}
+
+/// The specular lobes that guesses of total reflection are looked for with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpecularLobes {
+    /// That of the surface where the search stands.
+    AsThere,
+    /// Those of the lobe grid.
+    Any,
+}
+
+/// The lowest points of total reflection by the BRDF, k = 0 and n < 1, the lowest first: those that come near the misfit of the surface
+/// there, whose diffuse and volume lobe they keep. Where n passes sin β of a row, that row meets its critical angle, and the
+/// objective has a kink; a minimum may lie between any two of them, and no descent passes from one to the next.
+pub(crate) fn total_reflection_minima(problem: &Problem, at: &Parameters, lobes: SpecularLobes) -> Vec<Guess> {
+    let is_open = problem.free().contains(&Parameter::N) && (problem.free().contains(&Parameter::K) || at.k == 0.0);
+    if !is_open || !problem.bounds().contain(Parameter::K, 0.0) {
+        return Vec::new();
+    }
+    let mut sines: Vec<f64> = problem.geometries().facets().iter().map(|facet| facet.sin_beta_sq.sqrt()).collect();
+    sines.sort_by(f64::total_cmp);
+    sines.dedup_by(|a, b| *a - *b <= APART);
+    let step = sines.len().div_ceil(ROWS).max(1);
+    let kinks: Vec<f64> = std::iter::once(0.0).chain(sines.into_iter().step_by(step)).collect();
+    // Just above a kink its row begins to transmit, steeply.
+    let places = |pair: &[f64]| [ABOVE_KINK, 0.5].map(|place| pair[0] + place * (pair[1] - pair[0]));
+    let between: Vec<f64> = kinks.windows(2).flat_map(places).collect();
+    let index: [(Parameter, &[f64]); 2] = [(Parameter::N, &between), (Parameter::K, &[0.0])];
+    let axes = match lobes {
+        SpecularLobes::AsThere => index.to_vec(),
+        SpecularLobes::Any => [index, [LOBES[0], LOBES[1]]].concat(),
+    };
+    let minima = |axes| Grid::new(problem, at, axes, Kind::Brdf).map_or_else(Vec::new, |grid| grid.grid_minima());
+    let highest = minima(&[]).first().map_or(0.0, |here| NEAR_MINIMUM * here.misfit);
+    minima(&axes).into_iter().take_while(|guess| guess.misfit <= highest).collect()
 }
 
 fn minima_over(problem: &Problem, base: &Parameters, axes: &[(Parameter, &[f64])]) -> Vec<Guess> {

@@ -10,6 +10,7 @@ use crate::fit::fit_problem::FitProblem;
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult, SAME, is_same};
+use crate::fit::multistart::initial_guess::SpecularLobes;
 use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::observer::Observer;
 use serde::{Deserialize, Serialize};
@@ -72,6 +73,8 @@ const LOBE_BASINS: usize = 14;
 const LOBE_EFFORT: (usize, usize) = (6, 2);
 /// The same where the search has found more distinct minima than `RUGGED`.
 const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
+/// Guesses of total reflection that are followed from each minimum.
+const TOTAL_REFLECTION: usize = 6;
 /// Distinct minima beyond which the objective counts as rugged.
 const RUGGED: usize = 5;
 
@@ -112,6 +115,7 @@ pub fn multistart<P: FitProblem>(problem: &P, starts: Starts, seed: u64, observe
             if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() && !problem.is_composed() {
                 search.keep_best(BROAD_PROBES);
             }
+            search.try_total_reflection();
             search.restart_lobes();
         }
     }
@@ -255,6 +259,20 @@ impl<P: FitProblem> Search<'_, P> {
             if self.found.best() > before * (1.0 - POLISH_TOLERANCE) {
                 return;
             }
+        }
+    }
+
+    /// From the best minimum to those of total reflection with other specular lobes; then from the best minima with the lobes that they
+    /// have, because the narrowest minima lie right at a critical angle.
+    fn try_total_reflection(&mut self) {
+        for (most, lobes) in [(1, SpecularLobes::Any), (POLISHED_BASINS, SpecularLobes::AsThere)] {
+            if self.found.is_exact() || self.is_cancelled() {
+                return;
+            }
+            let from = self.found.basins.iter().take(most).map(|basin| &basin.local_fit.parameters);
+            let guesses = from.flat_map(|at| self.problem.total_reflection_guesses(at, lobes).into_iter().take(TOTAL_REFLECTION));
+            let starts: Vec<P::Point> = guesses.collect();
+            self.follow(&starts);
         }
     }
 
