@@ -25,6 +25,8 @@ pub enum Effort {
     Coarse,
     /// From near a minimum to the minimum: the bounded solver alone.
     Polish,
+    /// The same, to be given up where the way is long.
+    Refine,
     /// A few steps of MINPACK.
     Probe,
 }
@@ -75,6 +77,7 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
         Effort::Probe => minpack_sin2(problem, &start, PROBE, &mut recorder).1,
         Effort::Coarse => coarse(problem, &start, &mut recorder),
         Effort::Polish => BoundedLm::new(problem, &start).run(thorough, &mut recorder),
+        Effort::Refine => BoundedLm::new(problem, &start).run(Limits { evaluations: COARSE_PATIENCE * (n + 1), ..thorough }, &mut recorder),
         Effort::Thorough => self::thorough(problem, &start, thorough, &mut recorder),
     };
     recorder.into_solution(stop)

@@ -251,7 +251,10 @@ impl<P: FitProblem> Search<'_, P> {
             let before = self.found.best();
             let best = self.found.basins.iter().take(POLISHED_BASINS);
             let ends: Vec<P::Point> = best.map(|basin| basin.local_fit.parameters.clone()).collect();
-            for (i, further) in self.run_all(&ends, Effort::Polish).into_iter().enumerate() {
+            // The others matter only where they soon become the best.
+            let (best, others) = ends.split_at(1.min(ends.len()));
+            let polished = [self.run_all(best, Effort::Polish), self.run_all(others, Effort::Refine)].concat();
+            for (i, further) in polished.into_iter().enumerate() {
                 self.found.evaluations += further.evaluations;
                 self.found.basins[i].local_fit.append(further);
             }
