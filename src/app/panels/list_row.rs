@@ -61,9 +61,9 @@ impl<K> Renaming<K> {
     }
 
     /// The field; once it is left, the name that was typed, or none where that is to stay.
-    pub fn ui(&mut self, before: &str, what: String, ui: &mut Ui) -> Option<Option<String>> {
+    pub fn ui(&mut self, before: &str, what: &str, ui: &mut Ui) -> Option<Option<String>> {
         let field = ui.add(TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY));
-        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, &what));
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, what));
         if !self.is_focused {
             self.is_focused = true;
             field.request_focus();

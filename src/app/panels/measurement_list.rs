@@ -80,7 +80,7 @@ impl MeasurementPanel {
     /// The name, or the field that it is typed into.
     fn name_ui(&mut self, open: &OpenMeasurement, is_active: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
         if let Some(renaming) = self.renaming.as_mut().filter(|renaming| renaming.key == open.number) {
-            if let Some(name) = renaming.ui(&open.title(), tr!("Name of the measurement"), ui) {
+            if let Some(name) = renaming.ui(&open.title(), &tr!("Name of the measurement"), ui) {
                 cx.edits.extend(name.map(|name| Edit::RenameMeasurement { number: open.number, name }));
                 self.renaming = None;
             }

@@ -63,7 +63,7 @@ impl PinnedPanel {
     /// The name, or the field that it is typed into.
     fn name_ui(&mut self, place: usize, pin: &PinnedSurface, cx: &mut Cx<'_>, ui: &mut Ui) {
         if let Some(renaming) = self.renaming.as_mut().filter(|renaming| renaming.key == place) {
-            if let Some(name) = renaming.ui(&pin.name, tr!("Name of the surface"), ui) {
+            if let Some(name) = renaming.ui(&pin.name, &tr!("Name of the surface"), ui) {
                 cx.edits.extend(name.map(|name| Edit::SetPin(place, Box::new(PinnedSurface { name, ..pin.clone() }))));
                 self.renaming = None;
             }

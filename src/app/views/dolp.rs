@@ -172,8 +172,8 @@ impl View for DolpView {
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
         let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
-        let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id))).collect();
-        self.residuals.refresh(key, marks, hidden, companions, cx);
+        let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id)));
+        self.residuals.refresh(key, marks, hidden, &companions.collect::<Vec<_>>(), cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {

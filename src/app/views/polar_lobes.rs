@@ -36,10 +36,12 @@ pub struct PolarLobesView {
     /// BRDF of each pinned surface.
     pinned: Memo<PinnedKey, Vec<Polyline>>,
     range: AutoRange,
-    /// Of the curves and pinned surfaces by their stamps; the radius, whether it is logarithmic and whether lobes are
-    /// filled; the language.
-    plot: FigurePlot<([u64; 2], Option<Range>, [bool; 2], Language)>,
+    plot: FigurePlot<PlotKey>,
 }
+
+/// Of the curves and pinned surfaces by their stamps; the radius, whether it is logarithmic and whether lobes are
+/// filled; the language.
+type PlotKey = ([u64; 2], Option<Range>, [bool; 2], Language);
 
 /// Parameters, model, θi, plane.
 type CurveKey = (Parameters, Model, f64, f64);

@@ -37,7 +37,7 @@ type PlotKey = (u64, Vec<bool>, (u64, Vec<CompanionId>), Range, Option<Range>, L
 const EXACT: f64 = 0.01;
 
 impl ResidualStrip {
-    pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, companions: Vec<Companion<'_>>, cx: &Cx<'_>) {
+    pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, companions: &[Companion<'_>], cx: &Cx<'_>) {
         let (surface, document) = (cx.work.surface(), cx.work.active());
         let key = (surface.parameters, surface.model, document.plotted);
         self.of_series.refresh(key, |_| of_all(surface, document));

@@ -33,10 +33,12 @@ pub struct ResidualsAgainstAngleView {
     of_fit: bool,
     residuals: Memo<(Parameters, Model, u64), Vec<QuantityResiduals>>,
     ranges: [AutoRange; 2],
-    /// Of the residuals and the companions by their stamps; whether the backscatter side is drawn; the axes; the
-    /// language.
-    plot: FigurePlot<([u64; 2], bool, [Option<Range>; 2], Language)>,
+    plot: FigurePlot<PlotKey>,
 }
+
+/// Of the residuals and the companions by their stamps; whether the backscatter side is drawn; the axes; the
+/// language.
+type PlotKey = ([u64; 2], bool, [Option<Range>; 2], Language);
 
 /// Residuals of one measured quantity.
 struct QuantityResiduals {
