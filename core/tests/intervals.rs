@@ -173,6 +173,27 @@ fn the_unit_of_the_brdf_changes_nothing() {
 }
 
 #[test]
+fn weights_far_below_their_bounds_have_intervals_too() {
+    const UNIT: f64 = 1e-44;
+    let data = simulated(CAUCHY, STEEL, true, Columns::Brdf, [0.0, 0.02], 5);
+    let mut faint = data.clone();
+    for row in &mut faint.rows {
+        row.brdf.as_mut().expect("BRDF is simulated").value *= UNIT;
+    }
+    let run = |data: &Measurement| {
+        let held = [Parameter::N, Parameter::K, Parameter::C, Parameter::SigmaV];
+        held.into_iter().fold(Fit::new(data, CAUCHY), |fit, held| fit.fix(held, STEEL[held])).run().expect("a valid fit")
+    };
+    // The bounds of the weights are those of ever: 45 decades above the values.
+    let (one, other) = (run(&data), run(&faint));
+    for weight in [Parameter::Ks, Parameter::Kd, Parameter::Kv] {
+        let (one, other) = (interval68(&one, weight), interval68(&other, weight));
+        let is_same = |one: Option<f64>, other: Option<f64>| near(other, one.expect("a closed side") * UNIT, END);
+        assert!(is_same(one.low, other.low) && is_same(one.high, other.high), "{weight:?}: {one:?} {other:?}");
+    }
+}
+
+#[test]
 fn dolp_and_brdf_together_are_weighted_by_their_own_variances() {
     let data = simulated(CAUCHY, STEEL, true, Columns::Both, [0.004, 0.03], 6);
     let result = fitted(&data);

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 /// Below this objective the relative misfit is 1e-13, which is rounding.
 pub(crate) const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
-/// The part of its upper bound that the origin of the logarithm of a weight lies below 0.
+/// The part of its upper bound above which a weight is followed by factors.
 const WEIGHT_ORIGIN: f64 = 1e-9;
 
 /// Origin of the logarithm of a parameter with logarithmic steps; none where steps are linear.
@@ -39,14 +39,12 @@ impl Problem {
         parameters
     }
 
-    /// Origin of the logarithm in which a parameter by itself is followed; weights, which the height of the specular peak may make
-    /// small by many decades, have theirs below 0 by a part of their bound.
-    fn straight_origin(&self, unknown: usize) -> Option<f64> {
+    /// Part of the bound of a weight above which the weight is followed by factors, and below which by steps: the height of the specular
+    /// peak may make weights small by many decades. None for other parameters.
+    fn even_part(&self, unknown: usize) -> Option<f64> {
         let parameter = self.free()[unknown];
-        match parameter {
-            Parameter::Ks | Parameter::Kd | Parameter::Kv => Some(-WEIGHT_ORIGIN * self.bounds().of(parameter).1),
-            _ => origin(parameter),
-        }
+        let is_weight = matches!(parameter, Parameter::Ks | Parameter::Kd | Parameter::Kv);
+        is_weight.then(|| (WEIGHT_ORIGIN * self.bounds().of(parameter).1).max(f64::MIN_POSITIVE))
     }
 
     /// σ²/h, one over the peak height of the specular lobe.
@@ -128,11 +126,19 @@ impl LeastSquares for Problem {
     }
 
     fn straight(&self, unknown: usize, value: f64) -> f64 {
-        self.straight_origin(unknown).map_or(value, |origin| libm::log(value - origin))
+        match (self.even_part(unknown), origin(self.free()[unknown])) {
+            (Some(even), _) => libm::log1p(value / even),
+            (None, Some(origin)) => libm::log(value - origin),
+            (None, None) => value,
+        }
     }
 
     fn at_straight(&self, unknown: usize, coordinate: f64) -> f64 {
-        self.straight_origin(unknown).map_or(coordinate, |origin| origin + libm::exp(coordinate))
+        match (self.even_part(unknown), origin(self.free()[unknown])) {
+            (Some(even), _) => even * libm::expm1(coordinate),
+            (None, Some(origin)) => origin + libm::exp(coordinate),
+            (None, None) => coordinate,
+        }
     }
 
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
