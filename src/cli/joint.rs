@@ -10,7 +10,7 @@ use crate::cli::watched::Watched;
 use crate::report::{English, FITTED_COLUMNS, ResultColumn, ResultTable, fitted_cells, joint_json};
 use pbrdf::fit::{JointProblem, JointResult, UnknownName as _};
 use pbrdf::measurement::{Measurement, append_columns, write_measurements};
-use pbrdf::model::{ParameterSet, Pbrdf};
+use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -85,7 +85,7 @@ fn print(
     problem: &JointProblem,
     result: &JointResult,
 ) -> io::Result<()> {
-    let keys = |set: ParameterSet| set.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(", ");
+    let keys = |set: ParameterSet| set.iter().map(Parameter::key).collect::<Vec<_>>().join(", ");
     let own = result.model.parameters().intersection(problem.own());
     let own = if own.is_empty() { "all parameters shared".to_owned() } else { format!("own {}", keys(own)) };
     let (used, all) =

@@ -104,7 +104,7 @@ impl<P: FitProblem> Analysis<P> {
 
 impl Analysis<Problem> {
     /// Of a result, which says the same.
-    pub(crate) fn of_result(problem: &Problem, result: &FitResult) -> Self {
+    pub(crate) fn of_result(problem: &Problem, result: FitResult) -> Self {
         Self {
             x: problem.unknowns_of(&result.parameters),
             objective: result.objective,
@@ -112,7 +112,7 @@ impl Analysis<Problem> {
             stop_reason: result.stop_reason,
             statistics: result.statistics,
             uncertainty: result.band.uncertainty().clone(),
-            course: result.course.clone(),
+            course: result.course,
         }
     }
 

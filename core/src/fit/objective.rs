@@ -4,60 +4,15 @@
 
 use crate::fit::bounds::Bounds;
 use crate::fit::loss::robust_scale;
-use crate::fit::observations::{Datum, Kind, Observations, UnstatedSigma};
+use crate::fit::observations::{Datum, Kind, Observations};
 use crate::fit::options::{BrdfResiduals, FitOptions, Loss, Weights};
+use crate::fit::problem_error::ProblemError;
 use crate::measurement::Measurement;
 use crate::model::batch::surface_row::{MeasuredDolp, dolp_misfits};
 use crate::model::{DolpFormula, GeometrySet, Model, Parameter, ParameterSet, Parameters, Pbrdf, PerParameter, Radiances};
 use nalgebra::{DMatrix, DVector};
 use std::cell::Cell;
 use std::sync::Arc;
-
-/// Why data, model and options make no problem.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ProblemError {
-    /// A stated standard deviation is needed and missing.
-    #[error("the value of {quantity} has no {quantity}_sigma, which weights by standard deviation need")]
-    MissingSigma {
-        /// Index of the row in the measurement.
-        row: usize,
-        /// `dolp` or `brdf`.
-        quantity: &'static str,
-    },
-    /// No measured quantity that the model predicts.
-    #[error("the model predicts DoLP only, and no DoLP is measured")]
-    NothingToPredict,
-    /// A free parameter starts outside its bounds.
-    #[error("{} = {value} is outside its bounds {low} … {high}", .parameter.key())]
-    StartOutsideBounds {
-        /// Which parameter.
-        parameter: Parameter,
-        /// Where it starts.
-        value: f64,
-        /// Lower bound.
-        low: f64,
-        /// Upper bound.
-        high: f64,
-    },
-}
-
-impl ProblemError {
-    /// What to do about it, where there is more to say than the error says.
-    #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::MissingSigma { .. } => Some("state all standard deviations, or fit without weights"),
-            Self::NothingToPredict => Some("choose a model with a BRDF, such as specular"),
-            Self::StartOutsideBounds { .. } => None,
-        }
-    }
-}
-
-impl From<UnstatedSigma> for ProblemError {
-    fn from(UnstatedSigma { row, quantity }: UnstatedSigma) -> Self {
-        Self::MissingSigma { row, quantity }
-    }
-}
 
 /// A measurement, a model and what may change.
 ///

@@ -3,7 +3,7 @@
 use crate::fit::design::candidates::CandidateGrid;
 use crate::fit::design::prediction::NoiseModel;
 use crate::fit::estimate::symbols;
-use crate::fit::objective::ProblemError;
+use crate::fit::problem_error::ProblemError;
 use crate::measurement::Row;
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use crate::optics::GeometryError;

@@ -73,7 +73,7 @@ pub struct Profile<N = Parameter> {
 /// far as they came, and [`crate::fit::Course::intervals_complete`] says so.
 #[must_use]
 pub fn with_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>) -> FitResult {
-    let (analysis, intervals) = profile_all(problem, Analysis::of_result(problem, &result), observer);
+    let (analysis, intervals) = profile_all(problem, Analysis::of_result(problem, result), observer);
     let mut result = analysis.into_result(problem);
     if let Some(intervals) = intervals {
         set_intervals(&result.fitted(problem), &mut result, &intervals);
@@ -114,7 +114,7 @@ pub(crate) fn profile_all<P: FitProblem>(
 /// Follows the profile of a free parameter of a finished fit; it ends early, with what it has, when it is cancelled.
 #[must_use]
 pub fn profile(problem: &Problem, result: &FitResult, parameter: Parameter, observer: Observer<'_>) -> Profile {
-    profile_of(problem, &Analysis::of_result(problem, result), &parameter, observer)
+    profile_of(problem, &Analysis::of_result(problem, result.clone()), &parameter, observer)
 }
 
 /// The same of any problem.

@@ -26,7 +26,7 @@ impl JointProblem {
         }
         let knows_only_ratios = match set {
             // A shared k_s that other data determine takes the place of k_d and k_v even where there is DoLP alone.
-            Some(part) => self.parts()[part].knows_only_ratios() && !(is_free(Parameter::Ks) && !self.knows_only_ratios()),
+            Some(part) => self.parts()[part].knows_only_ratios() && (self.knows_only_ratios() || !is_free(Parameter::Ks)),
             None => self.knows_only_ratios(),
         };
         match self.unknowns()[unknown].parameter {

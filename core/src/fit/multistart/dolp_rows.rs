@@ -257,9 +257,7 @@ mod tests {
     #[test]
     fn the_lanes_are_the_scalar_least_squares() {
         let rows = 13;
-        let mut alone = Radiances::default();
-        alone.dolp = numbers(2.0_f64.sqrt(), rows);
-        alone.specular = numbers(3.0_f64.sqrt(), rows);
+        let alone = Radiances { dolp: numbers(2.0_f64.sqrt(), rows), specular: numbers(3.0_f64.sqrt(), rows), ..Radiances::default() };
         let diffuse = vec![numbers(0.7, rows), numbers(0.31, rows), vec![0.0; 13]];
         let volume = vec![numbers(0.47, rows), numbers(0.11, rows), numbers(0.7, rows)];
         for brightness in [0.3, 0.8, 1.5] {
