@@ -258,7 +258,7 @@ fn compare_lists_the_ladder_and_skips_what_cannot_predict() {
 fn compare_gives_its_verdict_in_a_sentence_and_none_between_perfect_fits() {
     let folder = Folder::new();
     let two = folder.file("two.csv", "theta_i,theta_r,dolp\n40,45,0.06\n60,60,0.15\n");
-    let zeros: String = (2..=6).map(|i| format!("30,{0}0,0\n45,{0}0,0\n60,{0}0,0\n", i)).collect();
+    let zeros: String = (2..=6).map(|i| format!("30,{i}0,0\n45,{i}0,0\n60,{i}0,0\n")).collect();
     let zeros = folder.file("zeros.csv", format!("theta_i,theta_r,dolp\n{zeros}"));
     for data in [&two, &zeros] {
         let table = answer(&["compare", data, "--models", "gauss,cauchy"]);
