@@ -4,30 +4,9 @@ use super::doubt::Doubt;
 use super::heading::{ColumnHeading, Meaning};
 use super::layout::Section;
 use super::options::TableOptions;
+use super::planned_column::PlannedColumn;
 use super::vocabulary::{Measure, measure};
 use crate::measurement::{BrdfMeaning, Channel, ColumnChoice, ColumnPlace, Field, Polarimeter, ReadError, ReadErrorKind, Unit};
-
-/// A column with what it is taken for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlannedColumn {
-    /// Its name; its number where the table has no header.
-    pub name: String,
-    /// What it holds; none for a column that is not used.
-    pub field: Option<Field>,
-    /// The unit of its cells.
-    pub unit: Unit,
-    /// Whether the file states the unit.
-    pub states_unit: bool,
-    /// Angle of incidence of its values in degrees, in a wide table.
-    pub theta_i: Option<f64>,
-    /// Angle of view of its values in degrees, in a wide table.
-    pub theta_r: Option<f64>,
-    /// Wavelength of its values in nm, in a wide table.
-    pub wavelength_nm: Option<f64>,
-    /// How sure the meaning is.
-    score: u8,
-    is_brdf: bool,
-}
 
 /// A column of values, and that of their standard deviations.
 pub(crate) type ValueColumns = (usize, Option<usize>);
@@ -515,23 +494,5 @@ impl Plan {
         {
             self.doubts.push(Doubt::BrdfMeaning { name: self.columns[index].name.clone() });
         }
-    }
-}
-
-/// Where the values of a column were measured.
-impl PlannedColumn {
-    /// What the column is taken for, in words: `theta_i in degrees`, `dolp in percent at 450 nm`.
-    #[must_use]
-    pub fn description(&self) -> String {
-        let Some(field) = self.field else { return "not used".to_owned() };
-        let unit = field.unit_names().iter().find(|(_, unit)| *unit == self.unit).map(|(name, _)| format!(" in {name}"));
-        let place = |name: &str, value: Option<f64>, unit: &str| value.map(|value| format!(" at {name}{value}{unit}")).unwrap_or_default();
-        format!(
-            "{field}{}{}{}{}",
-            unit.filter(|_| !(field == Field::Dolp && self.unit == Unit::Native)).unwrap_or_default(),
-            place("θi = ", self.theta_i, "°"),
-            place("θr = ", self.theta_r, "°"),
-            place("", self.wavelength_nm, " nm")
-        )
     }
 }
