@@ -1,27 +1,8 @@
 //! What the cell of a header says: a meaning, a unit, and where its values were measured.
 
-use super::heading_meaning::meaning_of;
+use super::heading_meaning::{Meaning, meaning_of};
 use super::vocabulary::{Measure, Word, before_error, meanings, measure, normalised, words};
 use crate::measurement::{BrdfMeaning, Channel, Field};
-
-/// What a column may hold by its heading.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Meaning {
-    /// A field.
-    Field(Field),
-    /// An angle of no particular ray.
-    Angle,
-    /// A Mueller element by the indices of the heading, and whether it is its standard deviation.
-    Mueller { row: u8, column: u8, is_sigma: bool },
-    /// Stokes I, Q, U or V, if the others are there.
-    Letter(char),
-    /// A standard deviation of no particular quantity.
-    Sigma,
-    /// A value of no particular quantity.
-    Value,
-    /// Nothing that is known, or known to be nothing that is used.
-    Unknown,
-}
 
 /// Where the values of a column were measured, as far as its heading says so.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

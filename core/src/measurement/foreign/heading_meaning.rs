@@ -1,8 +1,26 @@
 //! What the words of a heading mean.
 
-use super::heading::Meaning;
 use super::vocabulary::{Word, meanings};
 use crate::measurement::{BrdfMeaning, Field};
+
+/// What a column may hold by its heading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// A field.
+    Field(Field),
+    /// An angle of no particular ray.
+    Angle,
+    /// A Mueller element by the indices of the heading, and whether it is its standard deviation.
+    Mueller { row: u8, column: u8, is_sigma: bool },
+    /// Stokes I, Q, U or V, if the others are there.
+    Letter(char),
+    /// A standard deviation of no particular quantity.
+    Sigma,
+    /// A value of no particular quantity.
+    Value,
+    /// Nothing that is known, or known to be nothing that is used.
+    Unknown,
+}
 
 /// The meaning of the words of a heading, how sure it is, and what a BRDF is.
 pub(crate) fn meaning_of(words: &[String]) -> (Meaning, u8, Option<BrdfMeaning>) {

@@ -5,7 +5,8 @@
 
 use super::dialect::Separator;
 use super::grid::{CellGrid, split};
-use super::heading::{ColumnHeading, Meaning};
+use super::heading::ColumnHeading;
+use super::heading_meaning::Meaning;
 use super::number::ReadCell;
 use super::title::{Title, strip_mark};
 use super::vocabulary::measure;

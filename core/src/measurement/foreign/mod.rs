@@ -29,7 +29,7 @@ use super::Field;
 /// The field that the name of a column means, in any laboratory.
 pub(crate) fn field_of(name: &str) -> Option<Field> {
     match heading::ColumnHeading::new(name).meaning {
-        heading::Meaning::Field(field) => Some(field),
+        heading_meaning::Meaning::Field(field) => Some(field),
         _ => None,
     }
 }

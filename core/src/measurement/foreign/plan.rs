@@ -1,7 +1,8 @@
 //! Stage 4 of a foreign table: columns with meaning and unit, and what is in doubt.
 
 use super::doubt::Doubt;
-use super::heading::{ColumnHeading, Meaning};
+use super::heading::ColumnHeading;
+use super::heading_meaning::Meaning;
 use super::layout::Section;
 use super::options::TableOptions;
 use super::planned_column::PlannedColumn;

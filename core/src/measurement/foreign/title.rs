@@ -1,7 +1,8 @@
 //! What a line of text says about the rows below: an angle, a wavelength, a sample, a quantity.
 
 use super::dialect::Dialect;
-use super::heading::{At, ColumnHeading, Meaning};
+use super::heading::{At, ColumnHeading};
+use super::heading_meaning::Meaning;
 use super::number::ReadCell;
 use super::vocabulary::{Measure, Word, meanings, normalised, words};
 use crate::measurement::{BrdfMeaning, Field};
