@@ -263,20 +263,36 @@ impl Serialize for ByKey<'_> {
     }
 }
 
+/// How many fields [`serialize_summary`] writes.
+pub(crate) const SUMMARY_FIELDS: usize = 10;
+
+/// What the JSON of a fit says before its parameters, whether of one measurement or of several.
+pub(crate) fn serialize_summary<S: SerializeStruct, P>(
+    out: &mut S,
+    model: Model,
+    objective: Option<f64>,
+    stop_reason: StopReason,
+    statistics: &Statistics,
+    course: &Course<P>,
+) -> Result<(), S::Error> {
+    out.serialize_field("distribution", model.distribution.key())?;
+    out.serialize_field("objective", &objective)?;
+    out.serialize_field("sum_of_squares", &statistics.rss)?;
+    out.serialize_field("chi2", &statistics.chi2)?;
+    out.serialize_field("dof", &statistics.dof)?;
+    out.serialize_field("aicc", &statistics.aicc)?;
+    out.serialize_field("stop_reason", &stop_reason)?;
+    out.serialize_field("evaluations", &course.evaluations)?;
+    out.serialize_field("elapsed_ms", &course.elapsed_ms)?;
+    out.serialize_field("intervals_ms", &course.intervals_ms)?;
+    Ok(())
+}
+
 impl Serialize for FitResult {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { statistics, course, .. } = self;
-        let mut result = serializer.serialize_struct("FitResult", 15)?;
-        result.serialize_field("distribution", self.model.distribution.key())?;
-        result.serialize_field("objective", &self.objective)?;
-        result.serialize_field("sum_of_squares", &statistics.rss)?;
-        result.serialize_field("chi2", &statistics.chi2)?;
-        result.serialize_field("dof", &statistics.dof)?;
-        result.serialize_field("aicc", &statistics.aicc)?;
-        result.serialize_field("stop_reason", &self.stop_reason)?;
-        result.serialize_field("evaluations", &course.evaluations)?;
-        result.serialize_field("elapsed_ms", &course.elapsed_ms)?;
-        result.serialize_field("intervals_ms", &course.intervals_ms)?;
+        let mut result = serializer.serialize_struct("FitResult", SUMMARY_FIELDS + 5)?;
+        serialize_summary(&mut result, self.model, self.objective, self.stop_reason, statistics, course)?;
         result.serialize_field("parameters", &ByKey(&self.estimates))?;
         result.serialize_field("undetermined", &self.undetermined)?;
         result.serialize_field("correlations", &self.correlations)?;

@@ -6,9 +6,8 @@
 
 use crate::fit::joint::problem::JointProblem;
 use crate::fit::least_squares::LeastSquares;
-use crate::fit::local::reparametrisation::{ROUNDING_OBJECTIVE, origin};
+use crate::fit::local::reparametrisation::{ROUNDING_OBJECTIVE, Unknowns, local_bounds, moved};
 use crate::model::Parameter;
-use crate::optics::SlopeDistribution;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -80,36 +79,16 @@ impl LeastSquares for JointProblem {
     }
 
     fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
-        for &i in moving {
-            let parameter = self.unknowns()[i].parameter;
-            let Some(origin) = origin(parameter) else { continue };
-            jacobian.column_mut(i).scale_mut(x[i] - origin);
-            // ∂ln(σ²/h) by the coordinate.
-            let slope = match parameter {
-                Parameter::Sigma => 2.0,
-                Parameter::Q if self.model().distribution == SlopeDistribution::Cauchy => -1.0,
-                _ => continue,
-            };
-            for &j in moving {
-                let weight_exponent = self.weight_exponent(j);
-                if weight_exponent != 0 && x[j] != 0.0 && self.is_coupled(j, i) {
-                    let along = -slope * f64::from(weight_exponent) * x[j];
-                    let weight = jacobian.column(j).clone_owned();
-                    jacobian.column_mut(i).axpy(along, &weight, 1.0);
-                }
-            }
-        }
+        let unknowns = Unknowns {
+            distribution: self.model().distribution,
+            parameter: &|unknown| self.unknowns()[unknown].parameter,
+            weight_exponent: &|weight, by| if self.is_coupled(weight, by) { self.weight_exponent(weight) } else { 0 },
+        };
+        unknowns.to_local(x, moving, jacobian);
     }
 
     fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
-        let (low, high) = self.bounds_of(unknown);
-        match origin(self.unknowns()[unknown].parameter) {
-            Some(origin) => {
-                let size = x[unknown] - origin;
-                (libm::log((low - origin) / size), libm::log((high - origin) / size))
-            }
-            None => (low - x[unknown], high - x[unknown]),
-        }
+        local_bounds(self.unknowns()[unknown].parameter, x[unknown], self.bounds_of(unknown))
     }
 
     fn straight(&self, unknown: usize, value: f64) -> f64 {
@@ -125,10 +104,7 @@ impl LeastSquares for JointProblem {
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);
         for (&j, step) in moving.iter().zip(step) {
-            out[j] = match origin(self.unknowns()[j].parameter) {
-                Some(origin) => origin + (x[j] - origin) * libm::exp(*step),
-                None => x[j] + step,
-            };
+            out[j] = moved(self.unknowns()[j].parameter, x[j], *step);
         }
         let (from, to) = (self.parameters_of(x), self.parameters_of(out));
         for &j in moving {

@@ -9,7 +9,7 @@ use crate::fit::intervals::profile::{Profile, profile_of, set_interval};
 use crate::fit::joint::problem::JointProblem;
 use crate::fit::joint::unknown::JointUnknown;
 use crate::fit::observer::Observer;
-use crate::fit::result::{ByKey, Correlations, Course, FitResult, Statistics};
+use crate::fit::result::{ByKey, Correlations, Course, FitResult, SUMMARY_FIELDS, Statistics, serialize_summary};
 use crate::fit::stop_reason::StopReason;
 use crate::model::{Model, Parameter, Parameters};
 use serde::ser::SerializeStruct as _;
@@ -223,17 +223,8 @@ impl fmt::Display for JointResult {
 impl Serialize for JointResult {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { statistics, course, .. } = self;
-        let mut result = serializer.serialize_struct("JointResult", 16)?;
-        result.serialize_field("distribution", self.model.distribution.key())?;
-        result.serialize_field("objective", &self.objective)?;
-        result.serialize_field("sum_of_squares", &statistics.rss)?;
-        result.serialize_field("chi2", &statistics.chi2)?;
-        result.serialize_field("dof", &statistics.dof)?;
-        result.serialize_field("aicc", &statistics.aicc)?;
-        result.serialize_field("stop_reason", &self.stop_reason)?;
-        result.serialize_field("evaluations", &course.evaluations)?;
-        result.serialize_field("elapsed_ms", &course.elapsed_ms)?;
-        result.serialize_field("intervals_ms", &course.intervals_ms)?;
+        let mut result = serializer.serialize_struct("JointResult", SUMMARY_FIELDS + 6)?;
+        serialize_summary(&mut result, self.model, self.objective, self.stop_reason, statistics, course)?;
         result.serialize_field("parameters", &ByKey(&self.shared))?;
         result.serialize_field("sets", &self.sets)?;
         result.serialize_field("undetermined", &self.undetermined)?;

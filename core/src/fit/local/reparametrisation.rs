@@ -63,6 +63,54 @@ impl Problem {
     }
 }
 
+/// What local coordinates need to know of the unknowns, whether of one measurement or of several.
+pub(crate) struct Unknowns<'a> {
+    pub distribution: SlopeDistribution,
+    /// Which parameter an unknown is.
+    pub parameter: &'a dyn Fn(usize) -> Parameter,
+    /// Exponent e such that the first unknown, a weight, times (σ²/h)^e is held constant when the second one, σ or q, moves; 0 for
+    /// unknowns that are not coupled.
+    pub weight_exponent: &'a dyn Fn(usize, usize) -> i32,
+}
+
+impl Unknowns<'_> {
+    /// See [`LeastSquares::to_local`].
+    pub(crate) fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
+        for &i in moving {
+            let parameter = (self.parameter)(i);
+            let Some(origin) = origin(parameter) else { continue };
+            jacobian.column_mut(i).scale_mut(x[i] - origin);
+            // ∂ln(σ²/h) by the coordinate.
+            let slope = match parameter {
+                Parameter::Sigma => 2.0,
+                Parameter::Q if self.distribution == SlopeDistribution::Cauchy => -1.0,
+                _ => continue,
+            };
+            for &j in moving {
+                let weight_exponent = (self.weight_exponent)(j, i);
+                if weight_exponent != 0 && x[j] != 0.0 {
+                    let along = -slope * f64::from(weight_exponent) * x[j];
+                    let weight = jacobian.column(j).clone_owned();
+                    jacobian.column_mut(i).axpy(along, &weight, 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// The least and the largest step of a parameter's local coordinate that stay within its bounds.
+pub(crate) fn local_bounds(parameter: Parameter, value: f64, (low, high): (f64, f64)) -> (f64, f64) {
+    match origin(parameter) {
+        Some(origin) => (libm::log((low - origin) / (value - origin)), libm::log((high - origin) / (value - origin))),
+        None => (low - value, high - value),
+    }
+}
+
+/// The value that a step of the local coordinate leads to.
+pub(crate) fn moved(parameter: Parameter, value: f64, step: f64) -> f64 {
+    origin(parameter).map_or(value + step, |origin| origin + (value - origin) * libm::exp(step))
+}
+
 impl LeastSquares for Problem {
     fn residual_count(&self) -> usize {
         self.len()
@@ -93,36 +141,16 @@ impl LeastSquares for Problem {
     }
 
     fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {
-        for &i in moving {
-            let parameter = self.free()[i];
-            let Some(origin) = origin(parameter) else { continue };
-            jacobian.column_mut(i).scale_mut(x[i] - origin);
-            // ∂ln(σ²/h) by the coordinate.
-            let slope = match parameter {
-                Parameter::Sigma => 2.0,
-                Parameter::Q if self.model().distribution == SlopeDistribution::Cauchy => -1.0,
-                _ => continue,
-            };
-            for &j in moving {
-                let weight_exponent = self.weight_exponent(self.free()[j]);
-                if weight_exponent != 0 && x[j] != 0.0 {
-                    let along = -slope * f64::from(weight_exponent) * x[j];
-                    let weight = jacobian.column(j).clone_owned();
-                    jacobian.column_mut(i).axpy(along, &weight, 1.0);
-                }
-            }
-        }
+        let unknowns = Unknowns {
+            distribution: self.model().distribution,
+            parameter: &|unknown| self.free()[unknown],
+            weight_exponent: &|weight, _| self.weight_exponent(self.free()[weight]),
+        };
+        unknowns.to_local(x, moving, jacobian);
     }
 
     fn local_bounds(&self, x: &DVector<f64>, unknown: usize) -> (f64, f64) {
-        let (low, high) = self.bounds_of(unknown);
-        match origin(self.free()[unknown]) {
-            Some(origin) => {
-                let size = x[unknown] - origin;
-                (libm::log((low - origin) / size), libm::log((high - origin) / size))
-            }
-            None => (low - x[unknown], high - x[unknown]),
-        }
+        local_bounds(self.free()[unknown], x[unknown], self.bounds_of(unknown))
     }
 
     fn straight(&self, unknown: usize, value: f64) -> f64 {
@@ -144,10 +172,7 @@ impl LeastSquares for Problem {
     fn retract(&self, x: &DVector<f64>, moving: &[usize], step: &[f64], out: &mut DVector<f64>) {
         out.copy_from(x);
         for (&j, step) in moving.iter().zip(step) {
-            out[j] = match origin(self.free()[j]) {
-                Some(origin) => origin + (x[j] - origin) * libm::exp(*step),
-                None => x[j] + step,
-            };
+            out[j] = moved(self.free()[j], x[j], *step);
         }
         let flatter = self.inverse_peak_height(&self.parameters_at(out)) / self.inverse_peak_height(&self.parameters_at(x));
         for &j in moving {
