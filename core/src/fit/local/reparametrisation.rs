@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 pub(crate) const ROUNDING_OBJECTIVE: f64 = 1e-26;
 
 /// The part of its upper bound above which a weight is followed by factors.
-const WEIGHT_ORIGIN: f64 = 1e-9;
+const EVEN_PART_OF_WEIGHT: f64 = 1e-9;
 
 /// Origin of the logarithm of a parameter with logarithmic steps; none where steps are linear.
 pub(crate) fn origin(parameter: Parameter) -> Option<f64> {
@@ -44,7 +44,7 @@ impl Problem {
     fn even_part(&self, unknown: usize) -> Option<f64> {
         let parameter = self.free()[unknown];
         let is_weight = matches!(parameter, Parameter::Ks | Parameter::Kd | Parameter::Kv);
-        is_weight.then(|| (WEIGHT_ORIGIN * self.bounds().of(parameter).1).max(f64::MIN_POSITIVE))
+        is_weight.then(|| (EVEN_PART_OF_WEIGHT * self.bounds().of(parameter).1).max(f64::MIN_POSITIVE))
     }
 
     /// σ²/h, one over the peak height of the specular lobe.

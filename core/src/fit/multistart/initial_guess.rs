@@ -119,18 +119,12 @@ struct Grid<'a> {
     fitted: [bool; 3],
 }
 
-/// Diffuse lobes of each c, volume lobes of each σ_v, and their pairs.
-struct Lobes {
-    diffuse: LobeColumns,
-    volume: LobeColumns,
-    pairs: LobePairs,
-}
-
-impl Lobes {
-    fn new(diffuse: LobeColumns, volume: LobeColumns) -> Self {
-        let pairs = LobePairs::new(&diffuse, &volume);
-        Self { diffuse, volume, pairs }
-    }
+/// Diffuse lobes of each c and volume lobes of each σ_v, as the least squares take them.
+enum Lobes {
+    /// Of DoLP.
+    Pairs(LobePairs),
+    /// Of the BRDF.
+    Columns { diffuse: LobeColumns, volume: LobeColumns },
 }
 
 impl<'a> Grid<'a> {
@@ -173,10 +167,10 @@ impl<'a> Grid<'a> {
             }
         }
         let volume = self.volume();
-        let shared = (self.problem.model().diffuse != Diffuse::Hyde).then(|| Lobes::new(self.diffuse(&self.base), volume.clone()));
+        let shared = (self.problem.model().diffuse != Diffuse::Hyde).then(|| self.lobes(&self.base, &volume));
         let all = |point: &Parameters| match &shared {
             Some(lobes) => self.guesses_of(point, lobes),
-            None => self.guesses_of(point, &Lobes::new(self.diffuse(point), volume.clone())),
+            None => self.guesses_of(point, &self.lobes(point, &volume)),
         };
         #[cfg(feature = "threads")]
         {
@@ -185,6 +179,14 @@ impl<'a> Grid<'a> {
         }
         #[cfg(not(feature = "threads"))]
         optics.iter().flat_map(all).collect()
+    }
+
+    fn lobes(&self, optics: &Parameters, volume: &LobeColumns) -> Lobes {
+        let diffuse = self.diffuse(optics);
+        match self.kind {
+            Kind::Dolp => Lobes::Pairs(LobePairs::new(&diffuse, volume)),
+            _ => Lobes::Columns { diffuse, volume: volume.clone() },
+        }
     }
 
     /// The weight of a lobe in the columns of the least squares: 1 where it is fitted.
@@ -224,20 +226,23 @@ impl<'a> Grid<'a> {
             return shapes.map(|parameters| Guess { misfit: f64::INFINITY, parameters }).collect();
         };
         let ranges = self.ranges();
-        if self.kind == Kind::Dolp {
-            let solved = DolpRows::new(&self.measured, &specular).solve(ranges, &lobes.pairs);
-            let guess = |(parameters, solved): (Parameters, Solved)| Guess {
-                misfit: solved.misfit,
-                parameters: self.with_weights(parameters, [0.0, solved.kd, solved.kv]),
-            };
-            shapes.zip(solved).map(guess).collect()
-        } else {
-            let relative: Vec<f64> = specular.specular.iter().zip(&self.measured).map(|(s, measured)| s / measured).collect();
-            let guess = |(parameters, normal): (Parameters, BoxLeastSquares)| {
-                let weights = normal.minimum();
-                Guess { misfit: normal.value(weights), parameters: self.with_weights(parameters, weights) }
-            };
-            shapes.zip(brdf_normals(ranges, &relative, lobes)).map(guess).collect()
+        match lobes {
+            Lobes::Pairs(pairs) => {
+                let solved = DolpRows::new(&self.measured, &specular).solve(ranges, pairs);
+                let guess = |(parameters, solved): (Parameters, Solved)| Guess {
+                    misfit: solved.misfit,
+                    parameters: self.with_weights(parameters, [0.0, solved.kd, solved.kv]),
+                };
+                shapes.zip(solved).map(guess).collect()
+            }
+            Lobes::Columns { diffuse, volume } => {
+                let relative: Vec<f64> = specular.specular.iter().zip(&self.measured).map(|(s, measured)| s / measured).collect();
+                let guess = |(parameters, normal): (Parameters, BoxLeastSquares)| {
+                    let weights = normal.minimum();
+                    Guess { misfit: normal.value(weights), parameters: self.with_weights(parameters, weights) }
+                };
+                shapes.zip(brdf_normals(ranges, &relative, diffuse, volume)).map(guess).collect()
+            }
         }
     }
 
@@ -309,7 +314,7 @@ impl<'a> Grid<'a> {
 
 /// The normal equations of relative differences of the BRDF for each pair of lobes, given the specular lobe relative to what is measured:
 /// products of columns, each formed once.
-fn brdf_normals(ranges: [(f64, f64); 3], specular: &[f64], Lobes { diffuse, volume, .. }: &Lobes) -> Vec<BoxLeastSquares> {
+fn brdf_normals(ranges: [(f64, f64); 3], specular: &[f64], diffuse: &LobeColumns, volume: &LobeColumns) -> Vec<BoxLeastSquares> {
     // Each relative difference is one less the sum of the lobes.
     let sum = |column: &[f64]| column.iter().sum::<f64>();
     #[expect(clippy::cast_precision_loss, reason = "a number of rows")]
