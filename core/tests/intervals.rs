@@ -240,6 +240,16 @@ fn a_robust_loss_has_the_errors_of_its_sandwich() {
 }
 
 #[test]
+fn evaluations_are_those_of_the_search_with_and_without_intervals() {
+    let evaluations = |data: &Measurement, intervals| Fit::new(data, CAUCHY).intervals(intervals).run().expect("a fit").course.evaluations;
+    // Of the second surface the data say little: its walks are long.
+    for name in ["k0.csv", "steel15.csv"] {
+        let data = data(name);
+        assert_eq!(evaluations(&data, Intervals::Profile), evaluations(&data, Intervals::Linear), "{name}");
+    }
+}
+
+#[test]
 fn cancelled_intervals_say_that_they_are_incomplete() {
     let data = simulated(Model::full(Gauss), STEEL, false, Columns::Dolp, [0.005, 0.0], 1);
     let fit = Fit::new(&data, Model::full(Gauss)).intervals(pbrdf::fit::Intervals::Linear);

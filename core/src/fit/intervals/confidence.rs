@@ -22,7 +22,6 @@ pub(crate) struct Profiles {
     pub points: Vec<Vec<ProfileFit>>,
     /// The best point of each walk that came below the minimum, the lowest first.
     pub better: Vec<ProfileFit>,
-    pub evaluations: usize,
     /// Whether all walks came to their ends.
     pub is_complete: bool,
 }
@@ -30,7 +29,7 @@ pub(crate) struct Profiles {
 impl Profiles {
     /// Nothing is known of so many unknowns.
     pub(crate) fn open(count: usize) -> Self {
-        Self { ends: vec![[[None; 2]; 2]; count], points: vec![Vec::new(); count], better: Vec::new(), evaluations: 0, is_complete: true }
+        Self { ends: vec![[[None; 2]; 2]; count], points: vec![Vec::new(); count], better: Vec::new(), is_complete: true }
     }
 }
 
@@ -79,7 +78,6 @@ fn better<P: LeastSquares>(at: &Landmarks<'_, P>, walks: &[Walk<'_, P>]) -> Vec<
 fn collect<P: LeastSquares>(at: &Landmarks<'_, P>, unknowns: &[usize], walks: Vec<Walk<'_, P>>) -> Profiles {
     let mut found = Profiles {
         better: better(at, &walks),
-        evaluations: walks.iter().map(|walk| walk.evaluations).sum(),
         is_complete: walks.iter().all(|walk| !walk.is_incomplete),
         ..Profiles::open(at.minimum.x.len())
     };

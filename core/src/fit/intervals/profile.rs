@@ -96,7 +96,6 @@ pub(crate) fn profile_all<P: FitProblem>(
         }
         let all: Vec<usize> = (0..fitted.names().len()).collect();
         let found = profiles_of(&fitted, &analysis, &all, observer);
-        analysis.course.evaluations += found.evaluations;
         let is_settled = found.better.is_empty() || round == MOST_MINIMA || (observer.cancelled)();
         if !found.better.is_empty() {
             analysis = with_better_minimum(&fitted, analysis, &found.better, observer);
@@ -193,8 +192,8 @@ fn with_better_minimum<P: FitProblem>(fitted: &P, analysis: Analysis<P>, better:
         trace: Vec::new(),
         path: Vec::new(),
     };
-    let evaluations = followed.iter().map(|further| further.evaluations).sum::<usize>();
-    let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations + evaluations };
+    // Those of the search, like its time.
+    let mut found = MultistartResult { basins: Vec::new(), evaluations: course.evaluations };
     let before = LocalFit { trace: course.trace, path: course.path, evaluations: course.evaluations, ..known(fitted.point_at(&x)) };
     for further in followed {
         found.merge(Basin { local_fit: before.clone().followed_by(further), hits: 1 });

@@ -72,7 +72,6 @@ pub(crate) struct Walk<'a, P> {
     pub points: Vec<ProfileFit>,
     /// Where the limits are crossed; none where the bound comes first.
     pub ends: [Option<f64>; 2],
-    pub evaluations: usize,
     /// Whether the walk was cancelled or gave up.
     pub is_incomplete: bool,
 }
@@ -81,7 +80,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     pub(crate) fn new(at: &'a Landmarks<'a, P>, unknown: usize, upwards: bool, rises: [f64; 2], error: Option<f64>) -> Self {
         let (low, high) = at.problem.bounds_of(unknown);
         let bound = if upwards { high } else { low };
-        Self { at, unknown, bound, rises, error, points: vec![at.minimum.clone()], ends: [None; 2], evaluations: 0, is_incomplete: false }
+        Self { at, unknown, bound, rises, error, points: vec![at.minimum.clone()], ends: [None; 2], is_incomplete: false }
     }
 
     /// Walks outwards from a point, the minimum or one farther out that is known to lie below a limit.
@@ -285,7 +284,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     }
 
     /// The best fit with the unknown held at a value, from the best of some starts.
-    fn held_fit(&mut self, value: f64, starts: &[DVector<f64>]) -> ProfileFit {
+    fn held_fit(&self, value: f64, starts: &[DVector<f64>]) -> ProfileFit {
         let held = Held { problem: self.at.problem, unknown: self.unknown, value };
         let mut residuals = DVector::zeros(held.residual_count());
         let mut best: Option<(f64, DVector<f64>)> = None;
@@ -300,19 +299,17 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
                 best = Some((sum, x));
             }
         }
-        self.evaluations += starts.len();
         let start = best.map_or_else(|| self.at.minimum.x.clone(), |best| best.1);
         self.descend(value, start, f64::NEG_INFINITY)
     }
 
-    fn descend(&mut self, value: f64, mut start: DVector<f64>, target: f64) -> ProfileFit {
+    fn descend(&self, value: f64, mut start: DVector<f64>, target: f64) -> ProfileFit {
         start[self.unknown] = value;
         let held = Held { problem: self.at.problem, unknown: self.unknown, value };
         let tolerance = ACCURACY * self.rises[0] / self.at.minimum.sum_of_squares.max(self.rises[0]);
         let limits = Limits { evaluations: PATIENCE * (start.len() + 1), tolerance, target, ..LIMITS };
         let mut recorder = Recorder::new(&start, Observer { progress: &|_| {}, ..self.at.observer });
         BoundedLm::new(&held, &start).run(limits, &mut recorder);
-        self.evaluations += recorder.evaluations();
         ProfileFit { x: recorder.best().clone(), sum_of_squares: recorder.sum_of_squares() }
     }
 }
