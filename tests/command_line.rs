@@ -482,3 +482,69 @@ fn several_measurements_that_do_not_go_together_are_refused_in_a_sentence() {
         assert!(message.contains(sentence), "{message}");
     }
 }
+
+#[test]
+fn joint_fits_have_profiles_bootstrap_report_and_figure() {
+    let folder = Folder::new();
+    let [blue, red] = two_wavelengths(&folder);
+    let [report, figure] = ["report.md", "figure.svg"].map(|name| folder.path(name).display().to_string());
+    let fit = ["fit", &blue, &red, "--model", "specular", "--own", "n,k", "--json"];
+    let more = ["--profile", "n", "--bootstrap", "20", "--report", &report, "--figure", &figure];
+    let json: Value = serde_json::from_str(&answer(&[&fit[..], &more].concat())).expect("JSON");
+    // Of an own parameter, the profile of each measurement; it is the interval of the fit.
+    for (set, name) in ["n@blue.csv", "n@red.csv"].into_iter().enumerate() {
+        let (profile, interval) = (&json["profile"][name], &json["sets"][set]["parameters"]["n"]["interval68"]);
+        for (end, of_fit) in [("low", 0), ("high", 1)] {
+            let [one, other] = [&profile[end], &interval[of_fit]].map(|end| end.as_f64().expect("an end"));
+            // Both end where the same sum of squares is met, to the tolerance of that search.
+            assert!((one / other - 1.0).abs() < 1e-3, "{name}: {profile} {interval}");
+        }
+        let scatter = json["bootstrap"]["parameters"][name]["std_error"].as_f64().expect("an error");
+        let error = json["sets"][set]["parameters"]["n"]["std_error"].as_f64().expect("an error");
+        // Twenty replicates know their scatter to 16 %, and the residuals of twelve rows are few.
+        assert!((0.3..3.0).contains(&(scatter / error)), "{scatter} {error}");
+    }
+    assert_eq!((&json["bootstrap"]["replicates"], &json["complete"]), (&Value::from(20), &Value::Null));
+    let text = std::fs::read_to_string(&report).expect("the fit wrote it");
+    for part in ["# Joint fit of 2 measurements", "Each measurement has its own n, k", "## Data: red.csv", "report-dolp-2.svg"] {
+        assert!(text.contains(part), "{part} is missing in {text}");
+    }
+    assert!(folder.path("report-dolp-1.svg").exists() && folder.path("report-dolp-2.svg").exists());
+    let svg = std::fs::read_to_string(&figure).expect("the fit wrote it");
+    assert_eq!(svg.matches("<g transform=").count(), 2, "a figure for each measurement");
+    let refused = refusal(&[&fit[..], &["--fix", "q", "--profile", "q"]].concat());
+    assert!(refused.contains("q is not free in this fit and has no profile."), "{refused}");
+}
+
+#[test]
+fn a_joint_comparison_gives_the_verdict_and_ends_above_no_special_case() {
+    let folder = Folder::new();
+    let [blue, red] = two_wavelengths(&folder);
+    let figure = folder.path("figure.svg").display().to_string();
+    let compare = ["compare", &blue, &red, "--models", "specular,specular-gauss,gauss,cauchy", "--own", "n,k"];
+    let text = answer(&[&compare[..], &["--figure", &figure]].concat());
+    assert!(text.contains("\nspecular-gauss and specular: ") && text.contains("\ngauss and cauchy: "), "{text}");
+    assert!(std::fs::read_to_string(&figure).expect("a figure").contains("<g transform="));
+    let json: Value = serde_json::from_str(&answer(&[&compare[..], &["--json"]].concat())).expect("JSON");
+    let objective = |model: &str| {
+        let fit = json["fits"].as_array().expect("fits").iter().find(|fit| fit["model"] == model).expect("a fit");
+        fit["objective"].as_f64().expect("a number")
+    };
+    // A thousandth of a percent is where a search ends in a flat valley.
+    for (general, special) in [("gauss", "specular-gauss"), ("cauchy", "specular"), ("cauchy", "gauss"), ("specular", "specular-gauss")] {
+        assert!(objective(general) <= objective(special) * (1.0 + 1e-5), "{general} {special}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_joint_fit_says_that_it_is_incomplete() {
+    let folder = Folder::new();
+    let [blue, red] = two_wavelengths(&folder);
+    let (code, json) = interrupted(&["fit", &blue, &red, "--own", "n,k", "--starts", "1000000", "--json"], "-INT");
+    assert_eq!((code, &json["complete"]), (Some(130), &Value::from(false)));
+    assert!(json["objective"].is_f64());
+    let (code, json) = interrupted(&["compare", &blue, &red, "--own", "n,k", "--starts", "100000", "--json"], "-INT");
+    assert_eq!((code, &json["complete"]), (Some(130), &Value::from(false)));
+    assert!(json["fits"].as_array().expect("fits").iter().any(|fit| fit["skipped"].is_string()));
+}

@@ -265,3 +265,35 @@ mod as_png {
         assert!(svg_of(panel(Vec::new())).contains("</svg>"));
     }
 }
+
+#[test]
+fn a_sheet_has_its_figures_in_a_grid() {
+    let of = |title: &str| Figure {
+        title: title.to_owned(),
+        panels: vec![panel(vec![Series::line("model", vec![[0.0, 0.2], [90.0, 0.4]])])],
+        ..Figure::default()
+    };
+    let sheet = Figure::sheet("", vec![of("one"), of("two"), of("three")], 2);
+    let svg = sheet.svg();
+    let document = Document::parse(&svg).unwrap();
+    let page = document.root_element();
+    let side = |name: &str| page.attribute(name).and_then(|mm| mm.strip_suffix("mm")).and_then(|mm| mm.parse::<f64>().ok()).unwrap();
+    // Lengths have two decimals.
+    assert!((side("width") - sheet.width_mm).abs() < 0.01 && (side("height") - sheet.height_mm).abs() < 0.01);
+    let places: Vec<(f64, f64)> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("g"))
+        .map(|group| {
+            let inside = group.attribute("transform").unwrap().trim_start_matches("translate(").trim_end_matches(')');
+            let (x, y) = inside.split_once(' ').unwrap();
+            (x.parse().unwrap(), y.parse().unwrap())
+        })
+        .collect();
+    // Two beside each other, the third below the first.
+    assert_eq!((places.len(), places[0], places[1].1, places[2].0), (3, (0.0, 0.0), 0.0, 0.0));
+    assert!(places[1].0 > 0.0 && places[2].1 > 0.0);
+    let labels = labels(&document);
+    assert!(["one", "two", "three"].iter().all(|title| labels.contains(title)), "{labels:?}");
+    // One figure alone is no sheet.
+    assert_eq!(Figure::sheet("", vec![of("one")], 2), of("one"));
+}

@@ -126,6 +126,9 @@ pub struct CompareArguments {
     /// Print the results as a table for a paper: a row for each parameter, a column for each measurement and model.
     #[arg(long, value_name = "FORM", value_parser = values::table_format(), conflicts_with = "json")]
     pub table: Option<TableFormat>,
+    /// File for a figure: a panel for each measurement, its points and the curves of all models; .svg, or .png at 300 dots an inch.
+    #[arg(long, value_name = "FILE.svg|.png", value_parser = values::picture_file)]
+    pub figure: Option<PathBuf>,
 }
 
 /// What `fit` and `compare` have in common.

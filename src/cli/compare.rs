@@ -1,28 +1,27 @@
 //! `compare`: the ladder of models on one measurement, from the same starts and from the best fits of their special cases.
 
 use crate::cli::arguments::CompareArguments;
+use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
 use crate::cli::problem::{NoProblem, check, fitted, problem_of};
 use crate::cli::sets::{MeasurementSets, NamedMeasurement};
+use crate::cli::verdict::{INTERRUPTED, NOT_REACHED, PAIRS, verdict_text};
 use crate::cli::watched::Watched;
 use crate::cli::{compare_joint, interrupt, output};
-use crate::report::{English, ResultColumn, ResultTable, fit_json};
+use crate::figure::Figure;
+use crate::report::{ComparedMeasurement, English, ResultColumn, ResultTable, comparison_figure, fit_json};
 use pbrdf::fit::{
-    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, Verdict, ends_text, special_cases_first,
+    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, ends_text, special_cases_first,
     with_special_cases,
 };
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, PRESETS, Parameter, Preset};
-use pbrdf::optics::SlopeDistribution;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A model with its fit, or why there is none.
 type ModelResult = (&'static Preset, Result<(Problem, FitResult), String>);
-
-/// Presets that differ by their distribution alone: Gauss, Cauchy.
-const PAIRS: [(&str, &str); 2] = [("gauss", "cauchy"), ("specular-gauss", "specular")];
 
 pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
@@ -33,6 +32,7 @@ pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     }
     let ladders: Vec<Vec<ModelResult>> = sets.all.iter().map(|set| ladder(arguments, &sets, set)).collect::<Result<_, _>>()?;
     let is_complete = !interrupt::asked();
+    write_figure(arguments.figure.as_deref(), || figure(&sets, &ladders))?;
     if arguments.json {
         let fits: Vec<Value> = sets.all.iter().zip(&ladders).flat_map(|(set, results)| json_of(&sets, set, results)).collect();
         let mut json = json!({ "fits": fits });
@@ -46,7 +46,7 @@ pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     } else {
         for (set, results) in sets.all.iter().zip(&ladders) {
             // A fit that was stopped on its way is worth no verdict.
-            let verdicts = if is_complete { verdicts(results) } else { vec!["Interrupted: the comparison is not complete.".to_owned()] };
+            let verdicts = if is_complete { verdicts(results) } else { vec![INTERRUPTED.to_owned()] };
             output::write(None, |out| {
                 if sets.all.len() > 1 {
                     writeln!(out, "{}", set.name)?;
@@ -82,6 +82,21 @@ fn columns(sets: &MeasurementSets, set: &NamedMeasurement, results: &[ModelResul
     let title = |preset: &Preset| if sets.all.len() > 1 { format!("{}, {}", set.name, preset.key) } else { preset.key.to_owned() };
     let fits = results.iter().filter_map(|(preset, result)| Some((preset, &result.as_ref().ok()?.1)));
     fits.map(|(preset, fit)| ResultColumn::single(title(preset), fit, rows)).collect()
+}
+
+/// The measurements with the curves of all models.
+fn figure(sets: &MeasurementSets, ladders: &[Vec<ModelResult>]) -> Option<Figure> {
+    let of = |results: &Vec<ModelResult>| {
+        let fits = results.iter().filter_map(|(preset, result)| Some((*preset, &result.as_ref().ok()?.1)));
+        fits.map(|(preset, fit)| (preset, fit.model, fit.parameters)).collect::<Vec<_>>()
+    };
+    let models = ladders.iter().map(of);
+    let measurement = |(set, models)| {
+        let NamedMeasurement { name, measurement, .. }: &NamedMeasurement = set;
+        ComparedMeasurement { name: name.clone(), measurement, models }
+    };
+    let measurements: Vec<ComparedMeasurement<'_>> = sets.all.iter().zip(models).map(measurement).collect();
+    comparison_figure(&measurements)
 }
 
 /// The ladder of models on one measurement.
@@ -122,7 +137,7 @@ fn results(presets: &[&'static Preset], problems: &[Result<Problem, String>], ar
         fits[index] = Some(fitted(&problem, &arguments.problem, closures.as_watch()));
     }
     let result = |((preset, problem), fit): ((&&'static Preset, &Result<Problem, String>), Option<FitResult>)| {
-        let fit = problem.clone().and_then(|problem| Ok((problem, fit.ok_or("not reached before the interruption")?)));
+        let fit = problem.clone().and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?)));
         (*preset, fit)
     };
     presets.iter().zip(problems).zip(fits).map(result).collect()
@@ -136,11 +151,8 @@ fn verdicts(results: &[ModelResult]) -> Vec<String> {
         let closures = watched.watch();
         let ((problem, gauss_fit), (_, cauchy_fit)) = (of(gauss)?, of(cauchy)?);
         let contest = DistributionComparison::new(gauss_fit, cauchy_fit)?;
-        // Whether Cauchy wins by its width alone is a question where it wins.
-        let wins = contest.verdict() == Verdict::Closer(SlopeDistribution::Cauchy);
-        let held = wins.then(|| GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch())).flatten();
-        let held = held.map_or_else(String::new, |held| format!("\n{}", held.text(&contest)));
-        Some(format!("{gauss} and {cauchy}: {contest}{held}"))
+        let held = || GaussAtFixedSigma::new(problem, gauss_fit, cauchy_fit, closures.as_watch());
+        Some(verdict_text((gauss, cauchy), &contest, held))
     };
     PAIRS.iter().filter_map(verdict).collect()
 }

@@ -1,18 +1,20 @@
 //! `fit`: the model on a measurement.
 
 use crate::cli::arguments::FitArguments;
-use crate::cli::failure::{Failure, input_name, is_standard_input};
+use crate::cli::documents::{data_source, write_figure, write_report};
+use crate::cli::failure::{Failure, input_name};
 use crate::cli::fit_text::{NAME_WIDTH, notice_left_out, print_course, print_estimate, print_head, print_open};
 use crate::cli::problem::{check, fitted, joint_failure, model, own_parameters, problem};
+use crate::cli::scans::{add_scans, is_cut_short, print_cut_short, print_scans};
 use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
 use crate::cli::{interrupt, joint, output};
 use crate::files::export;
-use crate::report::{DataSource, English, FITTED_COLUMNS, FitDocument, ResultColumn, ResultTable, fit_json, fitted_cells};
-use pbrdf::fit::{Bootstrap, BootstrapEstimate, FitResult, JointError, Problem, Profile, StopReason, bootstrap, profile};
+use crate::report::{English, FITTED_COLUMNS, FitDocument, ResultColumn, ResultTable, fit_json, fitted_cells};
+use pbrdf::fit::{FitResult, JointError, Problem, Profile, bootstrap, profile};
 use pbrdf::measurement::{Measurement, append_columns};
 use pbrdf::model::Pbrdf;
-use serde_json::{Map, Value, json};
+use serde_json::json;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -54,7 +56,7 @@ fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCo
     write_documents(arguments, bytes, measurement, &problem, &report)?;
     if arguments.json {
         let mut json = fit_json(arguments.model, &report);
-        if is_cut_short(&report) {
+        if is_cut_short(report.stop_reason, &report.course) {
             json["complete"] = json!(false);
         }
         add_scans(&mut json, &profiles, scatter.as_ref());
@@ -72,11 +74,6 @@ fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCo
     Ok(output::exit_code())
 }
 
-/// Whether an interruption left the search or its intervals without their ends.
-fn is_cut_short(report: &FitResult) -> bool {
-    report.stop_reason == StopReason::Cancelled || interrupt::asked() && report.course.intervals_complete == Some(false)
-}
-
 /// The report and the figure that were asked for.
 fn write_documents(
     arguments: &FitArguments,
@@ -85,22 +82,11 @@ fn write_documents(
     problem: &Problem,
     report: &FitResult,
 ) -> Result<(), Failure> {
-    let path = &arguments.inputs[0];
-    let file_name = path.file_name().filter(|_| !is_standard_input(path));
-    let name = file_name.map_or_else(|| input_name(path), |name| name.to_string_lossy().into_owned());
-    let source = DataSource { name, sha256: Some(export::sha256(bytes)) };
+    let source = data_source(&arguments.inputs[0], bytes);
     let (program, date) = (export::program(), export::now());
     let fitted = FitDocument { measurement, source: &source, problem, report, program: &program, date: &date, words: &English };
-    if let Some(path) = &arguments.report {
-        let kind = export::report_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
-        export::write_report(path, kind, &fitted.document()).map_err(|error| Failure::output(path.display(), &error))?;
-    }
-    if let Some(path) = &arguments.figure {
-        let kind = export::picture_kind(path).map_err(|error| Failure::usage(error.to_string()))?;
-        let figure = fitted.figure().ok_or_else(|| Failure::usage("There is nothing to draw: no row has a value."))?;
-        export::write_picture(path, kind, &figure).map_err(|error| Failure::output(path.display(), &error))?;
-    }
-    Ok(())
+    write_report(arguments, || fitted.document())?;
+    write_figure(arguments.figure.as_deref(), || fitted.figure())
 }
 
 /// The report for a person.
@@ -117,58 +103,8 @@ fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measuremen
     print_course(out, arguments, (report.start_objective, report.objective), report.stop_reason, &report.course, &report.statistics)?;
     print_head(out, NAME_WIDTH)?;
     report.estimates.iter().try_for_each(|estimate| print_estimate(out, estimate.parameter.key(), NAME_WIDTH, estimate))?;
-    if is_cut_short(report) {
-        return writeln!(out, "\nInterrupted: this is the best so far; intervals that were not followed to their ends are not known.");
+    if is_cut_short(report.stop_reason, &report.course) {
+        return print_cut_short(out);
     }
     print_open(out, &report.statistics, !report.correlations.parameters.is_empty(), &report.describe_undetermined())
-}
-
-/// Profiles and bootstrap beside the agreed keys.
-fn add_scans(json: &mut Value, profiles: &[Profile], scatter: Option<&Bootstrap>) {
-    let Some(object) = json.as_object_mut() else { return };
-    if !profiles.is_empty() {
-        let of = |profile: &Profile| {
-            let Profile { points, interval68, interval95, is_complete, .. } = profile;
-            let (low, high) = (interval68.low, interval68.high);
-            let json = json!({ "low": low, "high": high, "interval95": interval95, "points": points, "complete": is_complete });
-            (profile.parameter.key().to_owned(), json)
-        };
-        object.insert("profile".to_owned(), Value::Object(profiles.iter().map(of).collect::<Map<_, _>>()));
-    }
-    if let Some(scatter) = scatter {
-        let of = |scatter: &BootstrapEstimate| {
-            (scatter.parameter.key().to_owned(), json!({ "std_error": scatter.std_error, "low": scatter.low, "high": scatter.high }))
-        };
-        let parameters = Value::Object(scatter.estimates.iter().map(of).collect::<Map<_, _>>());
-        let mut bootstrap = json!({ "replicates": scatter.replicates, "parameters": parameters });
-        if let Some(bootstrap) = bootstrap.as_object_mut().filter(|_| !scatter.is_complete()) {
-            bootstrap.insert("complete".to_owned(), json!(false));
-        }
-        object.insert("bootstrap".to_owned(), bootstrap);
-    }
-}
-
-fn print_scans(out: &mut dyn Write, profiles: &[Profile], scatter: Option<&Bootstrap>) -> io::Result<()> {
-    for profile in profiles {
-        let (open, note) = if profile.is_complete { ("open", "") } else { ("not known", " (interrupted)") };
-        let end = |end: Option<f64>| end.map_or_else(|| open.to_owned(), |value| format!("{value:.6}"));
-        writeln!(
-            out,
-            "\nprofile of {}: one-standard-error interval {} … {}{note}",
-            profile.parameter.key(),
-            end(profile.interval68.low),
-            end(profile.interval68.high)
-        )?;
-        for point in &profile.points {
-            writeln!(out, "  {:>14.8} sum of squares {:.6e}, ΔE {:.6e}", point.value, point.rss, point.objective)?;
-        }
-    }
-    let Some(scatter) = scatter else { return Ok(()) };
-    let (made, of) =
-        (scatter.replicates, if scatter.is_complete() { String::new() } else { format!(" of {}: interrupted", scatter.asked) });
-    writeln!(out, "\nbootstrap over {made} data sets{of}: standard deviation, 16th and 84th percentile")?;
-    for scatter in &scatter.estimates {
-        writeln!(out, "  {:<8} {:>12.3e} {:>14.8} {:>14.8}", scatter.parameter.key(), scatter.std_error, scatter.low, scatter.high)?;
-    }
-    Ok(())
 }

@@ -1,16 +1,20 @@
 //! `fit` on several measurements, with shared and own parameters.
 
 use crate::cli::arguments::FitArguments;
+use crate::cli::documents::{data_source, write_figure, write_report};
 use crate::cli::failure::Failure;
 use crate::cli::fit_text::{NAME_WIDTH, notice_left_out, number, print_course, print_estimate, print_head, print_open};
 use crate::cli::output;
 use crate::cli::problem::{check, fitted_jointly, joint_failure, joint_problem, model, own_parameters};
+use crate::cli::scans::{add_scans, is_cut_short, print_cut_short, print_scans};
 use crate::cli::sets::{MeasurementSets, NamedMeasurement};
 use crate::cli::watched::Watched;
-use crate::report::{English, FITTED_COLUMNS, ResultColumn, ResultTable, fitted_cells, joint_json};
-use pbrdf::fit::{JointProblem, JointResult, UnknownName as _};
+use crate::files::export;
+use crate::report::{DataSource, English, FITTED_COLUMNS, JointDocument, JointSource, ResultColumn, ResultTable, fitted_cells, joint_json};
+use pbrdf::fit::{JointProblem, JointResult, JointUnknown, UnknownName as _, bootstrap_jointly, profile_jointly};
 use pbrdf::measurement::{Measurement, append_columns, write_measurements};
 use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
+use serde_json::json;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -18,32 +22,67 @@ pub fn run(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode,
     check(&arguments.problem, sets)?;
     let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem));
     let problem = joint_problem(arguments.model, &arguments.problem, own, sets).map_err(|error| joint_failure(&error, sets))?;
-    if !arguments.profile.is_empty() || arguments.bootstrap.is_some() {
-        return Err(Failure::usage(
-            "A fit of several measurements takes no --profile and no --bootstrap; its intervals are profiled anyway.",
-        ));
-    }
+    let profiled = profiled(arguments, &problem)?;
     let left_out: usize = problem.parts().iter().map(pbrdf::fit::Problem::left_out).sum();
     notice_left_out(left_out);
     let watched = Watched::new("fitting");
     let watch = watched.watch();
     let result = fitted_jointly(&problem, &arguments.problem, watch.as_watch());
+    let profiles: Vec<_> = profiled.iter().map(|unknown| profile_jointly(&problem, &result, unknown, watch.as_watch())).collect();
+    let scatter = arguments.bootstrap.map(|count| bootstrap_jointly(&problem, &result, count, arguments.problem.seed, watch.as_watch()));
     drop(watch);
     drop(watched);
     write_fitted(arguments, sets, &result)?;
+    write_documents(arguments, sets, &problem, &result)?;
     if arguments.json {
         let sources: Vec<(String, usize)> =
             sets.all.iter().map(|set| (sets.path(set).display().to_string(), used(&set.measurement))).collect();
-        output::write_json(&joint_json(arguments.model, &result, &sources))?;
+        let mut json = joint_json(arguments.model, &result, &sources);
+        if is_cut_short(result.stop_reason, &result.course) {
+            json["complete"] = json!(false);
+        }
+        add_scans(&mut json, &profiles, scatter.as_ref());
+        output::write_json(&json)?;
     } else if let Some(format) = arguments.table {
         let column =
             |(index, set): (usize, &NamedMeasurement)| ResultColumn::of_set(set.name.clone(), &result, index, used(&set.measurement));
         let table = ResultTable { columns: sets.all.iter().enumerate().map(column).collect() };
         output::write(None, |out| write!(out, "{}", table.text(format, &English)))?;
     } else {
-        output::write(None, |out| print(out, arguments, sets, &problem, &result))?;
+        output::write(None, |out| {
+            print(out, arguments, sets, &problem, &result)?;
+            print_scans(out, &profiles, scatter.as_ref())
+        })?;
     }
     Ok(output::exit_code())
+}
+
+/// The unknowns whose profiles are asked for: of an own parameter, that of each measurement.
+fn profiled(arguments: &FitArguments, problem: &JointProblem) -> Result<Vec<JointUnknown>, Failure> {
+    let mut all = Vec::new();
+    for &parameter in &arguments.profile {
+        let before = all.len();
+        all.extend(problem.unknowns().iter().filter(|unknown| unknown.parameter == parameter).cloned());
+        if all.len() == before {
+            return Err(Failure::usage(format!("{} is not free in this fit and has no profile.", parameter.key())));
+        }
+    }
+    Ok(all)
+}
+
+/// The report and the figure that were asked for.
+fn write_documents(arguments: &FitArguments, sets: &MeasurementSets, problem: &JointProblem, report: &JointResult) -> Result<(), Failure> {
+    let origin = |set: &NamedMeasurement| data_source(sets.path(set), &sets.bytes[set.file]);
+    let origins: Vec<DataSource> = sets.all.iter().map(origin).collect();
+    let source = |(set, source)| {
+        let NamedMeasurement { name, measurement, .. }: &NamedMeasurement = set;
+        JointSource { name, measurement, source }
+    };
+    let sources: Vec<JointSource<'_>> = sets.all.iter().zip(&origins).map(source).collect();
+    let (program, date) = (export::program(), export::now());
+    let fitted = JointDocument { sources: &sources, problem, report, program: &program, date: &date, words: &English };
+    write_report(arguments, || fitted.document())?;
+    write_figure(arguments.figure.as_deref(), || fitted.figure())
 }
 
 /// Number of rows that are not masked.
@@ -107,6 +146,9 @@ fn print(
     writeln!(out, "\n{:<width$} {:>8} {:>14}", "", "rows", "ΔE")?;
     for (set, fitted) in sets.all.iter().zip(&result.sets) {
         writeln!(out, "{:<width$} {:>8} {:>14}", set.name, self::used(&set.measurement), number(fitted.objective))?;
+    }
+    if is_cut_short(result.stop_reason, &result.course) {
+        return print_cut_short(out);
     }
     print_open(out, &result.statistics, !result.correlations.parameters.is_empty(), &result.describe_undetermined())
 }

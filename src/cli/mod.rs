@@ -6,6 +6,7 @@
 mod arguments;
 mod compare;
 mod compare_joint;
+mod documents;
 mod draws;
 mod evaluate;
 mod failure;
@@ -23,9 +24,11 @@ mod plan;
 mod posterior;
 mod problem;
 mod report;
+mod scans;
 mod sets;
 mod simulate;
 mod values;
+mod verdict;
 mod watched;
 
 use arguments::{Arguments, Commands, ExportTarget};

@@ -89,6 +89,16 @@ impl<'a> Canvas<'a> {
         Self { font, missing, out }
     }
 
+    /// What follows, moved by so many points, until [`Self::end_group`].
+    pub fn begin_group(&mut self, right: f64, down: f64) {
+        self.write(format_args!("<g transform=\"translate({} {})\">\n", short(right), short(down)));
+    }
+
+    /// Ends what [`Self::begin_group`] began.
+    pub fn end_group(&mut self) {
+        self.write(format_args!("</g>\n"));
+    }
+
     /// A path of that data, if there is any.
     pub fn path(&mut self, data: &str, paint: Paint) {
         if data.is_empty() {

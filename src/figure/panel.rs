@@ -5,14 +5,17 @@ use crate::figure::heat_map::HeatMap;
 use crate::figure::palette::{Rgb, SERIES};
 use crate::figure::series::{Mark, Series};
 
-/// Panels under a title.
+/// Panels under a title, or figures side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Above everything; may be empty.
     pub title: String,
     /// In reading order.
     pub panels: Vec<Panel>,
-    /// Panels side by side.
+    /// Figures in the place of panels, each with a layout of its own, in reading order; see
+    /// [`Figure::sheet`].
+    pub figures: Vec<Self>,
+    /// Panels or figures side by side.
     pub columns: usize,
     /// Millimetres, 20 to 2000.
     pub width_mm: f64,
@@ -22,7 +25,7 @@ pub struct Figure {
 
 impl Default for Figure {
     fn default() -> Self {
-        Self { title: String::new(), panels: Vec::new(), columns: 1, width_mm: 160.0, height_mm: 105.0 }
+        Self { title: String::new(), panels: Vec::new(), figures: Vec::new(), columns: 1, width_mm: 160.0, height_mm: 105.0 }
     }
 }
 
@@ -59,12 +62,42 @@ impl Default for Panel {
     }
 }
 
+/// Width of a figure beside others, in millimetres: two fit on a page of A4.
+const CELL_WIDTH_MM: f64 = 95.0;
+/// Height of a figure beside others, relative to its height alone.
+const CELL_HEIGHT: f64 = 0.85;
+
 impl Figure {
+    /// Several figures as one, so many side by side; one alone stays as it is.
+    #[must_use]
+    pub fn sheet(title: &str, mut figures: Vec<Self>, columns: usize) -> Self {
+        if figures.len() == 1 {
+            let alone = figures.remove(0);
+            return if title.is_empty() { alone } else { Self { title: title.to_owned(), ..alone } };
+        }
+        let columns = columns.clamp(1, figures.len().max(1));
+        let (width, height) = if columns == 1 { (Self::default().width_mm, 1.0) } else { (CELL_WIDTH_MM, CELL_HEIGHT) };
+        for figure in &mut figures {
+            // A figure as high as wide stays so.
+            figure.height_mm = (height * figure.height_mm).min(figure.height_mm / figure.width_mm * width * 1.25);
+            figure.width_mm = width;
+        }
+        for row in figures.chunks_mut(columns) {
+            let highest = row.iter().map(|figure| figure.height_mm).fold(0.0, f64::max);
+            row.iter_mut().for_each(|figure| figure.height_mm = highest);
+        }
+        let height_mm = figures.chunks(columns).map(|row| row[0].height_mm).sum::<f64>();
+        #[expect(clippy::cast_precision_loss, reason = "a handful of figures")]
+        let width_mm = columns as f64 * width;
+        Self { title: title.to_owned(), figures, columns, width_mm, height_mm, ..Self::default() }
+    }
+
     /// With every text replaced by what `translate` makes of it; series of one name keep one name.
     #[must_use]
     pub fn translate(&self, translate: &dyn Fn(&str) -> String) -> Self {
         let panels = self.panels.iter().map(|panel| panel.translated(translate)).collect();
-        Self { title: translate(&self.title), panels, ..self.clone() }
+        let figures = self.figures.iter().map(|figure| figure.translate(translate)).collect();
+        Self { title: translate(&self.title), panels, figures, ..self.clone() }
     }
 }
 

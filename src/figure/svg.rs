@@ -1,6 +1,6 @@
 //! A figure as SVG.
 
-use crate::figure::canvas::{Anchor, Canvas, FAINT, INK, Missing, Paint, polyline, rectangle};
+use crate::figure::canvas::{Anchor, Canvas, FAINT, INK, Missing, POINTS_PER_MM, Paint, polyline, rectangle};
 use crate::figure::layout;
 use crate::figure::layout::{Frame, GAP, LABEL, LEGEND_LINE, LEGEND_SAMPLE, LETTER_HEIGHT, Placed, Ruled, SMALL, TICK, TITLE, place};
 use crate::figure::shapes::{draw, draw_color_bar, draw_sample};
@@ -24,12 +24,37 @@ impl Figure {
         let font = Font::new();
         let name = if figure.title.is_empty() { figure.panels.first().map_or("", |panel| panel.title.as_str()) } else { &figure.title };
         let mut canvas = Canvas::new(&font, missing, figure.width_mm, figure.height_mm, name);
-        let middle = 0.5 * figure.width_mm * crate::figure::canvas::POINTS_PER_MM;
-        canvas.text(&figure.title, TITLE, (middle, 2.0 * GAP + LETTER_HEIGHT * TITLE), Anchor::Middle, false, INK);
-        for (panel, placed) in figure.panels.iter().zip(place(&figure, &font)) {
-            draw_panel(&mut canvas, panel, &placed);
-        }
+        draw_figure(&mut canvas, &figure);
         canvas.finish()
+    }
+}
+
+/// Title and panels, or title and figures.
+fn draw_figure(canvas: &mut Canvas<'_>, figure: &Figure) {
+    let middle = 0.5 * figure.width_mm * POINTS_PER_MM;
+    canvas.text(&figure.title, TITLE, (middle, 2.0 * GAP + LETTER_HEIGHT * TITLE), Anchor::Middle, false, INK);
+    for (panel, placed) in figure.panels.iter().zip(place(figure, canvas.font)) {
+        draw_panel(canvas, panel, &placed);
+    }
+    let columns = figure.columns.max(1);
+    let rows: Vec<&[Figure]> = figure.figures.chunks(columns).collect();
+    let highest = |row: &[Figure]| row.iter().map(|cell| cell.height_mm).fold(0.0, f64::max);
+    let title = if figure.title.is_empty() { 0.0 } else { (TITLE + 2.0 * GAP) / POINTS_PER_MM };
+    let all: f64 = rows.iter().map(|row| highest(row)).sum();
+    let room = (figure.height_mm - title).max(SMALLEST);
+    let mut top = title;
+    for row in rows {
+        let height_mm = room * highest(row) / all.max(f64::MIN_POSITIVE);
+        #[expect(clippy::cast_precision_loss, reason = "a handful of figures")]
+        let width_mm = figure.width_mm / columns as f64;
+        for (column, cell) in row.iter().enumerate() {
+            #[expect(clippy::cast_precision_loss, reason = "a handful of figures")]
+            let left = column as f64 * width_mm;
+            canvas.begin_group(left * POINTS_PER_MM, top * POINTS_PER_MM);
+            draw_figure(canvas, &Figure { width_mm, height_mm, ..cell.clone() });
+            canvas.end_group();
+        }
+        top += height_mm;
     }
 }
 

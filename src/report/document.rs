@@ -24,8 +24,8 @@ pub enum DocumentPart {
     Quoted(Vec<(String, String)>),
     /// A figure with words under it.
     Picture {
-        /// Part of the name of its file, where it has one: letters and dashes.
-        name: &'static str,
+        /// Part of the name of its file, where it has one: letters, digits and dashes.
+        name: String,
         /// The words.
         caption: String,
         /// The figure.
@@ -108,9 +108,9 @@ impl ReportDocument {
     }
 
     /// The figures with their names.
-    pub fn figures(&self) -> impl Iterator<Item = (&'static str, &Figure)> {
+    pub fn figures(&self) -> impl Iterator<Item = (&str, &Figure)> {
         self.parts.iter().filter_map(|part| match part {
-            DocumentPart::Picture { name, figure, .. } => Some((*name, &**figure)),
+            DocumentPart::Picture { name, figure, .. } => Some((name.as_str(), &**figure)),
             _ => None,
         })
     }
@@ -206,7 +206,11 @@ mod tests {
                 DocumentPart::Paragraph(text()),
                 DocumentPart::List(vec![text()]),
                 DocumentPart::Table { head: vec![text()], rows: vec![vec![text()], Vec::new()] },
-                DocumentPart::Picture { name: "dolp", caption: text(), figure: Box::new(Figure { title: text(), ..Figure::default() }) },
+                DocumentPart::Picture {
+                    name: "dolp".to_owned(),
+                    caption: text(),
+                    figure: Box::new(Figure { title: text(), ..Figure::default() }),
+                },
             ],
         }
     }

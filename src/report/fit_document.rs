@@ -5,9 +5,11 @@ use crate::figure::{Figure, Panel};
 use crate::report::document::{DocumentPart, ReportDocument};
 use crate::report::fit_figures::FitFigures;
 use crate::report::language::ReportLanguage;
-use pbrdf::fit::{BrdfResiduals, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Interval, Loss, Problem, Weights};
+use pbrdf::fit::{
+    BrdfResiduals, Correlations, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Interval, Loss, Problem, UnknownName, Weights,
+};
 use pbrdf::measurement::{IncidenceSeries, Measurement};
-use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Pbrdf, Preset};
+use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Parameter, Pbrdf, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use pbrdf::rounding::{significant, trimmed};
 
@@ -68,8 +70,8 @@ impl FitDocument<'_> {
     }
 
     /// A figure with a caption.
-    fn picture(&self, name: &'static str, caption: String, figure: &Figure) -> DocumentPart {
-        DocumentPart::Picture { name, caption, figure: Box::new(figure.translate(&|text| self.words.label(text))) }
+    fn picture(&self, name: &str, caption: String, figure: &Figure) -> DocumentPart {
+        DocumentPart::Picture { name: name.to_owned(), caption, figure: Box::new(figure.translate(&|text| self.words.label(text))) }
     }
 
     /// The whole document.
@@ -84,10 +86,14 @@ impl FitDocument<'_> {
         parts.extend(self.data());
         parts.extend(self.model());
         parts.extend(self.audit());
-        parts.push(self.heading("Program"));
-        let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
-        parts.push(DocumentPart::Paragraph(format!("{}{date}.", self.program)));
+        parts.extend(self.made_by());
         ReportDocument { title: self.words.fill("Fit of {0}", &[&self.source.name]), language: self.words.language(), parts }
+    }
+
+    /// The program, and when.
+    pub(super) fn made_by(&self) -> Vec<DocumentPart> {
+        let date = if self.date.is_empty() { String::new() } else { format!(", {}", self.date) };
+        vec![self.heading("Program"), DocumentPart::Paragraph(format!("{}{date}.", self.program))]
     }
 
     /// One figure of data, fit and residuals: DoLP and, where it is measured and predicted, the BRDF
@@ -107,7 +113,7 @@ impl FitDocument<'_> {
         }
     }
 
-    fn used(&self) -> usize {
+    pub(super) fn used(&self) -> usize {
         self.measurement.rows.iter().filter(|row| !row.masked).count()
     }
 
@@ -128,7 +134,7 @@ impl FitDocument<'_> {
         self.words.fill(text, &[&self.used(), &rows, &reason, &before, &after, &course.evaluations, &format!("{:.0}", course.elapsed_ms)])
     }
 
-    fn figures(&self) -> Vec<DocumentPart> {
+    pub(super) fn figures(&self) -> Vec<DocumentPart> {
         let Ok(surface) = Pbrdf::new(self.report.model, self.report.parameters) else { return Vec::new() };
         let series = IncidenceSeries::of(&self.measurement.rows);
         let figures = FitFigures::new(&surface, &series);
@@ -242,18 +248,7 @@ impl FitDocument<'_> {
     }
 
     fn correlations(&self) -> Vec<DocumentPart> {
-        let names: Vec<String> = self.report.correlations.parameters.iter().map(|parameter| parameter.symbol().to_owned()).collect();
-        if names.len() < 2 {
-            return Vec::new();
-        }
-        let head = [String::new()].into_iter().chain(names.iter().cloned()).collect();
-        let cell = |value: &f64| if value.is_finite() { format!("{value:.3}") } else { "–".to_owned() };
-        let row = |(i, name): (usize, &String)| {
-            let cells = self.report.correlations.matrix.row(i).iter().map(cell).collect::<Vec<_>>();
-            [name.clone()].into_iter().chain(cells).collect()
-        };
-        let rows = names.iter().enumerate().map(row).collect();
-        vec![self.heading("Correlations of the determined parameters"), DocumentPart::Table { head, rows }]
+        correlation_parts(&self.report.correlations, self.words)
     }
 
     fn goodness(&self) -> Vec<DocumentPart> {
@@ -289,7 +284,7 @@ impl FitDocument<'_> {
         parts
     }
 
-    fn data(&self) -> Vec<DocumentPart> {
+    pub(super) fn data(&self) -> Vec<DocumentPart> {
         let measurement = self.measurement;
         let masked = measurement.rows.len() - self.used();
         let mut rows = vec![("file", self.source.name.clone())];
@@ -313,7 +308,7 @@ impl FitDocument<'_> {
         parts
     }
 
-    fn model(&self) -> Vec<DocumentPart> {
+    pub(super) fn model(&self) -> Vec<DocumentPart> {
         let model = self.report.model;
         let preset = Preset::of(model);
         let mut rows = vec![
@@ -364,7 +359,7 @@ impl FitDocument<'_> {
             DolpFormula::Consistent => "consistent: k_s in the numerator",
             DolpFormula::AsPrinted => "as printed: k_s missing from the numerator",
         };
-        let free: Vec<&str> = self.problem.free().iter().map(|parameter| parameter.symbol()).collect();
+        let free: Vec<&str> = self.problem.free().iter().map(|&parameter| Parameter::symbol(parameter)).collect();
         let mut rows = vec![("free parameters", free.join(", ")), ("weights", self.text(weights))];
         if self.measurement.has_brdf() {
             let brdf = if *dolp_only { self.text("not used: the model predicts DoLP only") } else { brdf };
@@ -395,6 +390,23 @@ impl FitDocument<'_> {
         let others = diffuse.into_iter().chain(model.volume.then_some("a volume term")).map(|term| self.text(term));
         self.words.list(&specular.into_iter().chain(others).collect::<Vec<_>>())
     }
+}
+
+/// Correlations as a table; nothing for fewer than two.
+pub(super) fn correlation_parts<N: UnknownName>(correlations: &Correlations<N>, words: &dyn ReportLanguage) -> Vec<DocumentPart> {
+    let names: Vec<String> = correlations.parameters.iter().map(|parameter| parameter.symbol().into_owned()).collect();
+    if names.len() < 2 {
+        return Vec::new();
+    }
+    let head = [String::new()].into_iter().chain(names.iter().cloned()).collect();
+    let cell = |value: &f64| if value.is_finite() { format!("{value:.3}") } else { "–".to_owned() };
+    let row = |(i, name): (usize, &String)| {
+        let cells = correlations.matrix.row(i).iter().map(cell).collect::<Vec<_>>();
+        [name.clone()].into_iter().chain(cells).collect()
+    };
+    let rows = names.iter().enumerate().map(row).collect();
+    let heading = DocumentPart::Heading(words.text("Correlations of the determined parameters"));
+    vec![heading, DocumentPart::Table { head, rows }]
 }
 
 /// A check in words.

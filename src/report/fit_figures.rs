@@ -7,7 +7,7 @@ use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 
 /// Largest number of series: more cannot be told apart.
-const MOST_SERIES: usize = SERIES.len();
+pub(super) const MOST_SERIES: usize = SERIES.len();
 /// Largest number of points of one series and quantity.
 const MOST_POINTS: usize = 2000;
 /// Largest θr in degrees at which curves count for the range of an axis: a Minnaert lobe diverges at
@@ -133,16 +133,16 @@ impl<'a> FitFigures<'a> {
     }
 }
 
-fn points(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> f64) -> Vec<[f64; 2]> {
+pub(super) fn points(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> f64) -> Vec<[f64; 2]> {
     curve.iter().map(|point| [point.theta_r, value(point)]).collect()
 }
 
-fn highest_of(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> f64) -> f64 {
+pub(super) fn highest_of(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> f64) -> f64 {
     curve.iter().filter(|point| point.theta_r.abs() <= SETS_AXES).map(value).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
 /// Upper end of an error bar.
-fn top(mark: &DataPoint) -> f64 {
+pub(super) fn top(mark: &DataPoint) -> f64 {
     mark.quantity.value + mark.quantity.sigma.unwrap_or(0.0)
 }
 
@@ -151,7 +151,7 @@ fn thinned(marks: &[DataPoint]) -> impl Iterator<Item = &DataPoint> {
 }
 
 /// Points with error bars, and the masked ones hollow and grey.
-fn measured_series(group: &IncidenceSeries, marks: &[DataPoint], color: Rgb) -> Vec<Series> {
+pub(super) fn measured_series(group: &IncidenceSeries, marks: &[DataPoint], color: Rgb) -> Vec<Series> {
     let of = |masked: bool| -> Vec<Point> {
         let marks = thinned(marks).filter(|mark| mark.masked == masked);
         let point = |mark: &DataPoint| {

@@ -1,6 +1,6 @@
 //! The language of a report.
 
-use pbrdf::fit::{StopReason, Undetermined};
+use pbrdf::fit::{JointUnknown, StopReason, Undetermined};
 use pbrdf::model::Finding;
 use pbrdf::selftest::BenchmarkMethod;
 use std::fmt::Display;
@@ -21,6 +21,9 @@ pub trait ReportLanguage {
 
     /// What data leave open.
     fn undetermined(&self, what: &Undetermined) -> String;
+
+    /// What the data of several measurements leave open.
+    fn undetermined_jointly(&self, what: &Undetermined<JointUnknown>) -> String;
 
     /// Why a finding of the audit is as it is.
     fn finding(&self, finding: &Finding) -> String;
@@ -71,6 +74,10 @@ impl ReportLanguage for English {
     }
 
     fn undetermined(&self, what: &Undetermined) -> String {
+        what.to_string()
+    }
+
+    fn undetermined_jointly(&self, what: &Undetermined<JointUnknown>) -> String {
         what.to_string()
     }
 

@@ -17,6 +17,8 @@ pub enum TableFormat {
     Markdown,
     /// For a paper, with the rules of the package `booktabs`.
     Latex,
+    /// For a screen: cells alone.
+    Plain,
 }
 
 /// A fit in a table.
@@ -110,10 +112,34 @@ enum Number {
     None,
 }
 
+/// The texts of a table.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ResultCells {
+    /// Names of the columns; the first one, of the names, is empty.
+    pub head: Vec<String>,
+    /// The cells of each row, its name first.
+    pub rows: Vec<Vec<String>>,
+    /// The row from which on the quality of the fits is stated.
+    pub first_of_goodness: usize,
+    /// What the marks mean.
+    pub notes: Vec<String>,
+}
+
 impl ResultTable {
     /// In that form and language.
     #[must_use]
     pub fn text(&self, format: TableFormat, words: &dyn ReportLanguage) -> String {
+        let (writer, cells) = self.written(format, words);
+        writer.table(&cells)
+    }
+
+    /// The cells in plain text; a mark is a letter in brackets.
+    #[must_use]
+    pub fn cells(&self, words: &dyn ReportLanguage) -> ResultCells {
+        self.written(TableFormat::Plain, words).1
+    }
+
+    fn written(&self, format: TableFormat, words: &dyn ReportLanguage) -> (Writer, ResultCells) {
         let parameters: Vec<Parameter> = Parameter::ALL.into_iter().filter(|&parameter| self.has(parameter)).collect();
         let writer = Writer { format, used: self.marks(&parameters) };
         let mut rows: Vec<Vec<String>> = parameters.iter().map(|&parameter| self.row(parameter, &writer)).collect();
@@ -134,7 +160,7 @@ impl ResultTable {
         let head: Vec<String> =
             std::iter::once(String::new()).chain(self.columns.iter().map(|column| writer.plain(&column.title))).collect();
         let notes: Vec<String> = writer.used.iter().map(|&mark| writer.note(mark, words)).collect();
-        writer.table(&head, &rows, first_of_goodness, &notes)
+        (writer, ResultCells { head, rows, first_of_goodness, notes })
     }
 
     fn has(&self, parameter: Parameter) -> bool {
@@ -255,7 +281,7 @@ impl Writer {
         }
         let letters = marks.iter().map(|&mark| self.letter(mark).to_string()).collect::<Vec<_>>().join(",");
         match self.format {
-            TableFormat::Csv => format!(" [{}]", letters.replace(',', "")),
+            TableFormat::Csv | TableFormat::Plain => format!(" [{}]", letters.replace(',', "")),
             TableFormat::Markdown => format!("<sup>{letters}</sup>"),
             TableFormat::Latex => format!("\\textsuperscript{{{letters}}}"),
         }
@@ -266,6 +292,7 @@ impl Writer {
         let letter = self.letter(mark);
         match self.format {
             TableFormat::Csv => format!("# [{letter}] {note}"),
+            TableFormat::Plain => format!("[{letter}] {note}"),
             TableFormat::Markdown => format!("<sup>{letter}</sup> {note}"),
             TableFormat::Latex => format!("\\textsuperscript{{{letter}}}~{note}"),
         }
@@ -275,7 +302,7 @@ impl Writer {
     fn plain(&self, text: &str) -> String {
         let line: String = text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
         match self.format {
-            TableFormat::Csv => line,
+            TableFormat::Csv | TableFormat::Plain => line,
             TableFormat::Markdown => escaped(&line, |letter| {
                 Some(match letter {
                     '<' => "&lt;".to_owned(),
@@ -299,6 +326,7 @@ impl Writer {
     fn symbol(&self, parameter: Parameter) -> String {
         match self.format {
             TableFormat::Csv => parameter.key().to_owned(),
+            TableFormat::Plain => parameter.symbol().to_owned(),
             TableFormat::Markdown => self.plain(parameter.symbol()),
             TableFormat::Latex => {
                 let symbol = match parameter {
@@ -349,10 +377,11 @@ impl Writer {
         }
     }
 
-    fn table(&self, head: &[String], rows: &[Vec<String>], first_of_goodness: usize, notes: &[String]) -> String {
+    fn table(&self, cells: &ResultCells) -> String {
+        let ResultCells { head, rows, first_of_goodness, notes } = cells;
         let mut lines: Vec<String> = Vec::new();
         match self.format {
-            TableFormat::Csv => {
+            TableFormat::Csv | TableFormat::Plain => {
                 let line = |cells: &[String]| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
                 lines.push(format!("parameter{}", line(head)));
                 lines.extend(rows.iter().map(|row| line(row)));
@@ -372,9 +401,9 @@ impl Writer {
                 lines.push("% \\usepackage{booktabs}".to_owned());
                 lines.push(format!("\\begin{{tabular}}{{l{}}}", "r".repeat(head.len() - 1)));
                 lines.extend(["\\toprule".to_owned(), line(head), "\\midrule".to_owned()]);
-                lines.extend(rows[..first_of_goodness].iter().map(|row| line(row)));
+                lines.extend(rows[..*first_of_goodness].iter().map(|row| line(row)));
                 lines.push("\\midrule".to_owned());
-                lines.extend(rows[first_of_goodness..].iter().map(|row| line(row)));
+                lines.extend(rows[*first_of_goodness..].iter().map(|row| line(row)));
                 lines.extend(["\\bottomrule".to_owned(), "\\end{tabular}".to_owned()]);
                 if !notes.is_empty() {
                     lines.push(format!("\n\\smallskip\n{{\\footnotesize {}.}}", notes.join("; ")));

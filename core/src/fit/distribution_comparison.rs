@@ -11,10 +11,14 @@
 //! (σ, q): with σ held at Cauchy's σ, and at the σ of equal median slope, where peak and tail differ: Cauchy has more flat and more steep
 //! facets, and fewer between.
 
+use crate::fit::joint::builder::fit_jointly;
+use crate::fit::joint::problem::JointProblem;
+use crate::fit::joint::result::JointResult;
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
-use crate::fit::result::FitResult;
+use crate::fit::options::Intervals;
+use crate::fit::result::{FitResult, Statistics};
 use crate::fit::solve::fit;
 use crate::model::{Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;
@@ -51,31 +55,62 @@ const SAME: f64 = 1e-3;
 /// Difference of AICc below which it is no evidence.
 const NO_EVIDENCE: f64 = 2.0;
 
-/// Whether ΔE is the measure: it is what both minimised, or each weighted its sum by variances or loss scales of its own.
-fn are_compared_by_delta_e(gauss: &FitResult, cauchy: &FitResult) -> bool {
-    let (a, b) = (&gauss.statistics, &cauchy.statistics);
-    let is_one_sum = a.loss_scales == b.loss_scales && a.block_weights == b.block_weights;
-    gauss.objective.is_some() && cauchy.objective.is_some() && (!is_one_sum || a.minimises_delta_e && b.minimises_delta_e)
+/// What of a fit is compared.
+struct Compared<'a> {
+    objective: Option<f64>,
+    statistics: &'a Statistics,
+    /// The parameters that are free.
+    free: ParameterSet,
+    is_exact: bool,
 }
 
-/// ΔE of a fit, or its sum of squares.
-fn measure(fit: &FitResult, is_delta_e: bool) -> f64 {
-    fit.objective.filter(|_| is_delta_e).unwrap_or(fit.statistics.rss)
+impl<'a> Compared<'a> {
+    fn single(fit: &'a FitResult) -> Self {
+        let free = fit.estimates.iter().filter(|estimate| estimate.free).map(|estimate| estimate.parameter).collect();
+        Self { objective: fit.objective, statistics: &fit.statistics, free, is_exact: fit.is_exact() }
+    }
+
+    fn joint(fit: &'a JointResult) -> Self {
+        let free = fit.estimates().filter(|(_, estimate)| estimate.free).map(|(name, _)| name.parameter).collect();
+        Self { objective: fit.objective, statistics: &fit.statistics, free, is_exact: fit.is_exact() }
+    }
+
+    /// ΔE of the fit, or its sum of squares.
+    fn measure(&self, is_delta_e: bool) -> f64 {
+        self.objective.filter(|_| is_delta_e).unwrap_or(self.statistics.rss)
+    }
+}
+
+/// Whether ΔE is the measure: it is what both minimised, or each weighted its sum by variances or loss scales of its own.
+fn are_compared_by_delta_e(gauss: &Compared<'_>, cauchy: &Compared<'_>) -> bool {
+    let (a, b) = (gauss.statistics, cauchy.statistics);
+    let is_one_sum = a.loss_scales == b.loss_scales && a.block_weights == b.block_weights;
+    gauss.objective.is_some() && cauchy.objective.is_some() && (!is_one_sum || a.minimises_delta_e && b.minimises_delta_e)
 }
 
 impl DistributionComparison {
     /// Of two fits of the same data by the same choices; none where a sum is not finite.
     #[must_use]
     pub fn new(gauss: &FitResult, cauchy: &FitResult) -> Option<Self> {
+        Self::of(&Compared::single(gauss), &Compared::single(cauchy))
+    }
+
+    /// The same of two joint fits.
+    #[must_use]
+    pub fn jointly(gauss: &JointResult, cauchy: &JointResult) -> Option<Self> {
+        Self::of(&Compared::joint(gauss), &Compared::joint(cauchy))
+    }
+
+    fn of(gauss: &Compared<'_>, cauchy: &Compared<'_>) -> Option<Self> {
         let is_delta_e = are_compared_by_delta_e(gauss, cauchy);
-        let sums = [gauss, cauchy].map(|fit| measure(fit, is_delta_e));
+        let sums = [gauss, cauchy].map(|fit| fit.measure(is_delta_e));
         sums.iter().all(|sum| sum.is_finite()).then(|| Self {
             gauss: sums[0],
             cauchy: sums[1],
             aicc_gain: gauss.statistics.aicc.zip(cauchy.statistics.aicc).map(|(gauss, cauchy)| gauss - cauchy),
             is_delta_e,
-            is_nested: cauchy.estimate(Parameter::Q).is_some_and(|q| q.free),
-            is_exact: gauss.is_exact() && cauchy.is_exact(),
+            is_nested: cauchy.free.contains(Parameter::Q),
+            is_exact: gauss.is_exact && cauchy.is_exact,
         })
     }
 
@@ -203,20 +238,42 @@ impl GaussAtFixedSigma {
     /// Fits Gauss again from its own solution with σ held; none where σ is not free in both fits or the equal median lies beyond f64.
     #[must_use]
     pub fn new(problem: &Problem, gauss: &FitResult, cauchy: &FitResult, watch: Observer<'_>) -> Option<Self> {
-        let is_free = |report: &FitResult| report.estimates.iter().any(|estimate| estimate.parameter == Parameter::Sigma && estimate.free);
-        let Parameters { sigma, q, .. } = cauchy.parameters;
-        let median = SlopeDistribution::gauss_of_equal_median(sigma, q);
-        let is_a_sigma = median.is_finite() && median > 0.0;
-        if !(is_free(gauss) && is_free(cauchy) && is_a_sigma) {
+        let rest: ParameterSet = problem.free().iter().copied().filter(|&parameter| parameter != Parameter::Sigma).collect();
+        let held = |sigma: f64, is_delta_e: bool| {
+            let start = Parameters { sigma, ..gauss.parameters };
+            let fit = fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch);
+            Compared::single(&fit).measure(is_delta_e)
+        };
+        Self::of(&Compared::single(gauss), &Compared::single(cauchy), &cauchy.parameters, &held)
+    }
+
+    /// The same of joint fits; none where measurements have their own σ or q.
+    #[must_use]
+    pub fn jointly(problem: &JointProblem, gauss: &JointResult, cauchy: &JointResult, watch: Observer<'_>) -> Option<Self> {
+        let shape = ParameterSet::EMPTY.with(Parameter::Sigma).with(Parameter::Q);
+        if !problem.own().intersection(shape).is_empty() {
             return None;
         }
-        let rest: ParameterSet = problem.free().iter().copied().filter(|&parameter| parameter != Parameter::Sigma).collect();
-        let is_delta_e = are_compared_by_delta_e(gauss, cauchy);
-        let held = |sigma: f64| {
-            let start = Parameters { sigma, ..gauss.parameters };
-            (sigma, measure(&fit(&problem.with_free(rest).with_start(start), Starts::One, 0, watch), is_delta_e))
+        let rest = Parameter::ALL.into_iter().filter(|&parameter| parameter != Parameter::Sigma).collect();
+        let held = |sigma: f64, is_delta_e: bool| {
+            let start: Vec<Parameters> = gauss.points().into_iter().map(|parameters| Parameters { sigma, ..parameters }).collect();
+            let fit = fit_jointly(&problem.with_start(&start).with_free(rest), Starts::One, 0, Intervals::Linear, watch);
+            Compared::joint(&fit).measure(is_delta_e)
         };
-        Some(Self { equal_sigma: held(sigma), equal_median: held(median) })
+        Self::of(&Compared::joint(gauss), &Compared::joint(cauchy), &cauchy.sets.first()?.parameters, &held)
+    }
+
+    /// Given what Gauss comes down to with σ held.
+    fn of(gauss: &Compared<'_>, cauchy: &Compared<'_>, of_cauchy: &Parameters, held: &dyn Fn(f64, bool) -> f64) -> Option<Self> {
+        let Parameters { sigma, q, .. } = *of_cauchy;
+        let median = SlopeDistribution::gauss_of_equal_median(sigma, q);
+        let is_a_sigma = median.is_finite() && median > 0.0;
+        if !(gauss.free.contains(Parameter::Sigma) && cauchy.free.contains(Parameter::Sigma) && is_a_sigma) {
+            return None;
+        }
+        let is_delta_e = are_compared_by_delta_e(gauss, cauchy);
+        let [equal_sigma, equal_median] = [sigma, median].map(|sigma| (sigma, held(sigma, is_delta_e)));
+        Some(Self { equal_sigma, equal_median })
     }
 
     /// In a sentence.

@@ -101,6 +101,11 @@ pub trait FitProblem: LeastSquares + Clone + Send + Sync {
     #[must_use]
     fn thinned(&self, most: usize) -> Self;
 
+    /// The same problem with other data: the values at its start plus residuals drawn from its own by `pick` (an index below its
+    /// argument), within each measurement and quantity, times a factor.
+    #[must_use]
+    fn resampled(&self, widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self;
+
     /// The same problem with every residual counted by its square.
     #[must_use]
     fn with_squared_loss(&self) -> Self;

@@ -79,7 +79,7 @@ pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, 
 pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, set_intervals, with_intervals};
 pub use joint::builder::{JointError, JointFit, fit_jointly};
 pub use joint::problem::JointProblem;
-pub use joint::result::{JointResult, SetResult, profile_jointly};
+pub use joint::result::{JointResult, SetResult, bootstrap_jointly, profile_jointly};
 pub use joint::unknown::JointUnknown;
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;
@@ -95,5 +95,5 @@ pub use options::{BrdfResiduals, FitOptions, Intervals, Loss, Weights};
 pub use problem_error::ProblemError;
 pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
 pub use solve::fit;
-pub use special_cases::{special_cases_first, with_special_cases};
+pub use special_cases::{special_cases_first, with_special_cases, with_special_cases_jointly};
 pub use stop_reason::StopReason;

@@ -166,6 +166,11 @@ pub struct FitResult {
     pub course: Course,
 }
 
+/// Whether a model meets its data to the last digits: ΔE, or the sum of squares where there is no ΔE, is rounding.
+pub(crate) fn is_exact(stop_reason: StopReason, objective: Option<f64>, rss: f64) -> bool {
+    stop_reason != StopReason::NoData && objective.unwrap_or(rss) < SAME_ABSOLUTE
+}
+
 impl FitResult {
     /// The problem as it was minimised: with the scales of the loss and the weights of DoLP and BRDF that the fit found.
     #[must_use]
@@ -183,7 +188,7 @@ impl FitResult {
     /// Whether the model meets the data to the last digits: ΔE, or the sum of squares where there is no ΔE, is rounding.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.stop_reason != StopReason::NoData && self.objective.unwrap_or(self.statistics.rss) < SAME_ABSOLUTE
+        is_exact(self.stop_reason, self.objective, self.statistics.rss)
     }
 
     /// The estimate of a parameter; none if the model does not have it.

@@ -80,6 +80,10 @@ impl FitProblem for Problem {
         Self::thinned(self, most)
     }
 
+    fn resampled(&self, widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self {
+        Self::resampled(self, widen, pick)
+    }
+
     fn with_squared_loss(&self) -> Self {
         Self::with_squared_loss(self)
     }

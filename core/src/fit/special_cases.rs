@@ -3,6 +3,8 @@
 //! A model does what its special case does where the lobes that this one lacks have no weight, where a Minnaert lobe has c = 0
 //! (Lambert), and, in the limit of large q, where Cauchy has σ = √q σ_Gauss. A fit that starts there too never ends above it.
 
+use crate::fit::joint::problem::JointProblem;
+use crate::fit::joint::result::JointResult;
 use crate::fit::objective::Problem;
 use crate::fit::result::FitResult;
 use crate::model::{Diffuse, Model, Parameter, ParameterSet, Parameters};
@@ -37,13 +39,30 @@ fn contains_diffuse(general: Diffuse, special: Diffuse) -> bool {
 /// The same problem that starts also where those fits of special cases of its model ended; fits of other models are left aside.
 #[must_use]
 pub fn with_special_cases<'a>(problem: &Problem, fits: impl IntoIterator<Item = &'a FitResult>) -> Problem {
-    problem.with_further_starts(fits.into_iter().filter_map(|fit| start_at_special_case(problem, fit)).collect())
+    let starts = fits.into_iter().filter_map(|fit| start_at_special_case(problem, fit.model, &fit.parameters, f64::INFINITY));
+    problem.with_further_starts(starts.collect())
 }
 
-/// Where this model does what its special case does at the end of its fit, as far as the bounds and what is fixed allow; none where
-/// the fit is of no special case.
-fn start_at_special_case(problem: &Problem, fit: &FitResult) -> Option<Parameters> {
-    let (general, special) = (problem.model(), fit.model);
+/// The same of a joint fit: each measurement starts at its special case.
+#[must_use]
+pub fn with_special_cases_jointly<'a>(problem: &JointProblem, fits: impl IntoIterator<Item = &'a JointResult>) -> JointProblem {
+    let start = |fit: &JointResult| {
+        let parts = || problem.parts().iter().zip(&fit.sets);
+        let at = |largest_q: f64| -> Option<Vec<Parameters>> {
+            parts().map(|(part, set)| start_at_special_case(part, fit.model, &set.parameters, largest_q)).collect()
+        };
+        let point = at(f64::INFINITY)?;
+        // A shared q has to be within reach of every measurement's σ.
+        let smallest_q = point.iter().map(|start| start.q).fold(f64::INFINITY, f64::min);
+        if problem.own().contains(Parameter::Q) { Some(point) } else { at(smallest_q) }
+    };
+    problem.with_further_starts(fits.into_iter().filter_map(start).collect::<Vec<_>>())
+}
+
+/// Where this model does what its special case does with those parameters, as far as the bounds, a largest q and what is fixed allow; none
+/// where the other is no special case.
+fn start_at_special_case(problem: &Problem, special: Model, parameters: &Parameters, largest_q: f64) -> Option<Parameters> {
+    let general = problem.model();
     // DoLP of mirror facets alone is that of Fresnel: neither their slopes nor masking play a part.
     let is_bare = special.diffuse == Diffuse::Absent && !special.volume && problem.knows_only_ratios();
     let is_limit = general.distribution == SlopeDistribution::Cauchy && special.distribution == SlopeDistribution::Gauss;
@@ -59,7 +78,7 @@ fn start_at_special_case(problem: &Problem, fit: &FitResult) -> Option<Parameter
     let shared = general.parameters().intersection(special.parameters());
     let idle = if is_bare { [Parameter::Sigma, Parameter::Q].into_iter().collect() } else { ParameterSet::EMPTY };
     for parameter in shared.without_all(idle) {
-        start[parameter] = fit.parameters[parameter];
+        start[parameter] = parameters[parameter];
     }
     if special.diffuse == Diffuse::Absent {
         start.kd = 0.0;
@@ -74,7 +93,7 @@ fn start_at_special_case(problem: &Problem, fit: &FitResult) -> Option<Parameter
         // The largest q whose σ lies within the bounds.
         let (_, largest_sigma) = problem.bounds().of(Parameter::Sigma);
         let of_largest_sigma = (largest_sigma / start.sigma) * (largest_sigma / start.sigma);
-        start.q = problem.bounds().clamp(Parameter::Q, problem.bounds().of(Parameter::Q).1.min(of_largest_sigma));
+        start.q = problem.bounds().clamp(Parameter::Q, problem.bounds().of(Parameter::Q).1.min(of_largest_sigma).min(largest_q));
         start.sigma *= start.q.sqrt();
     }
     Some(start)

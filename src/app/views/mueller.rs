@@ -203,7 +203,7 @@ impl MuellerView {
             }
         });
         let title = tr!("{0}: Mueller matrix at θi = {1}°, Δφ = {2}°", title, theta_i, plane);
-        Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0 })
+        Some(Figure { title, panels: panels.collect(), columns: 4, width_mm: 190.0, height_mm: 180.0, ..Figure::default() })
     }
 }
 

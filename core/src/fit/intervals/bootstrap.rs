@@ -4,20 +4,23 @@
 //! has made them smaller (Efron and Tibshirani, *An Introduction to the Bootstrap*, 1993, ch. 9). Each replicate is fitted
 //! from several starts, the solution among them.
 
+use crate::fit::analysis::Analysis;
+use crate::fit::fit_problem::FitProblem;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::sequence::StartSequence;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::result::FitResult;
-use crate::model::{Parameter, Parameters};
+use crate::model::Parameter;
+use nalgebra::DVector;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 /// How one parameter scatters over the replicates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BootstrapEstimate {
+pub struct BootstrapEstimate<N = Parameter> {
     /// Which parameter.
-    pub parameter: Parameter,
+    pub parameter: N,
     /// Standard deviation.
     pub std_error: f64,
     /// 16th percentile.
@@ -28,16 +31,16 @@ pub struct BootstrapEstimate {
 
 /// How the parameters scatter over the replicates.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bootstrap {
+pub struct Bootstrap<N = Parameter> {
     /// How many data sets were asked for.
     pub asked: usize,
     /// How many were fitted to the end: fewer after a cancel.
     pub replicates: usize,
     /// The free parameters; empty without a replicate.
-    pub estimates: Vec<BootstrapEstimate>,
+    pub estimates: Vec<BootstrapEstimate<N>>,
 }
 
-impl Bootstrap {
+impl<N> Bootstrap<N> {
     /// Whether all data sets were fitted that were asked for.
     #[must_use]
     pub fn is_complete(&self) -> bool {
@@ -55,42 +58,53 @@ const STARTS: usize = 4;
 /// left out.
 #[must_use]
 pub fn bootstrap(problem: &Problem, report: &FitResult, replicates: usize, seed: u64, watch: Observer<'_>) -> Bootstrap {
+    bootstrap_of(problem, &Analysis::of_result(problem, report.clone()), replicates, seed, watch)
+}
+
+/// The same of any problem.
+pub(crate) fn bootstrap_of<P: FitProblem>(
+    problem: &P,
+    analysis: &Analysis<P>,
+    replicates: usize,
+    seed: u64,
+    watch: Observer<'_>,
+) -> Bootstrap<P::Name> {
     let none = Bootstrap { asked: replicates, replicates: 0, estimates: Vec::new() };
-    if problem.is_empty() || problem.free().is_empty() {
+    if problem.residual_count() == 0 || problem.names().is_empty() {
         return none;
     }
     let mut random = Pcg64::seed_from_u64(seed);
     #[expect(clippy::cast_possible_truncation, reason = "the remainder is below the number of residuals")]
     let mut pick = |count: usize| (random.next_u64() % count as u64) as usize;
     #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-    let widen = (problem.len() as f64 / report.statistics.dof.max(1) as f64).sqrt();
-    let solution = report.fitted(problem).with_start(report.parameters);
-    let starts = starts(problem, report, seed);
-    let refit = |replicate: &Problem| {
-        let fits = starts.iter().map(|start| fit_local(&replicate.with_start(*start), Effort::Thorough, watch));
+    let widen = (problem.residual_count() as f64 / analysis.statistics.dof.max(1) as f64).sqrt();
+    let solution = analysis.fitted(problem).starting_at(&problem.point_at(&analysis.x));
+    let starts = starts(problem, analysis, seed);
+    let refit = |replicate: &P| {
+        let fits = starts.iter().map(|start| fit_local(&replicate.starting_at(start), Effort::Thorough, watch));
         let best = fits.min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
         // A descent that a cancel has cut short is no refit.
-        (best.sum_of_squares.is_finite() && !(watch.cancelled)()).then_some(best.parameters)
+        (best.sum_of_squares.is_finite() && !(watch.cancelled)()).then(|| replicate.unknowns_of(&best.parameters))
     };
-    let mut fits = Vec::new();
+    let mut fits: Vec<DVector<f64>> = Vec::new();
     let mut left = replicates;
     // Data sets are drawn in their order, and no more of them are held than are being fitted.
     while left > 0 && !(watch.cancelled)() {
-        let drawn: Vec<Problem> = (0..left.min(AT_ONCE)).map(|_| solution.resampled(widen, &mut pick)).collect();
+        let drawn: Vec<P> = (0..left.min(AT_ONCE)).map(|_| solution.resampled(widen, &mut pick)).collect();
         left -= drawn.len();
         fits.extend(refit_all(&drawn, &refit));
     }
     if fits.is_empty() {
         return none;
     }
-    let scatter = |&parameter: &Parameter| scatter(parameter, fits.iter().map(|fit| fit[parameter]).collect());
-    Bootstrap { replicates: fits.len(), estimates: problem.free().iter().map(scatter).collect(), ..none }
+    let scatter = |(unknown, name): (usize, &P::Name)| scatter(name.clone(), fits.iter().map(|fit| fit[unknown]).collect());
+    Bootstrap { replicates: fits.len(), estimates: problem.names().iter().enumerate().map(scatter).collect(), ..none }
 }
 
 /// The solution, the next best minima of the fit, and points that a search begins at.
-fn starts(problem: &Problem, report: &FitResult, seed: u64) -> Vec<Parameters> {
-    let minima = report.course.minima.iter().skip(1).map(|minimum| minimum.parameters);
-    let mut starts: Vec<Parameters> = std::iter::once(report.parameters).chain(minima).take(STARTS).collect();
+fn starts<P: FitProblem>(problem: &P, analysis: &Analysis<P>, seed: u64) -> Vec<P::Point> {
+    let minima = analysis.course.minima.iter().skip(1).map(|minimum| minimum.parameters.clone());
+    let mut starts: Vec<P::Point> = std::iter::once(problem.point_at(&analysis.x)).chain(minima).take(STARTS).collect();
     if starts.len() < STARTS {
         let further = StartSequence::new(problem, seed, Observer::NONE).take(STARTS - starts.len());
         starts.extend(further);
@@ -99,7 +113,7 @@ fn starts(problem: &Problem, report: &FitResult, seed: u64) -> Vec<Parameters> {
 }
 
 /// Fits of those data sets, in their order; none of those that came after a cancel.
-fn refit_all(drawn: &[Problem], refit: &(dyn Fn(&Problem) -> Option<Parameters> + Sync)) -> Vec<Parameters> {
+fn refit_all<P: FitProblem>(drawn: &[P], refit: &(dyn Fn(&P) -> Option<DVector<f64>> + Sync)) -> Vec<DVector<f64>> {
     #[cfg(feature = "threads")]
     {
         use rayon::prelude::*;
@@ -109,7 +123,7 @@ fn refit_all(drawn: &[Problem], refit: &(dyn Fn(&Problem) -> Option<Parameters> 
     drawn.iter().filter_map(refit).collect()
 }
 
-fn scatter(parameter: Parameter, mut values: Vec<f64>) -> BootstrapEstimate {
+fn scatter<N>(parameter: N, mut values: Vec<f64>) -> BootstrapEstimate<N> {
     values.sort_by(f64::total_cmp);
     #[expect(clippy::cast_precision_loss, reason = "a number of replicates")]
     let count = values.len() as f64;

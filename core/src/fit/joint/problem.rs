@@ -27,6 +27,7 @@ pub struct JointProblem {
     rows: Vec<Range<usize>>,
     own: ParameterSet,
     start: Vec<Parameters>,
+    further_starts: Arc<[Vec<Parameters>]>,
     /// Of each unknown, see [`Self::weight_exponent`].
     exponents: Vec<i32>,
 }
@@ -70,6 +71,7 @@ impl JointProblem {
             rows: rows.collect(),
             places,
             start: parts.iter().map(|part| *part.start()).collect(),
+            further_starts: Arc::default(),
             names: names.to_vec(),
             exponents: Vec::new(),
             homes,
@@ -172,6 +174,46 @@ impl JointProblem {
     #[must_use]
     pub fn with_start(&self, start: &[Parameters]) -> Self {
         Self { start: start.to_vec(), ..self.clone() }
+    }
+
+    /// The same problem whose search begins at those points too, and ends above none of them; what is fixed stays as at its start, shared
+    /// values are those of the first measurement that has them, and values outside of the bounds move onto them.
+    #[must_use]
+    pub fn with_further_starts(&self, starts: impl IntoIterator<Item = Vec<Parameters>>) -> Self {
+        let within = |point: Vec<Parameters>| {
+            let clamped = |(part, parameters): (&Problem, Parameters)| {
+                part.free().iter().fold(parameters, |mut within, &parameter| {
+                    within[parameter] = part.bounds().clamp(parameter, parameters[parameter]);
+                    within
+                })
+            };
+            let point: Vec<Parameters> = self.parts.iter().zip(point).map(clamped).collect();
+            self.parameters_of(&self.unknowns_at(&point))
+        };
+        Self { further_starts: starts.into_iter().map(within).collect(), ..self.clone() }
+    }
+
+    /// Where its search begins too.
+    #[must_use]
+    pub fn further_starts(&self) -> &[Vec<Parameters>] {
+        &self.further_starts
+    }
+
+    /// The same problem with those parameters free, of those that may be.
+    #[must_use]
+    pub(crate) fn with_free(&self, free: ParameterSet) -> Self {
+        let part = |(part, start): (&Problem, &Parameters)| {
+            let had: ParameterSet = part.free().iter().copied().collect();
+            part.with_start(*start).with_free(had.intersection(free))
+        };
+        Self::of_scaled(self.parts.iter().zip(&self.start).map(part).collect(), &self.names, self.own)
+    }
+
+    /// The same problem with other data: of each measurement the values at the start plus residuals drawn from its own, since noise may
+    /// differ between measurements.
+    pub(crate) fn resampled(&self, widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self {
+        let parts = self.parts.iter().zip(&self.start).map(|(part, start)| part.with_start(*start).resampled(widen, pick)).collect();
+        Self { parts, ..self.clone() }
     }
 
     /// The parameters of each measurement, given the unknowns.
@@ -321,9 +363,10 @@ impl JointProblem {
 
     /// Each measurement by itself, scaled as here.
     pub(crate) fn split(&self) -> Vec<Self> {
-        let alone = |((part, name), start): ((&Problem, &Arc<str>), &Parameters)| {
-            Self::of_scaled(vec![part.with_start(*start)], std::slice::from_ref(name), self.own)
+        let alone = |(place, ((part, name), start)): (usize, ((&Problem, &Arc<str>), &Parameters))| {
+            let problem = Self::of_scaled(vec![part.with_start(*start)], std::slice::from_ref(name), self.own);
+            problem.with_further_starts(self.further_starts.iter().map(|point| vec![point[place]]))
         };
-        self.parts.iter().zip(&self.names).zip(&self.start).map(alone).collect()
+        self.parts.iter().zip(&self.names).zip(&self.start).enumerate().map(alone).collect()
     }
 }

@@ -3,13 +3,14 @@
 use crate::fit::analysis::Analysis;
 use crate::fit::estimate::{Estimate, EstimateStatus, Undetermined};
 use crate::fit::intervals::band::PredictionBand;
+use crate::fit::intervals::bootstrap::{Bootstrap, bootstrap_of};
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
 use crate::fit::intervals::profile::{Profile, profile_of, set_interval};
 use crate::fit::joint::problem::JointProblem;
 use crate::fit::joint::unknown::JointUnknown;
 use crate::fit::observer::Observer;
-use crate::fit::result::{ByKey, Correlations, Course, FitResult, SUMMARY_FIELDS, Statistics, serialize_summary};
+use crate::fit::result::{ByKey, Correlations, Course, FitResult, SUMMARY_FIELDS, Statistics, is_exact, serialize_summary};
 use crate::fit::stop_reason::StopReason;
 use crate::model::{Model, Parameter, Parameters};
 use serde::ser::SerializeStruct as _;
@@ -119,6 +120,31 @@ impl JointResult {
         }
     }
 
+    /// As the analysis of that problem, which says the same.
+    fn analysis(&self, problem: &JointProblem) -> Analysis<JointProblem> {
+        Analysis {
+            x: problem.unknowns_at(&self.points()),
+            objective: self.objective,
+            start_objective: self.start_objective,
+            stop_reason: self.stop_reason,
+            statistics: self.statistics,
+            uncertainty: self.uncertainty.clone(),
+            course: self.course.clone(),
+        }
+    }
+
+    /// All values, for each measurement.
+    #[must_use]
+    pub fn points(&self) -> Vec<Parameters> {
+        self.sets.iter().map(|set| set.parameters).collect()
+    }
+
+    /// Whether the model meets the data to the last digits, as [`FitResult::is_exact`].
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        is_exact(self.stop_reason, self.objective, self.statistics.rss)
+    }
+
     /// Without standard errors of the parameters.
     #[must_use]
     pub fn without_errors(mut self) -> Self {
@@ -197,17 +223,19 @@ pub fn profile_jointly(
     unknown: &JointUnknown,
     observer: Observer<'_>,
 ) -> Profile<JointUnknown> {
-    let point: Vec<Parameters> = result.sets.iter().map(|set| set.parameters).collect();
-    let analysis = Analysis {
-        x: problem.unknowns_at(&point),
-        objective: result.objective,
-        start_objective: result.start_objective,
-        stop_reason: result.stop_reason,
-        statistics: result.statistics,
-        uncertainty: result.uncertainty.clone(),
-        course: result.course.clone(),
-    };
-    profile_of(problem, &analysis, unknown, observer)
+    profile_of(problem, &result.analysis(problem), unknown, observer)
+}
+
+/// Refits `replicates` resampled data sets of a finished joint fit; residuals are resampled within each measurement.
+#[must_use]
+pub fn bootstrap_jointly(
+    problem: &JointProblem,
+    result: &JointResult,
+    replicates: usize,
+    seed: u64,
+    observer: Observer<'_>,
+) -> Bootstrap<JointUnknown> {
+    bootstrap_of(problem, &result.analysis(problem), replicates, seed, observer)
 }
 
 impl fmt::Display for JointResult {

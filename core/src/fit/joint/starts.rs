@@ -238,6 +238,14 @@ impl FitProblem for JointProblem {
         Self::thinned(self, most)
     }
 
+    fn further_starts(&self) -> Vec<Vec<Parameters>> {
+        Self::further_starts(self).to_vec()
+    }
+
+    fn resampled(&self, widen: f64, pick: &mut dyn FnMut(usize) -> usize) -> Self {
+        Self::resampled(self, widen, pick)
+    }
+
     fn with_squared_loss(&self) -> Self {
         Self::with_squared_loss(self)
     }

@@ -3,7 +3,7 @@
 use crate::app::text::localized::Localized;
 use pbrdf::fit::{
     BoundsError, DesignError, DistributionComparison, Evidence, ProblemError, StopReason, Undetermined, UndeterminedDirection,
-    UndeterminedReason, Verdict, symbols,
+    UndeterminedReason, UnknownName, Verdict, symbols,
 };
 use pbrdf::optics::SlopeDistribution;
 use tr::tr;
@@ -23,7 +23,7 @@ impl Localized for StopReason {
     }
 }
 
-impl Localized for UndeterminedDirection {
+impl<N: UnknownName> Localized for UndeterminedDirection<N> {
     fn localized(&self) -> String {
         let symbols = self.symbols();
         match (self.reason, &self.direction[..]) {
@@ -37,7 +37,7 @@ impl Localized for UndeterminedDirection {
     }
 }
 
-impl Localized for Undetermined {
+impl<N: UnknownName> Localized for Undetermined<N> {
     fn localized(&self) -> String {
         match self {
             Self::Direction(direction) => direction.localized(),

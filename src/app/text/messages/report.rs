@@ -4,7 +4,7 @@ use crate::app::text::i18n::{self, Language, label, translated};
 use crate::app::text::localized::Localized;
 use crate::app::text::messages::selftest::short_method;
 use crate::report::ReportLanguage;
-use pbrdf::fit::{StopReason, Undetermined};
+use pbrdf::fit::{JointUnknown, StopReason, Undetermined};
 use pbrdf::model::Finding;
 use pbrdf::selftest::BenchmarkMethod;
 
@@ -32,6 +32,10 @@ impl ReportLanguage for WindowWording {
     }
 
     fn undetermined(&self, what: &Undetermined) -> String {
+        what.localized()
+    }
+
+    fn undetermined_jointly(&self, what: &Undetermined<JointUnknown>) -> String {
         what.localized()
     }
 
