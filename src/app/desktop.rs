@@ -2,8 +2,9 @@
 
 use crate::app::platform;
 use crate::app::shell::app::App;
-use crate::app::shell::app::autosave::resume;
+use crate::app::shell::app::autosave::keep_work;
 use crate::app::shell::app::open::begin;
+use crate::app::storage::kept_work::WorkFolder;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
 use crate::app::text::help::TITLE;
@@ -12,8 +13,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;
 
-/// Opens the window with the work of the last time, and with these measurements beside it, and returns
-/// when the user closes it.
+/// Opens the window with these files, or without any with the work of the last time, and returns when
+/// the user closes it.
 ///
 /// # Errors
 /// The window cannot open; a sentence.
@@ -35,9 +36,10 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
         if let Some(notice) = notice {
             app.toasts.error(notice);
         }
-        app.persistence.autosave_path = settings_file::working_path();
         begin(&mut app);
-        resume(&mut app);
+        if let Some(folder) = WorkFolder::of_user() {
+            keep_work(&mut app, folder, !files.is_empty());
+        }
         if !files.is_empty() {
             app.actions.push(Action::OpenMeasurements(files));
         }

@@ -8,5 +8,6 @@ mod native;
 
 pub use heap::raise_trim_threshold;
 pub use native::{
-    DialogUnavailable, FileDialog, FileFilter, Instant, PathPurpose, config_folder, data_folder, local_data_folder, show_file_dialog, spawn,
+    DialogUnavailable, FileDialog, FileFilter, Instant, PathPurpose, config_folder, data_folder, local_data_folder, local_time,
+    show_file_dialog, spawn,
 };

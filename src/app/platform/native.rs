@@ -4,6 +4,7 @@
 use std::cell::Cell;
 use std::io;
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 /// The clock of the window and of its jobs.
 pub use std::time::Instant;
@@ -33,6 +34,13 @@ pub fn data_folder(app: &str) -> Option<PathBuf> {
 /// The user's folder for data of a program that stay on this machine.
 pub fn local_data_folder(app: &str) -> Option<PathBuf> {
     folders(app).map(|folders| folders.data_local_dir().to_owned())
+}
+
+/// Date and time to the minute in the time zone of the machine; empty outside the years that clocks
+/// can show.
+pub fn local_time(at: SystemTime) -> String {
+    let zoned = jiff::Timestamp::try_from(at).map(|at| at.to_zoned_datetime(jiff::tz::TimeZone::system()));
+    zoned.map_or_else(|_| String::new(), |at| at.strftime("%Y-%m-%d %H:%M").to_string())
 }
 
 /// A dialog that asks for a path.

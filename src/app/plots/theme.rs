@@ -31,6 +31,9 @@ pub const WHITE: Rgb = Rgb(255, 255, 255);
 /// Ink of marks that are told apart on a map of whichever colour and on the page.
 pub const MARK: Rgb = Rgb(235, 50, 60);
 
+/// Ink on maps that are white in their middle, also on a dark page.
+pub const DARK: Rgb = Rgb(60, 60, 60);
+
 /// Other inks than those of series, each with its colour on a dark background.
 const ON_DARK: [(Rgb, Rgb); 3] = [(FOREGROUND, Rgb(240, 240, 240)), (MUTED, Rgb(110, 110, 110)), (ALARM, Rgb(255, 170, 80))];
 

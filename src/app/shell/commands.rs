@@ -2,6 +2,7 @@
 //! test for clashes.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::work_title;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::help::Help;
@@ -326,6 +327,11 @@ pub fn items(app: &App) -> Vec<Command> {
             Availability::Possible,
         )
     });
+    let kept = app.persistence.kept.iter().map(|work| {
+        let about = tr!("{0} measurements, {1} fits; what is open now is kept", work.names.len(), work.fits);
+        let names: Vec<&str> = work.names.iter().map(String::as_str).chain([about.as_str()]).collect();
+        item(Action::OpenSession(work.path.clone()), Menu::Recent, work_title(work).into(), names.join("\n").into(), Availability::Possible)
+    });
     let forget = item(
         Action::ForgetRecent,
         Menu::Recent,
@@ -368,6 +374,7 @@ pub fn items(app: &App) -> Vec<Command> {
         .chain(examples)
         .chain(lessons)
         .chain(recent)
+        .chain(kept)
         .chain([forget])
         .chain(panes)
         .chain(models)

@@ -64,11 +64,12 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
 
 fn file_ui(app: &mut App, ui: &mut Ui) {
     let (quit, items): (Vec<Command>, Vec<Command>) = commands::items(app).into_iter().partition(|item| item.action == Action::Quit);
-    let App { actions, dialogs: Dialogs { path_entry, .. }, window, .. } = app;
+    let has_recent = !app.window.recent.is_empty() || !app.persistence.kept.is_empty();
+    let App { actions, dialogs: Dialogs { path_entry, .. }, .. } = app;
     items_ui(&items, Menu::File, actions, ui);
     ui.separator();
     ui.menu_button(tr!("Examples"), |ui| items_ui(&items, Menu::Example, actions, ui));
-    ui.add_enabled_ui(!window.recent.is_empty(), |ui| {
+    ui.add_enabled_ui(has_recent, |ui| {
         ui.menu_button(tr!("Recent"), |ui| items_ui(&items, Menu::Recent, actions, ui));
     });
     ui.menu_button(tr!("Export"), |ui| {

@@ -1,6 +1,7 @@
 //! Which files keep settings and work without being asked, and what of both they hold.
 
 use crate::app::platform::Instant;
+use crate::app::storage::kept_work::{KeptWork, WorkFile, WorkFolder};
 use crate::app::work::settings::WindowSettings;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -20,6 +21,14 @@ pub struct Persistence {
     pub autosave_path: Option<PathBuf>,
     pub autosaved_revision: Option<AutosaveRevision>,
     pub autosave_dirty_since: Option<Instant>,
+    /// The work of earlier runs; nowhere in tests.
+    pub work_folder: Option<WorkFolder>,
+    /// The file of this run, and before the first change that which it goes on with.
+    pub work_files: Vec<WorkFile>,
+    /// The work that is being read because it was open last.
+    pub resuming: Option<PathBuf>,
+    /// What can be opened of earlier runs, the newest first.
+    pub kept: Vec<KeptWork>,
     /// The revision of the user's own work that the file of the session holds.
     pub saved_session: Option<u64>,
     /// The title of the window.
@@ -34,8 +43,8 @@ pub struct AutosaveRevision {
 }
 
 impl Persistence {
-    /// Whether a path is that of the working state.
-    pub fn is_autosave(&self, path: &Path) -> bool {
-        self.autosave_path.as_deref() == Some(path)
+    /// Whether a path is that of work that is kept without being asked.
+    pub fn is_kept(&self, path: &Path) -> bool {
+        self.resuming.as_deref() == Some(path) || self.kept.iter().any(|work| work.path == path)
     }
 }

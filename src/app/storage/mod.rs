@@ -4,6 +4,7 @@ mod earlier_keys;
 pub mod export;
 pub mod fit_record;
 pub mod import;
+pub mod kept_work;
 pub mod saved_fit;
 pub mod session;
 pub mod session_error;

@@ -8,6 +8,7 @@
 //! it came about; residuals and errors follow from that when the file is opened.
 //!
 //! `settings` holds the surface of the active measurement among the rest; of several open measurements the others have a `surface` each.
+//! Work that is kept without being asked names in `file` the session file that the user gave it.
 //! Where a lesson is open, `lesson` holds its title, the step, and the lesson's own work as a
 //! session; the rest is the user's work.
 //!
@@ -31,6 +32,7 @@ use pbrdf::model::ParameterSet;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What the first look at a file asks.
@@ -59,6 +61,8 @@ struct Contents<'a> {
     /// Which of them was shown, from 0.
     shown: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    file: &'a Option<SavedFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     lesson: Option<LessonContents<Box<Contents<'a>>>>,
 }
 
@@ -83,6 +87,8 @@ struct StoredContents {
     #[serde(default = "newest")]
     shown: Option<usize>,
     #[serde(default)]
+    file: Option<SavedFile>,
+    #[serde(default)]
     lesson: Option<LessonContents<serde_json::Value>>,
 }
 
@@ -92,6 +98,14 @@ struct LessonContents<W> {
     title: String,
     step: usize,
     work: W,
+}
+
+/// Of work that is kept without being asked: the file that the user saved it in, and whether that
+/// holds all of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SavedFile {
+    pub path: PathBuf,
+    pub saved: bool,
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -152,6 +166,7 @@ pub struct Session {
     pub shown: Option<usize>,
     /// The fits of its file that are not among them, by number from 1; none of it is written.
     pub left_out: Arc<[(usize, SavedFitError)]>,
+    pub file: Option<SavedFile>,
     /// The lesson that is open over this work.
     pub lesson: Option<Box<SavedLesson>>,
 }
@@ -212,6 +227,7 @@ impl Session {
             fits,
             shown,
             left_out: Arc::default(),
+            file: None,
             lesson: None,
         }
     }
@@ -276,6 +292,7 @@ impl Session {
             pinned: &self.pinned,
             fits: &self.fits,
             shown: self.shown,
+            file: &self.file,
             lesson: lesson.transpose()?,
         })
     }
@@ -304,6 +321,7 @@ impl Session {
             pinned,
             fits: stored,
             shown: stored_shown,
+            file,
             lesson,
         } = from_json(text)?;
         let SurfaceOfFile { settings: mut surface } = from_json(text)?;
@@ -337,7 +355,7 @@ impl Session {
             Some(Box::new(SavedLesson { title, step, work }))
         });
         let settings = SavedSettings { settings, surface };
-        Ok(Self { settings, layout, measurements, active, shared, pinned, fits, shown, left_out: left_out.into(), lesson })
+        Ok(Self { settings, layout, measurements, active, shared, pinned, fits, shown, left_out: left_out.into(), file, lesson })
     }
 }
 

@@ -63,11 +63,6 @@ pub fn path() -> Option<PathBuf> {
     platform::config_folder(APP).map(|folder| folder.join("settings.json"))
 }
 
-/// Where the working state is, if the machine has a place for it.
-pub fn working_path() -> Option<PathBuf> {
-    platform::local_data_folder(APP).map(|folder| folder.join("working.pbrdf.json"))
-}
-
 /// The settings of the last session, or the defaults; with a sentence if a file had to be set
 /// aside.
 pub fn load() -> (SettingsFile, Option<String>) {

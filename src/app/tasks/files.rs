@@ -8,6 +8,7 @@ use crate::app::jobs::spawner::Spawner;
 use crate::app::storage::export::{ExportKind, Write};
 use crate::app::storage::import;
 use crate::app::storage::import::{Hashing, Loaded, Origin, with_notes};
+use crate::app::storage::kept_work::KeptWork;
 use crate::app::storage::session::Session;
 use crate::app::storage::session_file::{OpenedSession, save_session};
 use crate::app::tasks::file_request::{FileReply, FileRequest};
@@ -66,8 +67,9 @@ pub struct FileJobs {
     /// Writes the measurement; the error is a sentence.
     pub save: Slot<Result<PathBuf, String>>,
     pub export: Slot<ExportedFile>,
-    /// Writes the working state; the error is a sentence.
-    pub autosave: Slot<Result<(), String>>,
+    /// Writes the work that is kept without being asked, and looks at that of earlier runs; the error
+    /// is a sentence.
+    pub autosave: Slot<Result<Vec<KeptWork>, String>>,
 }
 
 impl FileJobs {
@@ -188,12 +190,18 @@ impl FileJobs {
         self.export.start(&self.spawner, "export", job).map_err(start_error)
     }
 
-    /// Writes the working state.
+    /// Writes the work that is kept without being asked, and looks at that of earlier runs.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn autosave(&mut self, path: PathBuf, session: Session) -> Result<(), String> {
-        self.autosave.start(&self.spawner, "autosave", move |_| save_session(&path, &session)).map_err(start_error)
+    pub fn autosave(
+        &mut self,
+        path: PathBuf,
+        session: Session,
+        kept: impl FnOnce() -> Vec<KeptWork> + Send + 'static,
+    ) -> Result<(), String> {
+        let job = move |_: &JobContext| save_session(&path, &session).map(|()| kept());
+        self.autosave.start(&self.spawner, "autosave", job).map_err(start_error)
     }
 
     /// The fraction that is read of a measurement, while one is being read.

@@ -1,11 +1,13 @@
 //! What plots show beside the active measurement: other measurements, chosen angles of incidence,
 //! pinned surfaces.
 
+use crate::app::plots::Polyline;
 use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::measurements::{active, number_of, order, three};
 use crate::app::tests::{edit, explorer, harness, take, wait};
 use crate::app::views::action::{Action, ListAction};
+use crate::app::views::curves::{ModelCurves, axis_values};
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::MeasurementStyle;
 use crate::app::work::pane_id::PaneId;
@@ -15,6 +17,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::measurement::{Measurement, Quantity, Row};
+use pbrdf::model::Parameters;
 use pbrdf::optics::Geometry;
 use std::collections::BTreeSet;
 
@@ -218,4 +221,27 @@ fn a_measurement_has_the_colour_that_was_chosen_for_it() {
     let figure = explorer(&mut harness).figure(PaneId::Dolp).expect("a figure");
     let color = figure.panels[0].series.iter().find(|series| series.name == "650.csv").expect("its curve").color;
     assert_eq!(color, Some(Rgb(0, 128, 92)));
+}
+
+#[test]
+fn the_fresnel_limit_leaves_the_axis_to_data_and_model() {
+    let mut harness = harness();
+    // Little polarisation: the limit is many times as high.
+    let mut surface = explorer(&mut harness).work.surface().clone();
+    surface.parameters = Parameters { ks: 0.02, kd: 1.0, ..surface.parameters };
+    let mut measurement = dense();
+    measurement.rows.iter_mut().for_each(|row| row.dolp = Some(Quantity { value: 0.02, sigma: None }));
+    take(explorer(&mut harness), "copper".to_owned(), measurement);
+    edit(&mut harness, Edit::SetSurface(Box::new(surface)));
+    let derived = &explorer(&mut harness).derived;
+    let highest = |curve: fn(&ModelCurves) -> &Polyline| {
+        let curves = derived.curves.get().expect("curves").all();
+        curves.flat_map(|curves| axis_values(curve(curves))).fold(0.0, f64::max)
+    };
+    let (model, limit) = (highest(|curves| &curves.dolp), highest(|curves| &curves.limit));
+    assert!(limit > 5.0 * model.max(0.02), "{limit} {model}");
+    let high = explorer(&mut harness).views.get::<crate::app::views::DolpView>().range().expect("an axis").high;
+    // A quarter more for the limit, and the next round number, which is half as much again at most.
+    assert!(high <= 1.25 * 1.04 * 1.7 * model.max(0.02), "{high} {model}");
+    assert!(legend(&mut harness, PaneId::Dolp).contains("Fresnel limit"), "its lower part is drawn");
 }

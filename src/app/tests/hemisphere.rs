@@ -1,10 +1,12 @@
 //! The hemisphere map: what the pointer reads, what is made when, and what is not.
 
 use crate::app::shell::app::App;
-use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::tests::{edit, explorer, harness, wait};
+use crate::app::views::action::{Action, ListAction};
+use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::HemisphereQuantity;
+use crate::app::work::settings::{HemisphereQuantity, Reference};
+use crate::app::work::surface::Surface;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -25,6 +27,46 @@ fn reading(harness: &mut Harness<'static, Option<App>>, at: egui::Pos2) -> Optio
     let lines: Vec<String> =
         harness.query_all_by_label_contains("Δφ = ").filter_map(|node| node.accesskit_node().label().or(node.value())).collect();
     lines.into_iter().find(|line| line.starts_with("θr = "))
+}
+
+#[test]
+fn the_map_shows_how_the_sliders_differ_from_a_pinned_surface() {
+    let mut harness = shown();
+    let choice = "What the map is compared to";
+    assert!(harness.query_by_role_and_label(Role::ComboBox, choice).is_none(), "there is nothing to compare to");
+    explorer(&mut harness).actions.push(Action::List(ListAction::PinSliders));
+    explorer(&mut harness).actions.push(Action::List(ListAction::PinSliders));
+    wait(&mut harness);
+    let before = explorer(&mut harness).work.surface().clone();
+    explorer(&mut harness).work.surface_mut().parameters.sigma *= 1.5;
+    wait(&mut harness);
+    harness.get_by_role_and_label(Role::ComboBox, choice).click();
+    harness.run();
+    let name = explorer(&mut harness).work.pinned()[1].name.clone();
+    harness.get_by_label(&format!("less {name}")).click();
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Reference::Pin(1)));
+    let rect = harness.get_by_role_and_label(Role::Image, "Map of all directions of view: DoLP").rect();
+    let line = reading(&mut harness, rect.center() + egui::vec2(30.0, 10.0)).expect("a place on the disc");
+    let (place, value) = line.split_once(": difference in DoLP = ").expect("a difference");
+    let (theta_r, dphi) = place.split_once(", ").expect("two angles");
+    let number =
+        |text: &str| -> f64 { text.chars().filter(|c| c.is_ascii_digit() || *c == '.').collect::<String>().parse().expect("a number") };
+    let theta_i = explorer(&mut harness).work.settings().theta_i;
+    let dolp = |surface: &Surface| {
+        let geometry = Geometry::new(theta_i, number(theta_r), number(dphi)).expect("angles");
+        Pbrdf::new(surface.model, surface.parameters).expect("a surface").reflection(&Facet::new(geometry)).dolp
+    };
+    let expected = dolp(explorer(&mut harness).work.surface()) - dolp(&before);
+    // Angles are read to a hundredth of a degree, DoLP to five digits.
+    assert!((value.parse::<f64>().expect("a number") - expected).abs() < 2e-4 && expected != 0.0, "{line}: {expected}");
+    let figure = explorer(&mut harness).figure(PaneId::Hemisphere).expect("a map");
+    assert!(figure.svg().contains(&format!("DoLP less that of {name}")));
+    // The place of the surface moves up, and with the surface the comparison is gone.
+    edit(&mut harness, Edit::Unpin(0));
+    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Reference::Pin(0)));
+    edit(&mut harness, Edit::Unpin(0));
+    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, None);
 }
 
 /// θr, Δφ and the value of such a line.

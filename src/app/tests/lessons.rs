@@ -281,8 +281,7 @@ fn a_lesson_in_progress_and_the_own_work_under_it_come_back_at_the_next_start() 
     let kept = settings_file::load_from(&settings).0.settings;
     assert_eq!((kept.settings, kept.surface), before.settings);
     let mut second = harness();
-    explorer(&mut second).persistence.autosave_path = Some(working);
-    resume(explorer(&mut second));
+    resume(explorer(&mut second), working);
     wait(&mut second);
     // Fits are numbered anew.
     let without_numbers = |work: Work| Work { fits: vec![0; work.fits.len()], shown: work.shown.map(|_| 0), ..work };
@@ -462,8 +461,7 @@ fn what_was_said_before_a_session_is_opened_is_still_there_after() {
     let state = explorer(&mut harness);
     state.toasts.error("The settings are damaged.".to_owned());
     state.toasts.load_error("other.csv: no such file.".to_owned());
-    state.persistence.autosave_path = Some(path);
-    resume(state);
+    resume(state, path);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).toasts.take().as_deref(), Some("The settings are damaged."));
 }

@@ -14,6 +14,7 @@ mod help;
 mod hemisphere;
 mod imports;
 mod kept_texts;
+mod kept_work;
 mod landscape;
 mod languages;
 mod leaving;

@@ -345,7 +345,7 @@ fn the_working_state_is_kept_and_comes_back() {
     save_on_exit(explorer(&mut first));
     let mut second = harness();
     explorer(&mut second).persistence.autosave_path = Some(path.clone());
-    resume(explorer(&mut second));
+    resume(explorer(&mut second), path.clone());
     wait(&mut second);
     assert_eq!(explorer(&mut second).work.values(), explorer(&mut first).work.values());
     assert_eq!(explorer(&mut second).work.session_file(), None, "what is kept without being asked is no session of the user's");
@@ -353,10 +353,10 @@ fn the_working_state_is_kept_and_comes_back() {
     std::fs::write(&path, "{").expect("a writable folder");
     let mut third = harness();
     explorer(&mut third).persistence.autosave_path = Some(path.clone());
-    resume(explorer(&mut third));
+    resume(explorer(&mut third), path.clone());
     wait(&mut third);
     let notice = explorer(&mut third).toasts.take().expect("a sentence");
-    assert!(notice.contains("cannot be restored") && notice.contains("line 1"), "{notice}");
+    assert!(notice.contains("cannot be opened") && notice.contains("line 1"), "{notice}");
     assert!(folder.path().join("new folder/working.pbrdf.damaged.json").exists());
 }
 
@@ -436,8 +436,7 @@ fn fits_of_a_measurement_that_is_no_longer_open_come_back_with_their_data() {
     explorer(&mut first).persistence.autosave_path = Some(working.clone());
     save_on_exit(explorer(&mut first));
     let mut second = harness();
-    explorer(&mut second).persistence.autosave_path = Some(working);
-    resume(explorer(&mut second));
+    resume(explorer(&mut second), working);
     wait(&mut second);
     let (first, second) = (&explorer(&mut first).work, &explorer(&mut second).work);
     assert_eq!(second.active().name, first.active().name);

@@ -11,7 +11,7 @@ use egui::{Key, Modifiers};
 #[test]
 fn the_title_names_the_session_and_marks_what_is_not_saved() {
     let (mut harness, folder) = three();
-    assert_eq!(title(explorer(&mut harness)), format!("*unnamed – {TITLE}"));
+    assert_eq!(title(explorer(&mut harness)), format!("*450.csv and 2 more – {TITLE}"));
     let path = folder.path().join("wavelengths.pbrdf.json");
     explorer(&mut harness).jobs.files.ask = |_| Ok(Vec::new());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);

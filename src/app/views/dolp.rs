@@ -82,15 +82,18 @@ impl DolpView {
         });
     }
 
-    /// The axis, up to the highest curve or point.
+    /// The axis, up to the highest curve or point. The Fresnel limit may run out of it: of metals with
+    /// little polarisation it is ten times as high.
     fn follow(&mut self, curves: &CurveSet, marks: &MarkSet, cx: &Cx<'_>) {
         let limit = cx.work.settings().show_limit;
-        let values = curves.all().flat_map(|curves| axis_values(&curves.dolp).chain(axis_values(&curves.limit).filter(move |_| limit)));
+        let values = curves.all().flat_map(|curves| axis_values(&curves.dolp));
         let points = marks.series.iter().flat_map(|marks| &marks.dolp.used).map(|point| point.bar.map_or(point.y, |bar| bar.1));
         let companions = || cx.derived.companions.iter().map(|companion| companion.drawn);
         let others = companions().flat_map(|drawn| &drawn.dolp_points).map(|point| point.bar.map_or(point.y, |bar| bar.1));
         let others = others.chain(companions().flat_map(|drawn| axis_values(&drawn.dolp)));
         let top = values.chain(points).chain(others).fold(0.0, f64::max);
+        let limits = curves.all().filter(|_| limit).flat_map(|curves| axis_values(&curves.limit));
+        let top = top.max(limits.fold(0.0, f64::max).min(ROOM_FOR_LIMIT * top));
         let high = if cx.work.settings().view_options.share { 1.05 } else { nice_ceiling(top).min(1.05) };
         self.range.follow(Range { low: 0.0, high }, cx.interacting);
     }
@@ -291,6 +294,9 @@ fn other_distribution(work: &Workspace) -> Option<(Parameters, Model)> {
     }
     Some((parameters, Model { distribution: other, ..model }))
 }
+
+/// How high the Fresnel limit may raise the axis, over the highest of all else.
+const ROOM_FOR_LIMIT: f64 = 1.25;
 
 /// Share of the height that the residuals have.
 const STRIP: f32 = 0.25;

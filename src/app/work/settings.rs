@@ -61,6 +61,26 @@ impl HemisphereQuantity {
     pub const ALL: [Self; 4] = [Self::Dolp, Self::Angle, Self::Brdf, Self::SpecularShare];
 }
 
+/// What a map is compared to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reference {
+    LastFit,
+    /// The pinned surface at that place.
+    Pin(usize),
+}
+
+impl Reference {
+    /// Where it is after the pinned surface at that place is removed.
+    pub fn without(self, removed: usize) -> Option<Self> {
+        match self {
+            Self::Pin(place) if place == removed => None,
+            Self::Pin(place) if place > removed => Some(Self::Pin(place - 1)),
+            other => Some(other),
+        }
+    }
+}
+
 /// What panes show beyond what they always show.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
@@ -81,6 +101,8 @@ pub struct ViewOptions {
     /// Whether the way of a fit is drawn against time rather than evaluations.
     pub convergence_by_time: bool,
     pub hemisphere: HemisphereQuantity,
+    /// The surface whose map is taken off that of the sliders.
+    pub hemisphere_less: Option<Reference>,
 }
 
 /// Which two parameters the landscape is drawn over, and what lies on it.

@@ -4,6 +4,7 @@
 //! crash in a lesson loses nothing of it.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::set_aside;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::LessonSession;
 use crate::app::views::Views;
@@ -100,8 +101,15 @@ pub fn close_lesson(app: &mut App) {
 }
 
 /// Closes the lesson and goes on with what it set; undo leads back to the sliders of before.
-pub fn keep_lesson(app: &mut App) {
+///
+/// # Errors
+/// The work of before cannot be kept; a sentence.
+pub fn keep_lesson(app: &mut App) -> Result<(), String> {
+    if app.lessons.session.is_some() {
+        set_aside(app)?;
+    }
     if let Some(session) = app.lessons.session.take() {
         app.work.continue_undo_of(session.saved);
     }
+    Ok(())
 }

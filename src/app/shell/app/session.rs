@@ -1,9 +1,11 @@
 //! Sessions open, and exports end.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::autosave::set_aside;
 use crate::app::shell::app::title::mark_saved;
 use crate::app::shell::lessons::LessonSession;
 use crate::app::storage::export::ExportKind;
+use crate::app::storage::session::SavedFile;
 use crate::app::storage::session_file::OpenedSession;
 use crate::app::tasks::files::ExportedFile;
 use crate::app::text::i18n::translated;
@@ -14,35 +16,43 @@ use tr::tr;
 
 /// Puts a session in the place of everything there is; where it cannot be read, all stays.
 pub fn session_read(app: &mut App, path: &Path, result: Result<Box<OpenedSession>, String>) {
-    let is_autosave = app.persistence.is_autosave(path);
+    let is_kept = app.persistence.is_kept(path);
+    let is_resumed = app.persistence.resuming.take_if(|resuming| resuming == path).is_some();
     match result {
         Ok(opened) => {
+            // At the start there is nothing of the user's yet.
+            if !is_resumed && let Err(sentence) = set_aside(app) {
+                app.toasts.error(sentence);
+                return;
+            }
             app.toasts.dismiss_load_errors();
             app.dialogs.path_entry.clear_if(path);
             let left_out = opened.session.left_out.iter();
             let left_out: Vec<String> = left_out.map(|(number, error)| tr!("fit {0}: {1}", number, error.localized())).collect();
-            show_session(app, *opened, (!is_autosave).then(|| path.to_owned()));
+            let file = if is_kept { opened.session.file.clone() } else { Some(SavedFile { path: path.to_owned(), saved: true }) };
+            show_session(app, *opened, file.as_ref().map(|file| file.path.clone()));
             if !left_out.is_empty() {
                 let left_out = left_out.join(&tr!("; "));
                 app.toasts.error(tr!("{0} is opened without fits that are damaged: {1}.", path.display(), left_out));
             }
-            if !is_autosave {
+            if file.is_some_and(|file| file.saved) {
                 mark_saved(app);
             }
-            if is_autosave {
+            if is_resumed {
                 app.persistence.autosaved_revision = Some(app.autosave_revision());
-            } else {
+            }
+            if !is_kept {
                 app.window.remember(path);
             }
         }
-        Err(sentence) if is_autosave => {
-            // The next autosave would write over it.
+        Err(sentence) if is_kept => {
+            // The next start would meet it again.
             let aside = path.with_extension("damaged.json");
             let kept = std::fs::rename(path, &aside).map_or_else(
                 |error| tr!("it could not be set aside ({})", error.localized()),
                 |()| tr!("it is kept as {}", aside.display()),
             );
-            app.toasts.error(tr!("The state of the last time cannot be restored; {0}. {1}", kept, sentence));
+            app.toasts.error(tr!("The work of before cannot be opened; {0}. {1}", kept, sentence));
         }
         Err(sentence) => {
             app.window.forget(path);

@@ -1,5 +1,5 @@
 //! Hemisphere map: DoLP, angle of polarisation, BRDF or specular share over all directions of view
-//! at the sliders' θi.
+//! at the sliders' θi, or how they differ from those of a pinned surface or the last fit.
 //!
 //! The disc is that of [`pbrdf::model::Hemisphere`]: light from the left, forward side to the
 //! right, θr = 90° at the rim.
@@ -8,18 +8,19 @@ mod map;
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
-use crate::app::plots::theme::{FOREGROUND, MARK, WHITE};
+use crate::app::plots::theme::{DARK, FOREGROUND, MARK, WHITE};
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
 use crate::app::work::open_measurement::OpenMeasurement;
-use crate::app::work::settings::HemisphereQuantity;
+use crate::app::work::settings::{HemisphereQuantity, Reference};
+use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Series, Symbol};
-use egui::{Key, Ui};
-use map::{Made, MapKey, SIZE, index, place, values, wanted};
-use pbrdf::model::Pbrdf;
+use egui::{ComboBox, Key, Role, Ui, WidgetInfo};
+use map::{Made, MapKey, SIZE, index, place, values, wanted, wanted_of_difference};
+use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::{Degrees, Geometry};
 use tr::tr;
 
@@ -37,14 +38,33 @@ pub static SPEC: PaneSpec = PaneSpec {
 pub struct HemisphereView {
     job: AsyncMemo<MapKey, Option<Made>>,
     ranges: [AutoRange; HemisphereQuantity::ALL.len()],
+    ranges_of_differences: [AutoRange; HemisphereQuantity::ALL.len()],
     /// Directions measured at the sliders' θi, as places on the disc.
     measured: Memo<(u64, f64), Vec<[f64; 2]>>,
     plot: FigurePlot<FigureKey>,
 }
 
-/// The map by its inputs, what it shows, the range of its colours, the measured directions by their
-/// stamp, the language.
-type FigureKey = (MapKey, HemisphereQuantity, Option<Range>, u64, Language);
+/// The map by its inputs, what it shows, the name of what is taken off, the range of its colours, the
+/// measured directions by their stamp, the language.
+type FigureKey = (MapKey, HemisphereQuantity, Option<String>, Option<Range>, u64, Language);
+
+/// The surface of a reference and its name.
+fn surface_of(reference: Reference, work: &Workspace) -> Option<(String, (Parameters, Model))> {
+    match reference {
+        Reference::LastFit => work.shown_fit().map(|fit| (tr!("last fit"), (fit.report.parameters, fit.report.model))),
+        Reference::Pin(place) => work.pinned().get(place).map(|pin| (pin.name.clone(), (pin.parameters, pin.model))),
+    }
+}
+
+/// What a map can be compared to.
+fn references(work: &Workspace) -> Vec<(Option<Reference>, String)> {
+    let all = [Reference::LastFit].into_iter().chain((0..work.pinned().len()).map(Reference::Pin));
+    let named = all.filter_map(|reference| {
+        let (name, _) = surface_of(reference, work)?;
+        Some((Some(reference), tr!("less {}", name)))
+    });
+    [(None, tr!("of the sliders"))].into_iter().chain(named).collect()
+}
 
 impl HemisphereQuantity {
     /// Its name and what the pointer finds out about it.
@@ -70,6 +90,27 @@ impl HemisphereQuantity {
         }
     }
 
+    /// The axis of the colours of a difference.
+    fn axis_of_difference(self, name: &str) -> Axis {
+        match self {
+            Self::Dolp => Axis::linear(tr!("DoLP less that of {}", name), ""),
+            Self::Angle => Axis::linear(tr!("angle of polarisation less that of {}", name), "°"),
+            Self::Brdf => Axis::log(tr!("BRDF over that of {}", name), ""),
+            Self::SpecularShare => Axis::linear(tr!("specular share less that of {}", name), ""),
+        }
+    }
+
+    /// A value of a difference in words.
+    fn reading_of_difference(self, value: f64) -> String {
+        match self {
+            _ if value.is_nan() => tr!("nothing to tell"),
+            Self::Dolp => tr!("difference in DoLP = {}", format!("{value:+.5}")),
+            Self::Angle => tr!("turned by {}°", format!("{:+.2}", value + 0.0)),
+            Self::Brdf => tr!("BRDF = {} times the other", format!("{value:.4}")),
+            Self::SpecularShare => tr!("difference in specular share = {}", format!("{value:+.5}")),
+        }
+    }
+
     /// A value in words.
     fn reading(self, value: f64) -> String {
         match self {
@@ -85,12 +126,14 @@ impl HemisphereQuantity {
 impl HemisphereView {
     /// What is known at a place of the disc; none outside it.
     fn reading(&self, [x, y]: [f64; 2], quantity: HemisphereQuantity) -> Option<String> {
-        let map = &self.job.get()?.as_ref()?.map;
+        let made = self.job.get()?.as_ref()?;
+        let map = &made.map;
         let (row, column) = (index(y / 90.0)?, index(x / 90.0)?);
         let (theta_r, dphi) = map.direction(row, column)?;
         let value = values(map, quantity)[row * SIZE + column];
         let at = tr!("θr = {}°, Δφ = {}°", format!("{theta_r:.2}"), format!("{dphi:.2}"));
-        Some(format!("{at}: {}", quantity.reading(value)))
+        let words = if made.is_difference() { quantity.reading_of_difference(value) } else { quantity.reading(value) };
+        Some(format!("{at}: {words}"))
     }
 
     /// Whether a map is being made.
@@ -113,18 +156,21 @@ impl HemisphereView {
 
     /// The map with what lies on it, over degrees of θr from the middle outwards, so that axes can
     /// tell them.
-    fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), title: String) -> Figure {
+    fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), less: Option<&str>, title: String) -> Figure {
         let theta_i = made.theta_i;
-        let mut series = vec![Series::heat_map(made.heat_map(quantity, range, quantity.axis()))];
+        let axis = less.filter(|_| made.is_difference()).map_or_else(|| quantity.axis(), |name| quantity.axis_of_difference(name));
+        let mut series = vec![Series::heat_map(made.heat_map(quantity, range, axis))];
         let ring = |theta_r: f64| (0..=120).map(|i| place(theta_r, 3.0 * f64::from(i))).collect();
-        series.extend([30.0, 60.0].map(|theta_r| Series::stroke("", ring(theta_r), 0.5, Dash::Solid).colored(WHITE)));
+        // White lines vanish in the white of what is the same.
+        let line = if made.is_difference() { DARK } else { WHITE };
+        series.extend([30.0, 60.0].map(|theta_r| Series::stroke("", ring(theta_r), 0.5, Dash::Solid).colored(line)));
         let across = |dphi: f64| vec![place(90.0, dphi), place(90.0, dphi + 180.0)];
-        series.extend([0.0, 90.0].map(|dphi| Series::stroke("", across(dphi), 0.4, Dash::Solid).colored(WHITE)));
+        series.extend([0.0, 90.0].map(|dphi| Series::stroke("", across(dphi), 0.4, Dash::Solid).colored(line)));
         series.push(Series::dashed("", ring(90.0), Dash::Solid).colored(FOREGROUND));
         series.push(Series::labels([30.0, 60.0].map(|theta_r| (place(theta_r, 90.0), format!("θr = {theta_r}°"))).to_vec()));
         let mark = |name: String, places: Vec<[f64; 2]>, symbol| {
             let points = places.into_iter().map(|[x, y]| Point { x, y, bar: None }).collect();
-            Series::measured(name, points, symbol).colored(MARK)
+            Series::measured(name, points, symbol).colored(if made.is_difference() { DARK } else { MARK })
         };
         if let Some(measured) = self.measured.get().filter(|measured| !measured.is_empty()) {
             series.push(mark(tr!("measured"), measured.clone(), Symbol::Circle));
@@ -142,6 +188,22 @@ impl HemisphereView {
         };
         Figure { title, panels: vec![panel], width_mm: 130.0, height_mm: 125.0, ..Figure::default() }
     }
+}
+
+/// The choice of what the map is compared to.
+fn reference_ui(chosen: &mut Option<Reference>, references: &[(Option<Reference>, String)], ui: &mut Ui) {
+    let current = references.iter().find(|(reference, _)| reference == chosen).or(references.first());
+    let text = current.map_or_else(String::new, |(_, text)| text.clone());
+    let combo = ComboBox::from_id_salt("hemisphere less").selected_text(text.clone()).truncate().show_ui(ui, |ui| {
+        for (reference, text) in references {
+            ui.selectable_value(chosen, *reference, text);
+        }
+    });
+    combo.response.widget_info(|| WidgetInfo {
+        current_text_value: Some(text.clone()),
+        ..WidgetInfo::labeled(Role::ComboBox, true, tr!("What the map is compared to"))
+    });
+    combo.response.on_hover_text(tr!("The map of the sliders, or how it differs from that of a pinned surface or of the last fit"));
 }
 
 /// Marks of an axis at these values.
@@ -166,28 +228,40 @@ impl View for HemisphereView {
             self.job = AsyncMemo::default();
             return;
         };
-        let before = self.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i).map(|made| made.hemisphere.clone());
-        let key = (parameters, model, theta_i);
-        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(&surface, theta_i, before, stopped));
+        let before = self.job.get().and_then(Option::as_ref).filter(|made| made.theta_i == theta_i);
+        let before = before.map(|made| (made.hemisphere.clone(), made.reference.clone()));
+        let reference = settings.view_options.hemisphere_less.and_then(|reference| surface_of(reference, cx.work));
+        let (name, less) = reference.unzip();
+        let key = (parameters, model, theta_i, less);
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(&surface, theta_i, less, before, stopped));
         self.measured.refresh((cx.work.active().generation, theta_i), |_| measured(cx.work.active(), theta_i));
         let (Some(key), Some(Some(made))) = (self.job.key(), self.job.get()) else { return };
         let quantity = settings.view_options.hemisphere;
-        let range = &mut self.ranges[quantity as usize];
-        range.follow(wanted(quantity, made.extremes[quantity as usize]), cx.interacting);
+        let extremes = made.extremes[quantity as usize];
+        let (ranges, wanted) = match made.is_difference() {
+            true => (&mut self.ranges_of_differences, wanted_of_difference(extremes)),
+            false => (&mut self.ranges, wanted(quantity, extremes)),
+        };
+        let range = &mut ranges[quantity as usize];
+        range.follow(wanted, cx.interacting);
         let range = range.get();
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh((*key, quantity, range, self.measured.stamp(), i18n::current()), |_| {
-            Some(self.describe(made, (quantity, range?), cx.work.active().title()))
+        plot.refresh((*key, quantity, name, range, self.measured.stamp(), i18n::current()), |(_, _, name, ..)| {
+            Some(self.describe(made, (quantity, range?), name.as_deref(), cx.work.active().title()))
         });
         self.plot = plot;
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let references = references(cx.work);
         ui.horizontal_wrapped(|ui| {
             cx.view_options_ui(|shown| {
                 for quantity in HemisphereQuantity::ALL {
                     let [name, help] = quantity.texts();
                     ui.selectable_value(&mut shown.hemisphere, quantity, name).on_hover_text(help);
+                }
+                if references.len() > 1 {
+                    reference_ui(&mut shown.hemisphere_less, &references, ui);
                 }
             });
         });

@@ -77,6 +77,8 @@ impl Workspace {
     pub(super) fn unpin(&mut self, place: usize) {
         if place < self.pinned.len() {
             self.pinned.remove(place);
+            let options = &mut self.settings.view_options;
+            options.hemisphere_less = options.hemisphere_less.and_then(|reference| reference.without(place));
         }
     }
 
