@@ -5,6 +5,7 @@ mod list_row;
 mod measurement_list;
 mod parameters;
 mod pinned_list;
+mod sharing;
 mod stepping;
 mod tooltip_right;
 

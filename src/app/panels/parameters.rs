@@ -1,5 +1,6 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
+use crate::app::panels::sharing::{shared_of, shared_ui, sharing_ui};
 use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
@@ -12,7 +13,7 @@ use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::{Surface, another};
 use egui::{Align, DragValue, Grid, Layout, Role, Slider, SliderClamping, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, PRESETS, Parameter, Parameters, PerParameter, Preset};
+use pbrdf::model::{Diffuse, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -25,13 +26,16 @@ type SliderRanges = PerParameter<RangeInclusive<f64>>;
 pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &SliderRanges, ui: &mut Ui) {
     let before = cx.work.surface();
     let mut surface = before.clone();
+    let shared_before = shared_of(cx.work);
+    let mut shared = shared_before;
     let show_bounds = cx.work.settings().show_bounds;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         preset_ui(&mut surface, ui);
+        shared.iter_mut().for_each(|shared| sharing_ui(shared, ui));
         bounds_switch_ui(cx, &mut surface, ui);
         ui.separator();
-        let mut sliders = Sliders { surface: &mut surface, show_bounds, refusals, ranges };
+        let mut sliders = Sliders { surface: &mut surface, shared: &mut shared, show_bounds, refusals, ranges };
         specular_ui(&mut sliders, ui);
         diffuse_ui(&mut sliders, ui);
         volume_ui(&mut sliders, ui);
@@ -44,12 +48,17 @@ pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &Slide
     if surface != *before {
         cx.edits.push(Edit::SetSurface(Box::new(surface)));
     }
+    if shared != shared_before {
+        cx.edits.extend(shared.map(Edit::Share));
+    }
 }
 
 /// What the groups of sliders share.
 struct Sliders<'a> {
     /// A copy, which becomes an edit.
     surface: &'a mut Surface,
+    /// The parameters that all measurements share, where there are several.
+    shared: &'a mut Option<ParameterSet>,
     show_bounds: bool,
     refusals: &'a mut Vec<String>,
     ranges: &'a SliderRanges,
@@ -227,10 +236,11 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
 }
 
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
-    let Sliders { surface, show_bounds, refusals, ranges } = sliders;
-    Grid::new(id).num_columns(5).min_row_height(20.0).show(ui, |ui| {
+    let Sliders { surface, shared, show_bounds, refusals, ranges } = sliders;
+    Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).show(ui, |ui| {
         for &parameter in parameters {
             slider_ui(surface, refusals, ranges[parameter].clone(), ui, parameter);
+            shared.iter_mut().for_each(|shared| shared_ui(shared, parameter, ui));
             ui.end_row();
             if *show_bounds {
                 bounds_ui(surface, refusals, ui, parameter);

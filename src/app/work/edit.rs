@@ -9,7 +9,7 @@ use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeas
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Starts};
-use pbrdf::model::{Model, Parameter, Parameters};
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::PathBuf;
 
 /// One change of the work, in terms of what a user does; [`Workspace::apply`] carries it out.
@@ -34,6 +34,8 @@ pub enum Edit {
     SetModel(Model),
     /// Sliders, model, locks and bounds of the active measurement.
     SetSurface(Box<Surface>),
+    /// The parameters that all surfaces share; they are those of the active one.
+    Share(ParameterSet),
     /// Angles of the lobes, degrees.
     SetDirection {
         theta_i: f64,

@@ -1,7 +1,8 @@
 //! The open measurements, each with its surface.
 
 use crate::app::work::open_measurement::{OpenMeasurement, STYLES};
-use pbrdf::model::{ParameterSet, Parameters};
+use crate::app::work::surface::Surface;
+use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 
 /// The open measurements, one of which is active: panels and panes show it. Without data the list
 /// holds one measurement without rows, whose surface the sliders move.
@@ -155,12 +156,33 @@ impl MeasurementList {
         self.active
     }
 
+    /// The measurements with rows: those that can be fitted.
+    pub fn measured(&self) -> impl Iterator<Item = &OpenMeasurement> + Clone {
+        self.all.iter().filter(|open| !open.measurement.rows.is_empty())
+    }
+
     pub fn shared(&self) -> ParameterSet {
         self.shared
     }
 
-    pub fn share(&mut self, shared: ParameterSet) {
+    /// Shares those parameters; surfaces stay as they are.
+    pub fn set_shared(&mut self, shared: ParameterSet) {
         self.shared = shared;
+    }
+
+    /// Shares those parameters. On all surfaces they are what they are on the active one, and so is the model, if any is shared. A
+    /// shared k_s is free where any BRDF frees it, an own one where its measurement has one.
+    pub fn share(&mut self, shared: ParameterSet) {
+        let was_shared = self.shared.contains(Parameter::Ks);
+        self.shared = shared;
+        let is_free = |open: &OpenMeasurement| !open.surface.locked.contains(Parameter::Ks);
+        if shared.contains(Parameter::Ks) && self.all.iter().any(is_free) {
+            let active = self.active_mut();
+            active.surface.locked = active.surface.locked.without(Parameter::Ks);
+        } else if was_shared && !shared.contains(Parameter::Ks) {
+            self.all.iter_mut().for_each(|open| open.surface.adapt_to(&open.measurement));
+        }
+        self.spread(self.active);
     }
 
     pub fn iter(&self) -> std::slice::Iter<'_, OpenMeasurement> {
@@ -180,19 +202,40 @@ impl MeasurementList {
 
     /// The same of the surface of the measurement of that number, if that is open.
     pub fn set_parameters_of(&mut self, number: u64, parameters: Parameters) {
-        let Some(index) = self.place_of(number) else { return };
-        for parameter in self.shared {
-            self.all.iter_mut().for_each(|other| other.surface.parameters[parameter] = parameters[parameter]);
+        if let Some(index) = self.place_of(number) {
+            self.all[index].surface.parameters = parameters;
+            self.spread(index);
         }
-        self.all[index].surface.parameters = parameters;
+    }
+
+    /// Gives the active measurement another model, and the others too, if anything is shared.
+    pub fn set_model(&mut self, model: Model) {
+        self.set_surface(Surface { model, ..self.active().surface.clone() });
+    }
+
+    /// Gives the active measurement another surface; what is shared changes on all surfaces.
+    pub fn set_surface(&mut self, surface: Surface) {
+        self.active_mut().surface = surface;
+        self.spread(self.active);
+    }
+
+    /// Takes what is shared from one surface to all others: values, what fits may do with them, and the model.
+    fn spread(&mut self, from: usize) {
+        if self.shared.is_empty() {
+            return;
+        }
+        let surface = self.all[from].surface.clone();
+        for open in &mut self.all {
+            open.surface.model = surface.model;
+            self.shared.iter().for_each(|parameter| open.surface.take(parameter, &surface));
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{MeasurementList, OpenMeasurement, Parameters};
+    use super::{MeasurementList, Model, OpenMeasurement, Parameter, ParameterSet, Parameters, Surface};
     use pbrdf::measurement::Measurement;
-    use pbrdf::model::{Parameter, ParameterSet};
 
     #[test]
     fn a_shared_parameter_moves_on_all_surfaces_and_an_own_one_on_its_own() {
@@ -200,6 +243,24 @@ mod tests {
         list.set_parameters(Parameters { n: 1.5, sigma: 0.25, ..Parameters::default() });
         let values: Vec<(f64, f64)> = list.iter().map(|open| (open.surface.parameters.n, open.surface.parameters.sigma)).collect();
         assert_eq!((list.active().name.as_str(), values), ("b", vec![(Parameters::default().n, 0.25), (1.5, 0.25)]));
+    }
+
+    #[test]
+    fn what_fits_may_do_with_a_shared_parameter_is_shared_and_so_is_the_model() {
+        let mut list = MeasurementList::several(vec![of("a"), of("b")], 1, ParameterSet::EMPTY);
+        let mut surface = Surface { model: Model::SPECULAR, ..Surface::default() };
+        surface.locked = surface.locked.with(Parameter::Sigma).with(Parameter::N);
+        surface.set_bounds(Parameter::Sigma, 0.1, 0.9).expect("sound bounds");
+        surface.set_bounds(Parameter::N, 0.5, 1.5).expect("sound bounds");
+        list.set_surface(surface.clone());
+        assert_eq!(list.iter().next().map(|open| &open.surface), Some(&Surface::default()), "nothing is shared");
+        list.share(ParameterSet::EMPTY.with(Parameter::Sigma));
+        let first = &list.iter().next().expect("the first").surface;
+        let is_locked = |parameter| first.locked.contains(parameter);
+        assert_eq!((first.model, is_locked(Parameter::Sigma), is_locked(Parameter::N)), (Model::SPECULAR, true, false));
+        assert_eq!((first.bounds_of(Parameter::Sigma), first.has_own_bounds(Parameter::N)), ((0.1, 0.9), false));
+        list.set_model(Model::CAUCHY);
+        assert!(list.iter().all(|open| open.surface.model == Model::CAUCHY));
     }
 
     fn names(list: &MeasurementList) -> Vec<&str> {

@@ -18,5 +18,6 @@ pub mod predicted_errors;
 pub mod settings;
 pub mod settings_error;
 pub mod setup;
+pub mod sharing;
 pub mod surface;
 pub mod workspace;

@@ -59,7 +59,7 @@ impl Setup {
     pub fn restore(self, measurements: &mut MeasurementList) -> (Settings, Vec<PinnedSurface>) {
         let numbers: Vec<u64> = self.measurements.iter().map(|setup| setup.number).collect();
         measurements.arrange(&numbers, self.active);
-        measurements.share(self.shared);
+        measurements.set_shared(self.shared);
         for setup in self.measurements {
             if let Some(open) = measurements.get_mut(setup.number) {
                 (open.name, open.surface, open.style) = (setup.name, setup.surface, setup.style);

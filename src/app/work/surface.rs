@@ -149,6 +149,16 @@ impl Surface {
         Ok(())
     }
 
+    /// Takes a parameter over from another surface: its value, and what a fit may do with it.
+    pub fn take(&mut self, parameter: Parameter, other: &Self) {
+        self.parameters[parameter] = other.parameters[parameter];
+        self.locked = if other.locked.contains(parameter) { self.locked.with(parameter) } else { self.locked.without(parameter) };
+        if self.bounds_of(parameter) != other.bounds_of(parameter) {
+            self.reset_bounds(parameter);
+            self.bounds.extend(other.bounds.iter().filter(|(of, ..)| *of == parameter));
+        }
+    }
+
     /// Back to the slider's range.
     pub fn reset_bounds(&mut self, parameter: Parameter) {
         self.bounds.retain(|(other, ..)| *other != parameter);

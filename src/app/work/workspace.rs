@@ -194,11 +194,12 @@ impl Workspace {
         self.revision = next_revision();
         match edit {
             Edit::SetParameters(parameters) => self.move_to(parameters),
-            Edit::SetModel(model) => self.measurements.active_mut().surface.model = model,
+            Edit::SetModel(model) => self.measurements.set_model(model),
             Edit::SetSurface(surface) => {
                 self.move_to(surface.parameters);
-                self.measurements.active_mut().surface = *surface;
+                self.measurements.set_surface(*surface);
             }
+            Edit::Share(shared) => self.measurements.share(shared),
             Edit::SetDirection { theta_i, dphi } => (self.settings.theta_i, self.settings.dphi) = (theta_i, dphi),
             Edit::SetSwitch(switch, on) => switch.set(&mut self.settings, on),
             Edit::SetFitOptions(options) => self.settings.fit_options = options,
@@ -244,7 +245,7 @@ impl Workspace {
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
             Edit::UseFit => {
                 if let Some(fit) = self.shown_fit().cloned() {
-                    self.measurements.active_mut().surface.model = fit.report.model;
+                    self.measurements.set_model(fit.report.model);
                     self.move_to(fit.report.parameters);
                 }
             }
@@ -323,8 +324,8 @@ impl Workspace {
 
     /// Values and model from a fit: the live refit does not begin at them.
     fn take_values(&mut self, parameters: Parameters, model: Model) {
+        self.measurements.set_model(model);
         self.measurements.set_parameters(parameters);
-        self.measurements.active_mut().surface.model = model;
         self.moved_at = 0;
     }
 

@@ -3,6 +3,7 @@
 use super::Workspace;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
+use crate::app::work::sharing::Sharing;
 use crate::app::work::surface::PinnedSurface;
 use pbrdf::model::{Model, Parameters};
 
@@ -17,8 +18,19 @@ impl Workspace {
         } else {
             self.settings.adapt_beside_others(&opened);
         }
+        let before = Sharing::stated(self.measurements.measured());
+        let was_single = self.measurements.measured().count() == 1;
         self.measurements.add(opened);
+        self.share_as_stated(was_single, before);
         self.moved_at = 0;
+    }
+
+    /// A second measurement is a different sample, or shares all but n and k with the first where their files say one sample at several
+    /// wavelengths. What is no longer one sample by its files shares nothing.
+    fn share_as_stated(&mut self, was_single: bool, before: Sharing) {
+        let (shared, stated) = (self.measurements.shared(), Sharing::stated(self.measurements.measured()));
+        let is_another = before == Sharing::Wavelengths && shared == before.shared() && stated != before;
+        self.measurements.share(if was_single || is_another { stated.shared() } else { shared });
     }
 
     /// Puts a measurement in the place of all that are open; no step of undo of its own. The sliders
@@ -84,7 +96,7 @@ impl Workspace {
 
     pub(super) fn use_pin(&mut self, place: usize) {
         if let Some(&PinnedSurface { model, parameters, .. }) = self.pinned.get(place) {
-            self.measurements.active_mut().surface.model = model;
+            self.measurements.set_model(model);
             self.move_to(parameters);
         }
     }
