@@ -79,7 +79,7 @@ pub use intervals::linear::{RANK_THRESHOLD, Uncertainty, UndeterminedDirection, 
 pub use intervals::profile::{LEVELS, Profile, ProfilePoint, profile, set_intervals, with_intervals};
 pub use joint::builder::{JointError, JointFit, fit_jointly};
 pub use joint::problem::JointProblem;
-pub use joint::result::{JointResult, SetResult, bootstrap_jointly, profile_jointly};
+pub use joint::result::{JointResult, SetResult, analyse_jointly, bootstrap_jointly, profile_jointly, with_intervals_jointly};
 pub use joint::unknown::JointUnknown;
 pub use landscape::{Landscape, LandscapeAxis};
 pub use least_squares::LeastSquares;

@@ -64,6 +64,20 @@ struct Sliders<'a> {
     ranges: &'a SliderRanges,
 }
 
+/// Widths in points, and whether buttons have words.
+#[derive(Clone, Copy)]
+struct Room {
+    slider: f32,
+    value: f32,
+    has_words: bool,
+}
+
+impl Room {
+    const ALONE: Self = Self { slider: 100.0, value: 92.0, has_words: true };
+    /// With the switch between shared and own at the end of the row.
+    const BESIDE_SWITCH: Self = Self { slider: 80.0, value: 76.0, has_words: false };
+}
+
 /// The named models; whatever the switches below say, if they match none.
 fn preset_ui(surface: &mut Surface, ui: &mut Ui) {
     let current = Preset::of(surface.model);
@@ -237,13 +251,15 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
 
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     let Sliders { surface, shared, show_bounds, refusals, ranges } = sliders;
+    let room = if shared.is_some() { Room::BESIDE_SWITCH } else { Room::ALONE };
     Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).show(ui, |ui| {
+        ui.spacing_mut().slider_width = room.slider;
         for &parameter in parameters {
-            slider_ui(surface, refusals, ranges[parameter].clone(), ui, parameter);
+            slider_ui(surface, refusals, ranges[parameter].clone(), room, ui, parameter);
             shared.iter_mut().for_each(|shared| shared_ui(shared, parameter, ui));
             ui.end_row();
             if *show_bounds {
-                bounds_ui(surface, refusals, ui, parameter);
+                bounds_ui(surface, refusals, room, ui, parameter);
                 ui.end_row();
             }
         }
@@ -251,7 +267,7 @@ fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Pa
 }
 
 /// Name, slider, typed value with unit; lock and reset.
-fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeInclusive<f64>, ui: &mut Ui, parameter: Parameter) {
+fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeInclusive<f64>, room: Room, ui: &mut Ui, parameter: Parameter) {
     let outside = !range.contains(&surface.parameters[parameter]);
     let help = tr!(
         "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it, with Shift by a tenth.",
@@ -303,7 +319,7 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
     let unit = parameter.unit();
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     ui.add_sized(
-        [92.0, 20.0],
+        [room.value, 20.0],
         typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false).suffix(suffix),
     )
     .labelled_by(label.id)
@@ -319,11 +335,11 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
     if let Some(sentence) = refused.into_inner() {
         refusals.push(sentence);
     }
-    lock_and_reset_ui(surface, outside, ui, parameter);
+    lock_and_reset_ui(surface, outside, room, ui, parameter);
 }
 
 /// Whether a fit leaves the parameter alone, and the way back to its default.
-fn lock_and_reset_ui(surface: &mut Surface, outside: bool, ui: &mut Ui, parameter: Parameter) {
+fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut Ui, parameter: Parameter) {
     let mut locked = surface.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_right(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));
@@ -333,7 +349,12 @@ fn lock_and_reset_ui(surface: &mut Surface, outside: bool, ui: &mut Ui, paramete
 
     let is_default = surface.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
-    let text = egui::RichText::new(if outside { tr!("outside") } else { tr!("reset") }).color(color);
+    let text = match outside {
+        _ if !room.has_words => "←".to_owned(),
+        true => tr!("outside"),
+        false => tr!("reset"),
+    };
+    let text = egui::RichText::new(text).color(color);
     let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_right(
         ui,
         if outside {
@@ -349,14 +370,16 @@ fn lock_and_reset_ui(surface: &mut Surface, outside: bool, ui: &mut Ui, paramete
 }
 
 /// The lower bound under the slider, the upper one under the value.
-fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, ui: &mut Ui, parameter: Parameter) {
+fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, room: Room, ui: &mut Ui, parameter: Parameter) {
     let (low, high) = surface.bounds_of(parameter);
     let own = surface.has_own_bounds(parameter);
     let color = if own { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
     let mut wanted = (low, high);
     let refused = RefCell::new(None);
     ui.label("");
-    for (value, name, sign) in [(&mut wanted.0, tr!("Lower bound"), "≥ "), (&mut wanted.1, tr!("Upper bound"), "≤ ")] {
+    for (value, name, sign, width) in
+        [(&mut wanted.0, tr!("Lower bound"), "≥ ", room.slider.min(room.value)), (&mut wanted.1, tr!("Upper bound"), "≤ ", room.value)]
+    {
         let before = *value;
         let parse = |text: &str| {
             let parsed = number_from_text(text.trim().trim_start_matches(sign.trim()), parameter.unit());
@@ -378,7 +401,7 @@ fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, ui: &mut Ui, par
         let response = ui
             .scope(|ui| {
                 ui.visuals_mut().override_text_color = Some(color);
-                ui.add_sized([92.0, 18.0], field.update_while_editing(false).prefix(sign))
+                ui.add_sized([width, 18.0], field.update_while_editing(false).prefix(sign))
             })
             .inner;
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("{0} of {1}", name, parameter.key())));
@@ -393,7 +416,8 @@ fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, ui: &mut Ui, par
         refusals.push(sentence);
     }
     ui.label("");
-    let reset = ui.add_enabled(own, egui::Button::new(tr!("reset"))).on_hover_right(ui, tr!("back to the slider's range"));
+    let text = if room.has_words { tr!("reset") } else { "←".to_owned() };
+    let reset = ui.add_enabled(own, egui::Button::new(text)).on_hover_right(ui, tr!("back to the slider's range"));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         surface.reset_bounds(parameter);

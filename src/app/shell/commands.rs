@@ -16,6 +16,7 @@ use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::EXAMPLES;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
+use crate::app::work::sharing::Sharing;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use pbrdf::model::{FINISHES, PRESETS, Preset};
 use std::borrow::Cow;
@@ -211,6 +212,8 @@ static ENTRIES: &[Entry] = &[
         |app| only_if(!app.work.pinned().is_empty())),
     row(Action::StartFit, Menu::Fit, "Start fit", "Levenberg–Marquardt from the sliders, all parameters that are not fixed",
         plain(Key::F5), |app| only_if(!app.jobs.fits.fit.is_running())),
+    row(Action::FitEach, Menu::Fit, "Fit each measurement", "Every open measurement by itself, one after the other", None,
+        |app| only_if(app.work.measurements().measured().count() > 1 && !app.jobs.fits.fit.is_running())),
     row(Action::CancelFit, Menu::Fit, "Cancel fit", "Stop and keep the best so far", None, |app| only_if(app.jobs.fits.fit.is_running())),
     row(Action::UseFit, Menu::Fit, "Use fit as sliders", "The fitted values to the sliders", None, |app| only_if(app.work.shown_fit().is_some())),
     row(Action::UseValuesBeforeFit, Menu::Fit, "Back to before the fit", "The sliders as they were before the fit", None,
@@ -298,6 +301,17 @@ fn measurements(app: &App) -> impl Iterator<Item = Command> {
     })
 }
 
+/// What several measurements have in common.
+fn sharings(app: &App) -> impl Iterator<Item = Command> {
+    let list = app.work.measurements();
+    let (current, are_several) = (Sharing::of(list.shared()), list.measured().count() > 1);
+    Sharing::ALL.into_iter().map(move |sharing| {
+        let text = tr!("Measurements of {}", translated(sharing.name()));
+        let status = if are_several { switch(current == Some(sharing)) } else { Availability::Impossible };
+        item(Action::List(ListAction::Share(sharing)), Menu::Measurement, text.into(), translated(sharing.help()).into(), status)
+    })
+}
+
 /// Every command that there is at the moment.
 pub fn items(app: &App) -> Vec<Command> {
     let fixed = ENTRIES.iter().map(|entry| Command {
@@ -371,6 +385,7 @@ pub fn items(app: &App) -> Vec<Command> {
     fixed
         .chain(plots(&on_screen))
         .chain(measurements(app))
+        .chain(sharings(app))
         .chain(examples)
         .chain(lessons)
         .chain(recent)

@@ -2,9 +2,10 @@
 //! one. Data and solution do not tell that again.
 
 use crate::app::text::localized::Localized;
-use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_history::{FitEntry, JointEntry};
 use pbrdf::fit::{
-    Basin, Course, FitResult, Interval, LocalFit, Loss, MultistartResult, Problem, StopReason, TracePoint, analyse, set_intervals,
+    Basin, Course, FitOptions, FitResult, Interval, JointProblem, JointResult, JointUnknown, LocalFit, Loss, Minimum, MultistartResult,
+    Problem, Statistics, StopReason, TracePoint, analyse, analyse_jointly, set_intervals,
 };
 use pbrdf::model::{Parameter, Parameters};
 use serde::ser::{Error as _, SerializeSeq as _};
@@ -60,13 +61,9 @@ struct SavedIntervals {
 }
 
 impl SavedIntervals {
-    fn new(report: &FitResult, free: &[Parameter]) -> Option<Self> {
-        let of = |parameter: &Parameter| {
-            let estimate = report.estimate(*parameter)?;
-            Some([estimate.interval68?, estimate.interval95?])
-        };
-        let Course { intervals_ms: elapsed_ms, intervals_complete, .. } = report.course;
-        Some(Self { elapsed_ms, complete: intervals_complete?, of: free.iter().map(of).collect::<Option<_>>()? })
+    fn new<T>(course: &Course<T>, of: Option<Vec<[Interval; 2]>>) -> Option<Self> {
+        let Course { intervals_ms: elapsed_ms, intervals_complete, .. } = *course;
+        Some(Self { elapsed_ms, complete: intervals_complete?, of: of? })
     }
 
     fn is_sound(&self, free: usize) -> bool {
@@ -146,29 +143,51 @@ impl FitRecord {
     pub fn new(fit: &FitEntry) -> Option<Self> {
         let FitEntry { report, problem, mask, .. } = fit;
         let free = problem.free();
-        let is_robust = problem.options().loss != Loss::Squared;
+        let both = |parameter: &Parameter| {
+            let estimate = report.estimate(*parameter)?;
+            Some([estimate.interval68?, estimate.interval95?])
+        };
+        let intervals = SavedIntervals::new(&report.course, free.iter().map(both).collect());
         let at = |parameters: &Parameters| free.iter().map(|&parameter| parameters[parameter]).collect();
-        let minima = report.course.minima.iter().map(|minimum| Ending {
-            reached: minimum.hits,
-            stop_reason: minimum.stop_reason,
-            at: at(&minimum.parameters),
-        });
-        let minima: Vec<Ending> = minima.collect();
-        let step = |(point, parameters): (&TracePoint, &Parameters)| Step {
+        Self::of_course(&report.course, &report.statistics, problem.options(), intervals, at)
+            .map(|record| Self { masked: mask.to_vec(), ..record })
+    }
+
+    /// The same of a joint fit, whose measurements have masks of their own.
+    pub fn of_joint(JointEntry { result, problem, .. }: &JointEntry) -> Option<Self> {
+        let both = |unknown: &JointUnknown| {
+            let (_, estimate) = result.estimates().find(|(name, _)| name == unknown)?;
+            Some([estimate.interval68?, estimate.interval95?])
+        };
+        let intervals = SavedIntervals::new(&result.course, problem.unknowns().iter().map(both).collect());
+        let at = |point: &Vec<Parameters>| problem.values_at(point);
+        Self::of_course(&result.course, &result.statistics, problem.options(), intervals, at)
+    }
+
+    fn of_course<T>(
+        course: &Course<T>,
+        statistics: &Statistics,
+        fit_options: &FitOptions,
+        intervals: Option<SavedIntervals>,
+        at: impl Fn(&T) -> Vec<f64>,
+    ) -> Option<Self> {
+        let is_robust = fit_options.loss != Loss::Squared;
+        let ending = |minimum: &Minimum<T>| Ending { reached: minimum.hits, stop_reason: minimum.stop_reason, at: at(&minimum.parameters) };
+        let step = |(point, parameters): (&TracePoint, &T)| Step {
             elapsed_ms: point.elapsed_ms,
             evaluations: point.evaluations,
             delta_e: Some(point.objective).filter(|value| value.is_finite()),
             at: at(parameters),
         };
         let account = Self {
-            evaluations: report.course.evaluations,
-            elapsed_ms: report.course.elapsed_ms,
-            masked: mask.to_vec(),
-            loss_scales: Some(report.statistics.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
-            block_weights: Some(report.statistics.block_weights).filter(|weights| *weights != [1.0; 2]),
-            intervals: SavedIntervals::new(report, free),
-            minima,
-            way: thinned(report.course.trace.iter().zip(&report.course.path).map(step).collect()),
+            evaluations: course.evaluations,
+            elapsed_ms: course.elapsed_ms,
+            masked: Vec::new(),
+            loss_scales: Some(statistics.loss_scales).filter(|scales| is_robust && scales.iter().all(is_loss_scale)),
+            block_weights: Some(statistics.block_weights).filter(|weights| *weights != [1.0; 2]),
+            intervals,
+            minima: course.minima.iter().map(ending).collect(),
+            way: thinned(course.trace.iter().zip(&course.path).map(step).collect()),
         };
         Some(account).filter(|account| !account.is_empty())
     }
@@ -190,9 +209,8 @@ impl FitRecord {
 
     /// Why it can be the account of no fit with so many free parameters.
     pub fn fault(&self, free: usize) -> Option<FitRecordError> {
-        let places = || self.minima.iter().map(|ending| &ending.at).chain(self.way.iter().map(|step| &step.at));
         let is_size = |value: f64| value >= 0.0;
-        if places().any(|at| at.len() != free) {
+        if self.all_places().any(|at| at.len() != free) {
             Some(FitRecordError::Place)
         } else if self.minima.iter().try_fold(0_usize, |sum, ending| sum.checked_add(ending.reached)).is_none() {
             Some(FitRecordError::Starts)
@@ -209,10 +227,43 @@ impl FitRecord {
         }
     }
 
+    /// All places that it names.
+    fn all_places(&self) -> impl Iterator<Item = &Vec<f64>> {
+        self.minima.iter().map(|ending| &ending.at).chain(self.way.iter().map(|step| &step.at))
+    }
+
     /// All places that it names, the rest of the parameters as the fit began.
     pub fn places(&self, start: Parameters, free: &[Parameter]) -> impl Iterator<Item = Parameters> {
-        let all = self.minima.iter().map(|ending| &ending.at).chain(self.way.iter().map(|step| &step.at));
-        all.map(move |at| place(start, free, at))
+        self.all_places().map(move |at| place(start, free, at))
+    }
+
+    /// The same of a joint fit.
+    pub fn points(&self, problem: &JointProblem) -> impl Iterator<Item = Vec<Parameters>> {
+        self.all_places().map(|at| problem.point_with(at))
+    }
+
+    /// What the starts had found.
+    fn search<T>(&self, place: impl Fn(&[f64]) -> T, sum_of_squares: impl Fn(&T) -> Option<f64>) -> Option<MultistartResult<T>> {
+        let point = |step: &Step| TracePoint {
+            elapsed_ms: step.elapsed_ms,
+            evaluations: step.evaluations,
+            objective: step.delta_e.unwrap_or(f64::NAN),
+        };
+        let found = self.minima.iter().enumerate().map(|(i, ending)| {
+            let parameters = place(&ending.at);
+            // The way is that of the best.
+            let way = if i == 0 { self.way.as_slice() } else { &[] };
+            let local_fit = LocalFit {
+                sum_of_squares: sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
+                parameters,
+                stop_reason: ending.stop_reason,
+                evaluations: way.last().map_or(0, |step| step.evaluations),
+                trace: way.iter().map(point).collect(),
+                path: way.iter().map(|step| place(&step.at)).collect(),
+            };
+            Basin { local_fit, hits: ending.reached }
+        });
+        MultistartResult::new(found.collect(), self.evaluations)
     }
 
     /// The report as it was.
@@ -220,32 +271,26 @@ impl FitRecord {
         let problem = self.loss_scales.map_or_else(|| problem.clone(), |scales| problem.with_loss_scales(scales));
         let problem = self.block_weights.map_or_else(|| problem.clone(), |weights| problem.with_block_weights(weights));
         let start = *problem.start();
-        let found = self.minima.iter().enumerate().map(|(i, ending)| {
-            let parameters = place(start, free, &ending.at);
-            // The way is that of the best.
-            let way = if i == 0 { self.way.as_slice() } else { &[] };
-            let point = |step: &Step| TracePoint {
-                elapsed_ms: step.elapsed_ms,
-                evaluations: step.evaluations,
-                objective: step.delta_e.unwrap_or(f64::NAN),
-            };
-            let local_fit = LocalFit {
-                parameters,
-                sum_of_squares: problem.sum_of_squares(&parameters).unwrap_or(f64::INFINITY),
-                stop_reason: ending.stop_reason,
-                evaluations: way.last().map_or(0, |step| step.evaluations),
-                trace: way.iter().map(point).collect(),
-                path: way.iter().map(|step| place(start, free, &step.at)).collect(),
-            };
-            Basin { local_fit, hits: ending.reached }
-        });
-        let search = MultistartResult::new(found.collect(), self.evaluations)?;
+        let search = self.search(|at| place(start, free, at), |parameters| problem.sum_of_squares(parameters))?;
         let mut report = analyse(&problem, search, self.elapsed_ms);
         if let Some(SavedIntervals { elapsed_ms, complete, of }) = &self.intervals {
             set_intervals(&problem, &mut report, of);
             (report.course.intervals_ms, report.course.intervals_complete) = (*elapsed_ms, Some(*complete));
         }
         Some(report)
+    }
+
+    /// The result of a joint fit as it was.
+    pub fn joint_result(&self, problem: &JointProblem) -> Option<JointResult> {
+        let problem = self.loss_scales.map_or_else(|| problem.clone(), |scales| problem.with_loss_scales(scales));
+        let problem = self.block_weights.map_or_else(|| problem.clone(), |weights| problem.with_block_weights(weights));
+        let search = self.search(|at| problem.point_with(at), |point| problem.sum_of_squares(point))?;
+        let intervals = self.intervals.as_ref();
+        let mut result = analyse_jointly(&problem, search, self.elapsed_ms, intervals.map(|intervals| &intervals.of[..]));
+        if let Some(SavedIntervals { elapsed_ms, complete, .. }) = intervals {
+            (result.course.intervals_ms, result.course.intervals_complete) = (*elapsed_ms, Some(*complete));
+        }
+        Some(result)
     }
 }
 

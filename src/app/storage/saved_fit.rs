@@ -129,13 +129,7 @@ impl SavedFit {
 
     /// The measurement with the mask that it had.
     fn masked<'a>(&self, measurement: &'a Measurement) -> Cow<'a, Measurement> {
-        let mut masked = Cow::Borrowed(measurement);
-        let Some(mask) = self.mask() else { return masked };
-        let is_masked = |row: usize| mask.binary_search(&row).is_ok();
-        if measurement.rows.iter().enumerate().any(|(i, row)| row.masked != is_masked(i)) {
-            masked.to_mut().rows.iter_mut().enumerate().for_each(|(i, row)| row.masked = is_masked(i));
-        }
-        masked
+        self.mask().map_or(Cow::Borrowed(measurement), |mask| with_mask(measurement, mask))
     }
 
     fn problem(&self, measurement: &Measurement) -> Result<Problem, SavedFitError> {
@@ -183,7 +177,17 @@ impl SavedFit {
     }
 }
 
+/// The measurement with exactly those rows masked.
+pub fn with_mask<'a>(measurement: &'a Measurement, mask: &[usize]) -> Cow<'a, Measurement> {
+    let mut masked = Cow::Borrowed(measurement);
+    let is_masked = |row: usize| mask.binary_search(&row).is_ok();
+    if measurement.rows.iter().enumerate().any(|(i, row)| row.masked != is_masked(i)) {
+        masked.to_mut().rows.iter_mut().enumerate().for_each(|(i, row)| row.masked = is_masked(i));
+    }
+    masked
+}
+
 /// Whether these are rows of a table of so many, each once and in their order.
-fn is_mask(rows: &[usize], of: usize) -> bool {
+pub fn is_mask(rows: &[usize], of: usize) -> bool {
     rows.is_sorted_by(|one, next| one < next) && rows.last().is_none_or(|&last| last < of)
 }

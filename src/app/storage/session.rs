@@ -16,7 +16,8 @@
 
 use crate::app::storage::earlier_keys::EarlierFile;
 use crate::app::storage::fit_record::on_one_line;
-use crate::app::storage::saved_fit::{RestoredFit, SavedFit, SavedMeasurement};
+use crate::app::storage::saved_entry::{RestoredEntry, SavedEntry};
+use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::storage::session_error::{SESSION_FORMAT, SESSION_VERSION, SavedFitError, SessionError};
 use crate::app::storage::settings_file::{SavedSettings, SurfaceOfFile};
 use crate::app::work::fit_history::FitEntry;
@@ -57,7 +58,7 @@ struct Contents<'a> {
     shared: ParameterSet,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pinned: &'a [PinnedSurface],
-    fits: &'a [SavedFit],
+    fits: &'a [SavedEntry],
     /// Which of them was shown, from 0.
     shown: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -161,7 +162,7 @@ pub struct Session {
     pub shared: ParameterSet,
     pub pinned: Vec<PinnedSurface>,
     /// The newest first.
-    pub fits: Vec<SavedFit>,
+    pub fits: Vec<SavedEntry>,
     /// Which of them is shown.
     pub shown: Option<usize>,
     /// The fits of its file that are not among them, by number from 1; none of it is written.
@@ -183,6 +184,32 @@ pub struct SavedLesson {
 /// out.
 const MOST_CLOSED_ROWS: usize = 20_000;
 
+/// The measurements of a session that is put together.
+struct Tables {
+    measurements: Vec<SavedMeasurement>,
+    /// Which measurements of the work they are.
+    numbers: Vec<u64>,
+    /// Rows of those that are not open.
+    closed_rows: usize,
+}
+
+impl Tables {
+    /// The place of the measurement that a fit is about; a closed one is added, while there is room.
+    fn place_of(&mut self, fit: &FitEntry) -> Option<usize> {
+        if let Some(place) = self.numbers.iter().position(|number| *number == fit.number) {
+            return Some(place);
+        }
+        self.closed_rows += fit.data.rows.len();
+        if self.closed_rows > MOST_CLOSED_ROWS {
+            return None;
+        }
+        let (name, sha256, measurement) = (fit.document.clone(), fit.sha256.clone(), fit.data.clone());
+        self.measurements.push(SavedMeasurement { name, sha256, is_open: false, ..SavedMeasurement::of(measurement) });
+        self.numbers.push(fit.number);
+        Some(self.numbers.len() - 1)
+    }
+}
+
 impl Session {
     /// The work as it is now, with its fits and the data that they were made from.
     pub fn of(work: &Workspace) -> Self {
@@ -196,27 +223,22 @@ impl Session {
             measurements.push(saved);
             numbers.push(open.number);
         }
-        let (mut fits, mut shown, mut rows) = (Vec::new(), None, 0);
-        for fit in work.fit_history().iter() {
-            let index = numbers.iter().position(|number| *number == fit.number).unwrap_or_else(|| {
-                numbers.push(fit.number);
-                numbers.len() - 1
-            });
-            if index == measurements.len() {
-                rows += fit.data.rows.len();
-                if rows > MOST_CLOSED_ROWS {
-                    break;
-                }
-                let (name, sha256, measurement) = (fit.document.clone(), fit.sha256.clone(), fit.data.clone());
-                let closed = SavedMeasurement { name, sha256, is_open: false, ..SavedMeasurement::of(measurement) };
-                measurements.push(closed);
-            }
-            if work.shown_fit_of(fit.number).is_some_and(|shown| Arc::ptr_eq(fit, shown)) {
+        let mut tables = Tables { measurements, numbers, closed_rows: 0 };
+        let (mut fits, mut shown) = (Vec::new(), None);
+        for row in work.fit_history().rows(work.active().number) {
+            let mut parts: Vec<&FitEntry> = work.fit_history().parts(row.id).map(|fit| &**fit).collect();
+            parts.sort_by_key(|fit| fit.joint.as_ref().map(|part| part.set));
+            let placed: Option<Vec<(&FitEntry, usize)>> = parts.iter().map(|&fit| Some((fit, tables.place_of(fit)?))).collect();
+            let Some(placed) = placed else { break };
+            let Some(saved) = SavedEntry::new(&placed) else { continue };
+            let is_shown = |fit: &FitEntry| work.shown_fit_of(fit.number).is_some_and(|shown| shown.id == fit.id);
+            for (fit, place) in placed.into_iter().filter(|(fit, _)| is_shown(fit)) {
                 let is_active = fit.number == work.active().number;
-                *(if is_active { &mut shown } else { &mut measurements[index].shown_fit }) = Some(fits.len());
+                *(if is_active { &mut shown } else { &mut tables.measurements[place].shown_fit }) = Some(fits.len());
             }
-            fits.push(SavedFit::new(fit, index));
+            fits.push(saved);
         }
+        let Tables { measurements, numbers, .. } = tables;
         Self {
             settings: SavedSettings { settings: work.settings().clone(), surface: work.surface().clone() },
             layout: work.layout().clone(),
@@ -233,9 +255,12 @@ impl Session {
     }
 
     /// The work that it holds, with its fits restored.
-    pub fn into_work(self, fits: Vec<RestoredFit>) -> Workspace {
+    pub fn into_work(self, fits: Vec<RestoredEntry>) -> Workspace {
         let SavedSettings { settings, surface } = self.settings;
-        let shown: Vec<Option<usize>> = self.measurements.iter().map(|saved| saved.shown_fit).chain([self.shown]).collect();
+        let mut shown: Vec<Option<usize>> = self.measurements.iter().map(|saved| saved.shown_fit).collect();
+        if let Some(active) = shown.get_mut(self.active) {
+            *active = self.shown.or(*active);
+        }
         let opened = |saved: SavedMeasurement| {
             let opened = OpenMeasurement::new(saved.name, Arc::unwrap_or_clone(saved.measurement)).of_file(saved.sha256);
             let surface = saved.surface.unwrap_or_else(|| surface.clone());
@@ -244,24 +269,18 @@ impl Session {
             if let Some(drawn) = saved.drawn {
                 opened.set_drawn(&drawn.into());
             }
-            (saved.is_open, opened)
+            opened
         };
-        let measurements: Vec<(bool, OpenMeasurement)> = self.measurements.into_iter().map(opened).collect();
-        let entry = |fit: RestoredFit| {
-            let (_, about) = &measurements[fit.measurement];
-            let OpenMeasurement { ref name, ref sha256, ref measurement, number, generation, .. } = *about;
-            // A fit with another mask is of no generation of its measurement.
-            let generation = if fit.mask == *about.mask() { generation } else { 0 };
-            let RestoredFit { report, problem, before, mask, .. } = fit;
-            let (document, sha256, data) = (name.clone(), sha256.clone(), measurement.clone());
-            FitEntry { id: 0, report, problem, before, document, sha256, data, number, generation, mask }
-        };
-        let is_shown = |index| shown.contains(&Some(index));
-        let entries = fits.into_iter().enumerate().rev().map(|(index, fit)| (entry(fit), is_shown(index)));
-        let entries: Vec<(FitEntry, bool)> = entries.collect();
-        let active = measurements.iter().take(self.active).filter(|(is_open, _)| *is_open).count();
-        let open: Vec<OpenMeasurement> = measurements.into_iter().filter(|(is_open, _)| *is_open).map(|(_, open)| open).collect();
-        let mut list = MeasurementList::several(open, active, self.shared);
+        let is_open: Vec<bool> = self.measurements.iter().map(|saved| saved.is_open).collect();
+        let measurements: Vec<OpenMeasurement> = self.measurements.into_iter().map(opened).collect();
+        let mut entries = Vec::new();
+        for (index, fit) in fits.into_iter().enumerate().rev() {
+            let parts = fit.into_entries(&measurements).into_iter();
+            entries.extend(parts.map(|(measurement, entry)| (entry, shown[measurement] == Some(index))));
+        }
+        let active = is_open.iter().take(self.active).filter(|is_open| **is_open).count();
+        let open = measurements.into_iter().zip(is_open).filter(|(_, is_open)| *is_open).map(|(measurement, _)| measurement);
+        let mut list = MeasurementList::several(open.collect(), active, self.shared);
         list.active_mut().surface = surface;
         Workspace::restored(settings, self.layout, list, self.pinned, entries)
     }
@@ -338,7 +357,7 @@ impl Session {
         others.try_for_each(Surface::validate).map_err(SessionError::Settings)?;
         let (mut fits, mut places, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
         for (index, value) in stored.into_iter().enumerate() {
-            match SavedFit::read(value, &measurements) {
+            match SavedEntry::read(value, &measurements) {
                 Ok(recipe) => {
                     places.push(index);
                     fits.push(recipe);

@@ -3,7 +3,7 @@
 use crate::app::storage::fit_record::FitRecordError;
 use crate::app::text::localized::Localized;
 use crate::app::work::settings_error::SettingsError;
-use pbrdf::fit::{BoundsError, ProblemError};
+use pbrdf::fit::{BoundsError, JointError, ProblemError};
 use pbrdf::measurement::ReadError;
 use pbrdf::model::ParameterError;
 use tr::tr;
@@ -11,7 +11,7 @@ use tr::tr;
 /// Name of the format in its files.
 pub const SESSION_FORMAT: &str = "pbrdf-session";
 /// Files of a later version are refused: they may mean something else. Earlier ones are read.
-pub const SESSION_VERSION: u32 = 2;
+pub const SESSION_VERSION: u32 = 3;
 
 /// Why a file is no session.
 #[derive(Debug)]
@@ -47,6 +47,8 @@ pub enum SavedFitError {
     Mask,
     Parameters(ParameterError),
     Problem(ProblemError),
+    /// Its measurements cannot be fitted together.
+    Joint(JointError),
 }
 
 impl From<serde_path_to_error::Error<serde_json::Error>> for JsonError {
@@ -92,6 +94,7 @@ impl Localized for SavedFitError {
             Self::Mask => tr!("masked: the rows are not in their order, or not all in the table"),
             Self::Parameters(error) => error.localized(),
             Self::Problem(error) => error.localized(),
+            Self::Joint(error) => error.localized(),
         }
     }
 }

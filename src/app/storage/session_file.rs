@@ -1,6 +1,6 @@
 //! Sessions on disk.
 
-use crate::app::storage::saved_fit::RestoredFit;
+use crate::app::storage::saved_entry::RestoredEntry;
 use crate::app::storage::session::{SavedLesson, Session};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::workspace::Workspace;
@@ -13,7 +13,7 @@ use tr::tr;
 /// A session with its fits restored, the newest first.
 pub struct OpenedSession {
     pub session: Session,
-    pub fits: Vec<RestoredFit>,
+    pub fits: Vec<RestoredEntry>,
     /// The lesson that was open.
     pub lesson: Option<Box<OpenedLesson>>,
 }

@@ -7,12 +7,14 @@ use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::platform::Instant;
 use crate::app::tasks::start_error::start_error;
-use crate::app::work::fit_history::FitEntry;
+use crate::app::work::edit::Refit;
+use crate::app::work::fit_history::{FitEntry, JointEntry, JointPart};
+use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{
-    Bootstrap, FitResult, Observer, Problem, ProblemError, Profile, Starts, TracePoint, bootstrap, fit, profile, special_cases_first,
-    with_intervals, with_special_cases,
+    Bootstrap, FitResult, Intervals, JointProblem, JointResult, JointUnknown, Observer, Problem, ProblemError, Profile, Starts, TracePoint,
+    bootstrap, fit, fit_jointly, profile, profile_jointly, special_cases_first, with_intervals, with_intervals_jointly, with_special_cases,
 };
 use pbrdf::model::{Model, Parameter, Preset};
 use std::sync::Arc;
@@ -22,17 +24,29 @@ pub struct FinishedIntervals {
     /// The id of the fit in the history.
     pub id: usize,
     /// None where the job was stopped before their ends.
-    pub report: Option<Box<FitResult>>,
+    pub result: Option<WithIntervals>,
+}
+
+/// A result, of one measurement or of several.
+pub enum WithIntervals {
+    One(Box<FitResult>),
+    Joint(Box<JointResult>),
+}
+
+/// What is fitted while sliders move: a measurement by its number, or several.
+pub enum RefitProblem {
+    One(u64, Box<Problem>),
+    Joint(Vec<u64>, Box<JointProblem>),
 }
 
 /// Slots of the jobs around fits.
 pub struct FitJobs {
     spawner: Spawner,
     /// The history numbers the fit.
-    pub fit: Slot<Box<FitEntry>, TracePoint>,
+    pub fit: Slot<Vec<FitEntry>, TracePoint>,
     pub intervals: Slot<FinishedIntervals>,
     /// Fits from the sliders while they move.
-    pub refit: Slot<Box<FitResult>>,
+    pub refit: Slot<Refit>,
     /// The number of the measurement that refits and scans are about.
     pub active: u64,
     /// The revision at which the user had moved the sliders that the last refit began at.
@@ -70,20 +84,51 @@ impl FitJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn fit(&mut self, problem: Problem, document: &OpenMeasurement, starts: Starts, seed: u64) -> Result<(), String> {
-        let OpenMeasurement { name, sha256, measurement, number, generation, surface, .. } = document.clone();
-        let mask = document.mask().clone();
+        let about = document.clone();
         let job = move |context: &JobContext<TracePoint>| {
             let begun = Instant::now();
-            let observer = Observer {
-                clock: &|| milliseconds_since(begun),
-                cancelled: &|| context.is_cancelled(),
-                progress: &|point| context.report(point),
-            };
-            let report = fit(&problem, starts, seed, observer);
-            let (document, data, problem, before) = (name, measurement, Arc::new(problem), surface.parameters);
-            Box::new(FitEntry { id: 0, report, problem, before, document, sha256, data, number, generation, mask })
+            let report = watched(context, begun, |observer| fit(&problem, starts, seed, observer));
+            vec![FitEntry::new(about, Arc::new(problem), report)]
         };
         self.fit.start(&self.spawner, "fit", job).map_err(start_error)
+    }
+
+    /// Fits documents together from so many starts.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn fit_jointly(&mut self, problem: JointProblem, list: &MeasurementList, starts: Starts, seed: u64) -> Result<(), String> {
+        let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
+        let shared = list.shared();
+        let job = move |context: &JobContext<TracePoint>| {
+            let begun = Instant::now();
+            let result = watched(context, begun, |observer| fit_jointly(&problem, starts, seed, Intervals::Linear, observer));
+            FitEntry::of_joint(about, JointEntry { result, problem: Arc::new(problem), shared })
+        };
+        self.fit.start(&self.spawner, "joint fit", job).map_err(start_error)
+    }
+
+    /// Fits documents one after the other, intervals included; cancelled, those that are done are the result.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn fit_each(&mut self, problems: Vec<(Problem, OpenMeasurement)>, starts: Starts, seed: u64) -> Result<(), String> {
+        let job = move |context: &JobContext<TracePoint>| {
+            let mut fits = Vec::new();
+            for (problem, about) in problems {
+                let begun = Instant::now();
+                let report = watched(context, begun, |observer| {
+                    let linear = fit(&problem, starts, seed, observer);
+                    whole_intervals(&problem, linear.clone(), observer).unwrap_or(linear)
+                });
+                fits.push(FitEntry::new(about, Arc::new(problem), report));
+                if context.is_cancelled() {
+                    break;
+                }
+            }
+            fits
+        };
+        self.fit.start(&self.spawner, "fit each", job).map_err(start_error)
     }
 
     /// Finds the intervals of a finished fit, in place of those that are being found.
@@ -91,12 +136,20 @@ impl FitJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn intervals(&mut self, fit: &FitEntry) -> Result<(), String> {
-        let (id, problem, report) = (fit.id, fit.problem.clone(), fit.report.clone());
+        let (id, problem, report, joint) = (fit.id, fit.problem.clone(), fit.report.clone(), fit.joint.clone());
         let job = move |context: &JobContext| {
             let begun = Instant::now();
             let cancelled = || context.is_cancelled();
             let observer = Observer { clock: &|| milliseconds_since(begun), ..observer(&cancelled) };
-            FinishedIntervals { id, report: whole_intervals(&problem, report, observer).map(Box::new) }
+            let result = match joint {
+                None => whole_intervals(&problem, report, observer).map(|report| WithIntervals::One(Box::new(report))),
+                Some(JointPart { of, .. }) => {
+                    let result = with_intervals_jointly(&of.problem, of.result.clone(), observer);
+                    let is_part = result.course.intervals_complete == Some(false) && cancelled();
+                    (!is_part).then(|| WithIntervals::Joint(Box::new(result)))
+                }
+            };
+            FinishedIntervals { id, result }
         };
         self.intervals.start(&self.spawner, "intervals", job).map_err(start_error)
     }
@@ -105,8 +158,18 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn refit(&mut self, problem: Problem) -> Result<(), String> {
-        let job = move |context: &JobContext| Box::new(fit(&problem, Starts::One, 0, observer(&|| context.is_cancelled())));
+    pub fn refit(&mut self, problem: RefitProblem) -> Result<(), String> {
+        let job = move |context: &JobContext| {
+            let (cancelled, starts) = (|| context.is_cancelled(), Starts::One);
+            match problem {
+                RefitProblem::One(number, problem) => Refit(vec![(number, fit(&problem, starts, 0, observer(&cancelled)).estimates)]),
+                RefitProblem::Joint(numbers, problem) => {
+                    let result = fit_jointly(&problem, starts, 0, Intervals::Linear, observer(&cancelled));
+                    let of_set = |(set, number)| (number, result.of_set(set).estimates);
+                    Refit(numbers.into_iter().enumerate().map(of_set).collect())
+                }
+            }
+        };
         self.refit.start(&self.spawner, "refit", job).map_err(start_error)
     }
 
@@ -152,9 +215,16 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn profile(&mut self, problem: Problem, report: FitResult, parameter: Parameter) -> Result<(), String> {
+    pub fn profile(&mut self, fit: &FitEntry, parameter: Parameter) -> Result<(), String> {
         self.abandon_scan();
-        let job = move |context: &JobContext| profile(&problem, &report, parameter, observer(&|| context.is_cancelled()));
+        let (problem, report, joint) = (fit.problem.clone(), fit.report.clone(), fit.joint.clone());
+        let job = move |context: &JobContext| {
+            let cancelled = || context.is_cancelled();
+            match joint {
+                None => profile(&problem, &report, parameter, observer(&cancelled)),
+                Some(part) => profile_in_joint(&part, parameter, observer(&cancelled)),
+            }
+        };
         self.profile.start(&self.spawner, "profile", job).map_err(start_error)
     }
 
@@ -200,6 +270,19 @@ fn whole_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>)
     let result = with_intervals(problem, result, observer);
     let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
     (!is_part).then_some(result)
+}
+
+/// The profile of a parameter of one measurement of a joint fit, its own one or that of all.
+fn profile_in_joint(JointPart { of, set }: &JointPart, parameter: Parameter, observer: Observer<'_>) -> Profile {
+    let own = of.problem.own().contains(parameter).then(|| of.problem.set_names()[*set].clone());
+    let unknown = JointUnknown { parameter, set: own };
+    let Profile { points, interval68, interval95, limits, is_complete, .. } = profile_jointly(&of.problem, &of.result, &unknown, observer);
+    Profile { parameter, points, interval68, interval95, limits, is_complete }
+}
+
+/// What a fit gives that can be cancelled and tells how far it is.
+fn watched<T>(context: &JobContext<TracePoint>, begun: Instant, fit: impl FnOnce(Observer<'_>) -> T) -> T {
+    fit(Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), progress: &|point| context.report(point) })
 }
 
 /// An observer that only cancels.

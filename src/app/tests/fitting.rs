@@ -175,7 +175,7 @@ fn intervals_follow_a_fit_and_can_be_stopped_and_found_after_all() {
     harness.get_by_label_contains("• not determined: ");
     assert!(harness.query_by_label_contains("standard error above half").is_none());
     harness.get_by_label_contains(" in the best basin");
-    let history = explorer(&mut harness).work.fit_history().get(0).expect("the fit").report.clone();
+    let history = explorer(&mut harness).work.fit_history().get(0, 0).expect("the fit").report.clone();
     assert_eq!(history, report);
 }
 

@@ -10,7 +10,7 @@ use pbrdf::fit::Starts;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-type Window = Harness<'static, Option<App>>;
+pub type Window = Harness<'static, Option<App>>;
 
 const STEEL: &str = "45# steel (simulated)";
 const BARE: &str = "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n40,40,0.3\n";
@@ -21,7 +21,7 @@ pub fn order(harness: &mut Window, action: Action) {
 }
 
 /// Files of these names in a folder.
-fn files<const N: usize>(folder: &tempfile::TempDir, contents: [(&str, &str); N]) -> Vec<PathBuf> {
+pub fn files<const N: usize>(folder: &tempfile::TempDir, contents: [(&str, &str); N]) -> Vec<PathBuf> {
     let paths = contents.map(|(name, text)| {
         let path = folder.path().join(name);
         std::fs::write(&path, text).expect("a writable folder");

@@ -525,7 +525,7 @@ fn without_account(explorer: &mut App) {
     let FitEntry { id, ref problem, before, ref document, ref sha256, ref data, number, generation, ref mask, .. } = **fit;
     let (problem, document, mask) = (problem.clone(), document.clone(), mask.clone());
     let (sha256, data) = (sha256.clone(), data.clone());
-    let fit = FitEntry { id, report, problem, before, document, sha256, data, number, generation, mask };
+    let fit = FitEntry { id, report, problem, before, document, sha256, data, number, generation, mask, joint: None };
     explorer.work.set_shown_fit(fit);
 }
 

@@ -33,6 +33,7 @@ mod planning;
 mod reports;
 mod scans;
 mod sessions;
+mod sharing;
 mod sliders;
 mod snapshots;
 pub mod sources;

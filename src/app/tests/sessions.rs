@@ -216,7 +216,7 @@ fn a_session_is_readable_row_by_row() {
     let mut bytes = Vec::new();
     Session::of(&explorer(&mut harness).work).write(&mut bytes).expect("memory");
     let text = String::from_utf8(bytes).expect("text");
-    assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 2,\n"));
+    assert!(text.starts_with("{\n  \"format\": \"pbrdf-session\",\n  \"version\": 3,\n"));
     assert!(text.contains("\"theta_i,theta_r,dphi,dolp,dolp_sigma,masked\",\n"));
     assert!(text.lines().all(|line| line.len() < 300));
 }
@@ -238,7 +238,7 @@ fn a_damaged_session_names_place_and_cause_and_changes_nothing() {
         ("{}".to_owned(), "no session"),
         ("theta_i,theta_r,dolp\n30,20,0.1\n".to_owned(), "line 1"),
         (good[..good.len() / 2].to_owned(), "line"),
-        (good.replacen("\"version\": 2", "\"version\": 99", 1), "version 99"),
+        (good.replacen("\"version\": 3", "\"version\": 99", 1), "version 99"),
         (good.replacen(&parameter("sigma"), "\"sigma\": 1e999", 1), "out of range"),
         (good.replacen(&parameter("sigma"), "\"sigma\": null", 1), "settings.parameters.sigma"),
         (good.replacen(&parameter("sigma"), "\"sigma\": -3.0", 1), "settings.parameters: sigma = -3"),

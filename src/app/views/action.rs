@@ -7,6 +7,7 @@ use crate::app::text::i18n::Language;
 use crate::app::work::edit::Switch;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
+use crate::app::work::sharing::Sharing;
 use pbrdf::model::Parameter;
 use std::path::PathBuf;
 
@@ -58,7 +59,10 @@ pub enum Action {
     /// Stop reading.
     CancelLoading,
     ForgetRecent,
+    /// Fit the active measurement, or all together where they share anything.
     StartFit,
+    /// Fit every measurement by itself.
+    FitEach,
     CancelFit,
     /// Find the intervals of the shown fit, which were stopped.
     FindIntervals,
@@ -129,6 +133,8 @@ pub enum ListAction {
     ShowAll(bool),
     /// Close the measurement of that number, or the active one.
     Close(Option<u64>),
+    /// What the measurements have in common.
+    Share(Sharing),
     /// The sliders as a pinned surface.
     PinSliders,
     /// The sliders with the other distribution of slopes, at equal median.

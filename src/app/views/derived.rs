@@ -2,13 +2,16 @@
 //! ΔE, what the data determine.
 
 use crate::app::jobs::memo::Memo;
+use crate::app::text::i18n;
+use crate::app::text::i18n::Language;
+use crate::app::text::localized::Localized;
 use crate::app::views::companions::Companions;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
-use crate::app::work::fit_setup::fit_problem;
+use crate::app::work::fit_setup::{fit_problem, is_joint, joint_problem};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
-use pbrdf::fit::{FitOptions, Loss, Problem, Uncertainty, UndeterminedDirection, Weights, is_determined};
+use pbrdf::fit::{FitOptions, JointUnknown, Loss, Problem, Uncertainty, UndeterminedDirection, UnknownName, Weights, is_determined};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use std::collections::BTreeMap;
 
@@ -53,8 +56,9 @@ impl Misfit {
     }
 }
 
-/// Surface, free parameters, options of the fit, generation of the measurement.
-type OutlookKey = (Surface, ParameterSet, FitOptions, u64);
+/// Surface, free parameters, options of the fit, generation of the measurement; what is shared, and the same of the other measurements
+/// where they are fitted together; the language.
+type OutlookKey = (Surface, ParameterSet, FitOptions, u64, ParameterSet, Vec<(Surface, u64)>, Language);
 
 impl Derived {
     /// The measured points and the curves, for the panes that draw them.
@@ -84,7 +88,10 @@ impl Derived {
     /// Looks ahead: what would a fit from here determine? Only while somebody looks at it.
     pub fn refresh_outlook(&mut self, work: &Workspace, free: ParameterSet) {
         if self.is_outlook_shown {
-            let key = (work.surface().clone(), free, work.settings().fit_options, work.active().generation);
+            let list = work.measurements();
+            let all = list.measured().filter(|_| is_joint(list)).map(|open| (open.surface.clone(), open.generation)).collect();
+            let options = work.settings().fit_options;
+            let key = (work.surface().clone(), free, options, work.active().generation, list.shared(), all, i18n::current());
             self.outlook.refresh(key, |_| Identifiability::new(work, free));
         } else {
             self.outlook.clear();
@@ -101,9 +108,9 @@ impl Derived {
         self.misfits.get(&number)?.delta_e.get().copied().flatten()
     }
 
-    /// How many measured values a fit has; none where the model predicts nothing of them.
-    pub fn values(&self) -> Option<usize> {
-        Some(self.misfits.get(&self.active)?.problem.get()?.as_ref()?.len())
+    /// How many measured values of a measurement a fit has; none where the model predicts nothing of them.
+    pub fn values_of(&self, number: u64) -> Option<usize> {
+        Some(self.misfits.get(&number)?.problem.get()?.as_ref()?.len())
     }
 
     /// Whether every value that counts comes with its standard deviation.
@@ -124,24 +131,26 @@ impl Derived {
 
 /// What data would determine, seen from the sliders before any fit.
 pub struct Identifiability {
-    /// Standard error of each free parameter; none where it would say nothing of the value.
+    /// Standard error of each free parameter, a shared one or one of the active measurement; none where it would say nothing of the
+    /// value.
     pub errors: Vec<(Parameter, Option<f64>)>,
-    pub open: Vec<UndeterminedDirection>,
+    /// What stays open, in words.
+    pub open: Vec<String>,
     /// Whether the errors come from stated standard deviations rather than from the present misfit.
     pub from_stated: bool,
+    /// How many measurements determine it together.
+    pub measurements: usize,
 }
 
 impl Identifiability {
     fn new(work: &Workspace, free: ParameterSet) -> Option<Self> {
-        let (settings, surface) = (work.settings(), work.surface());
+        if is_joint(work.measurements()) {
+            return Self::jointly(work);
+        }
+        let surface = work.surface();
         let parameters = surface.parameters;
-        let with = |weights| {
-            let fit_options = FitOptions { weights, loss: Loss::Squared, ..settings.fit_options };
-            fit_problem(surface, &work.active().measurement, surface.model, free, fit_options).ok()
-        };
-        let stated = with(Weights::Sigma);
-        let from_stated = stated.is_some();
-        let problem = stated.or_else(|| with(Weights::None))?;
+        let with = |fit_options| fit_problem(surface, &work.active().measurement, surface.model, free, fit_options).ok();
+        let (problem, from_stated) = weighted_if_stated(work, with)?;
         let misfit = problem.sum_of_squares(&parameters)?;
         let uncertainty = Uncertainty::at(&problem, &parameters, misfit, ParameterSet::EMPTY);
         let error_of = |parameter| {
@@ -149,6 +158,37 @@ impl Identifiability {
             error.filter(|error| is_determined(parameters[parameter], *error, problem.bounds().of(parameter)))
         };
         let errors = free.iter().map(|parameter| (parameter, error_of(parameter))).collect();
-        Some(Self { errors, open: uncertainty.undetermined, from_stated })
+        Some(Self { errors, open: in_words(&uncertainty.undetermined), from_stated, measurements: 1 })
     }
+
+    /// By all measurements together.
+    fn jointly(work: &Workspace) -> Option<Self> {
+        let list = work.measurements();
+        let with = |fit_options| joint_problem(list, ParameterSet::EMPTY, fit_options).ok();
+        let (problem, from_stated) = weighted_if_stated(work, with)?;
+        let point: Vec<Parameters> = list.measured().map(|open| open.surface.parameters).collect();
+        let uncertainty = problem.uncertainty_at(&point)?;
+        let active = list.measured().position(|open| open.number == list.active().number)?;
+        let (name, part) = (&problem.set_names()[active], &problem.parts()[active]);
+        let of_active = problem.unknowns().iter().filter(|unknown| unknown.set.as_ref().is_none_or(|set| set == name));
+        let error_of = |unknown: &JointUnknown| {
+            let parameter = unknown.parameter;
+            let error = uncertainty.error_of(unknown);
+            error.filter(|error| is_determined(point[active][parameter], *error, part.bounds().of(parameter)))
+        };
+        let errors = of_active.map(|unknown| (unknown.parameter, error_of(unknown))).collect();
+        Some(Self { errors, open: in_words(&uncertainty.undetermined), from_stated, measurements: point.len() })
+    }
+}
+
+/// The problem that weights by stated standard deviations, or else the one without, and whether they were stated. ΔE and χ² are sums of
+/// squares: the loss of a fit does not count.
+fn weighted_if_stated<P>(work: &Workspace, with: impl Fn(FitOptions) -> Option<P>) -> Option<(P, bool)> {
+    let fit_options = |weights| FitOptions { weights, loss: Loss::Squared, ..work.settings().fit_options };
+    let stated = with(fit_options(Weights::Sigma)).map(|problem| (problem, true));
+    stated.or_else(|| Some((with(fit_options(Weights::None))?, false)))
+}
+
+fn in_words<N: UnknownName>(open: &[UndeterminedDirection<N>]) -> Vec<String> {
+    open.iter().map(Localized::localized).collect()
 }

@@ -1,6 +1,7 @@
 //! What is asked about a finished fit: the profile of a parameter, and a bootstrap.
 
-use pbrdf::fit::{Bootstrap, FitResult, Interval, Problem, Profile, Weights};
+use crate::app::work::fit_history::FitEntry;
+use pbrdf::fit::{Bootstrap, Interval, Profile, Weights};
 use pbrdf::model::Parameter;
 
 /// Diagnostics around the fit that is shown.
@@ -42,8 +43,10 @@ pub struct ProfileCurve {
 }
 
 impl ProfileCurve {
-    pub fn new(profile: &Profile, problem: &Problem, report: &FitResult) -> Self {
-        let smallest = report.statistics.rss;
+    /// Of a parameter of that fit; the sum of squares is that of all its measurements.
+    pub fn new(profile: &Profile, fit: &FitEntry) -> Self {
+        let (problem, report) = (&fit.problem, &fit.report);
+        let smallest = fit.joint.as_ref().map_or(report.statistics.rss, |part| part.of.result.statistics.rss);
         let is_chi2 = problem.options().weights == Weights::Sigma;
         let points = profile.points.iter().map(|point| [point.value, point.rss - smallest]);
         Self {

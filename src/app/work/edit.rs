@@ -8,7 +8,7 @@ use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::{PinnedSurface, Surface};
-use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Starts};
+use pbrdf::fit::{Bootstrap, Estimate, FitOptions, FitResult, JointResult, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::PathBuf;
 
@@ -94,16 +94,21 @@ pub enum Edit {
     Unpin(usize),
     /// Takes the values and the model of the pinned surface of that place.
     UsePin(usize),
-    /// Adds a finished fit to the history, shows it and takes its values.
-    AddFit(Box<FitEntry>),
+    /// Adds finished fits to the history, shows them and takes their values.
+    AddFits(Vec<FitEntry>),
     /// Puts a report with intervals in the place of that of the fit with this id. If its minimum is a
     /// better one, sliders that stand at the minimum before follow.
     SetFitReport {
         id: usize,
         report: Box<FitResult>,
     },
+    /// The same of a joint fit.
+    SetJointResult {
+        id: usize,
+        result: Box<JointResult>,
+    },
     /// Takes the free parameters of a fit that ran while sliders moved.
-    Refit(Box<FitResult>),
+    Refit(Refit),
     /// Values and model of something that was looked at. A live refit does not begin there.
     TakeValues {
         parameters: Parameters,
@@ -136,6 +141,9 @@ pub enum Edit {
     Undo,
     Redo,
 }
+
+/// What a fit that ran while sliders moved has found: estimates by the number of the measurement.
+pub struct Refit(pub Vec<(u64, Vec<Estimate>)>);
 
 /// What is either on or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

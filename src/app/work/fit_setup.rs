@@ -2,8 +2,10 @@
 
 use crate::app::text::localized::Localized as _;
 use crate::app::work::design::DesignSettings;
+use crate::app::work::measurement_list::MeasurementList;
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::surface::Surface;
-use pbrdf::fit::{Bounds, FitOptions, Problem, ProblemError};
+use pbrdf::fit::{Bounds, Fit, FitOptions, JointError, JointFit, JointProblem, Problem, ProblemError};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{DolpFormula, Model, Parameter, ParameterSet, Parameters};
 use tr::tr;
@@ -21,6 +23,40 @@ pub fn fit_problem(
 ) -> Result<Problem, ProblemError> {
     let (start, bounds) = start_in_bounds(surface, free);
     Problem::new(measurement, model, start, free, bounds, fit_options)
+}
+
+/// Whether a fit is one of all measurements together: there are several, and they share something of their model.
+pub fn is_joint(list: &MeasurementList) -> bool {
+    let shared = list.shared().intersection(list.active().surface.model.parameters());
+    !shared.is_empty() && list.measured().count() > 1
+}
+
+/// The problem of fitting all measurements together from their surfaces. Parameters that are held stay on all surfaces where they are
+/// shared, on the active one where they are its own.
+pub fn joint_problem(list: &MeasurementList, held: ParameterSet, fit_options: FitOptions) -> Result<JointProblem, JointError> {
+    let (model, shared) = (list.active().surface.model, list.shared());
+    let mut surfaces = list.measured();
+    let fit = JointFit::new(list.measured().map(|open| &*open.measurement), model);
+    let fit = fit.named(list.measured().map(OpenMeasurement::title)).own(model.parameters().without_all(shared).iter());
+    let fit = fit.options(fit_options).each(|fit| {
+        let Some(open) = surfaces.next() else { return fit };
+        let is_active = open.number == list.active().number;
+        let free = free_together(list, open).without_all(if is_active { held } else { held.intersection(shared) });
+        let (start, bounds) = start_in_bounds(&open.surface, free);
+        let fit = model.parameters().without_all(free).iter().fold(fit.start_at(start), Fit::hold);
+        free.iter().fold(fit, |fit, parameter| {
+            let (low, high) = bounds.of(parameter);
+            fit.free(parameter).bound(parameter, low..=high)
+        })
+    });
+    fit.problem()
+}
+
+/// The parameters that a joint fit would change on the surface of a measurement: of the shared ones those that any data can speak of.
+pub fn free_together(list: &MeasurementList, open: &OpenMeasurement) -> ParameterSet {
+    let has_brdf = list.measured().any(|open| open.measurement.has_brdf());
+    let shared = free(&open.surface, has_brdf).intersection(list.shared());
+    free(&open.surface, open.measurement.has_brdf()).without_all(list.shared()).union(shared)
 }
 
 /// The parameters that a fit would change: those that the data can speak of, less the locked ones.

@@ -208,6 +208,14 @@ impl MeasurementList {
         }
     }
 
+    /// The same, with a model.
+    pub fn set_values_of(&mut self, number: u64, model: Model, parameters: Parameters) {
+        if let Some(open) = self.get_mut(number) {
+            open.surface.model = model;
+        }
+        self.set_parameters_of(number, parameters);
+    }
+
     /// Gives the active measurement another model, and the others too, if anything is shared.
     pub fn set_model(&mut self, model: Model) {
         self.set_surface(Surface { model, ..self.active().surface.clone() });

@@ -5,7 +5,7 @@ mod measurements;
 mod results;
 
 use crate::app::work::diagnostics::Diagnostics;
-use crate::app::work::edit::Edit;
+use crate::app::work::edit::{Edit, Refit};
 use crate::app::work::fit_history::{FitEntry, FitHistory};
 use crate::app::work::history::History;
 use crate::app::work::layout::Layout;
@@ -16,7 +16,6 @@ use crate::app::work::settings::Settings;
 use crate::app::work::setup::Setup;
 use crate::app::work::surface::{PinnedSurface, Surface};
 use crate::app::work::workspace::results::ResultsByMeasurement;
-use pbrdf::fit::FitResult;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -239,21 +238,13 @@ impl Workspace {
             Edit::SetSessionFile(file) => self.session_file = file,
             Edit::Undo => self.restore(History::undo),
             Edit::Redo => self.restore(History::redo),
-            Edit::AddFit(fit) => self.add_fit(*fit),
+            Edit::AddFits(fits) => fits.into_iter().for_each(|fit| self.add_fit(fit)),
             Edit::SetFitReport { id, report } => self.set_fit_report(id, *report),
-            Edit::Refit(report) => self.take_refit(&report),
+            Edit::SetJointResult { id, result } => self.set_joint_result(id, *result),
+            Edit::Refit(refit) => self.take_refit(&refit),
             Edit::TakeValues { parameters, model } => self.take_values(parameters, model),
-            Edit::UseFit => {
-                if let Some(fit) = self.shown_fit().cloned() {
-                    self.measurements.set_model(fit.report.model);
-                    self.move_to(fit.report.parameters);
-                }
-            }
-            Edit::UseValuesBeforeFit => {
-                if let Some(fit) = self.shown_fit().cloned() {
-                    self.move_to(fit.before);
-                }
-            }
+            Edit::UseFit => self.use_shown_fit(|fit| fit.report.parameters, true),
+            Edit::UseValuesBeforeFit => self.use_shown_fit(|fit| fit.before, false),
             Edit::ReturnToFit(index) => self.return_to_fit(index),
             Edit::UseModelFit(index) => {
                 if let Some(ModelFit { result: Ok(report), .. }) = self.model_comparison().get(index) {
@@ -331,13 +322,17 @@ impl Workspace {
 
     /// Takes what a live refit found. Sliders may have moved since it began: locked and moved ones
     /// stay, those that it fitted are the fit's.
-    fn take_refit(&mut self, report: &FitResult) {
-        let Surface { mut parameters, locked, .. } = *self.surface();
-        let held = locked.union(self.moved);
-        for estimate in report.estimates.iter().filter(|estimate| estimate.free && !held.contains(estimate.parameter)) {
-            parameters[estimate.parameter] = estimate.value;
+    fn take_refit(&mut self, Refit(found): &Refit) {
+        for (number, estimates) in found {
+            let Some(open) = self.measurements.get(*number) else { continue };
+            let Surface { mut parameters, locked, .. } = open.surface;
+            let is_moved = |parameter| *number == self.active().number || self.measurements.shared().contains(parameter);
+            let held = locked.union(self.moved.iter().filter(|&parameter| is_moved(parameter)).collect());
+            for estimate in estimates.iter().filter(|estimate| estimate.free && !held.contains(estimate.parameter)) {
+                parameters[estimate.parameter] = estimate.value;
+            }
+            self.measurements.set_parameters_of(*number, parameters);
         }
-        self.measurements.set_parameters(parameters);
     }
 }
 

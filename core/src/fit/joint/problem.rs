@@ -1,5 +1,6 @@
 //! What a joint fit minimises: the sum of squares over the rows of all measurements.
 
+use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::joint::unknown::JointUnknown;
 use crate::fit::loss::robust_scale;
 use crate::fit::objective::{JacobianPlace, Problem};
@@ -233,6 +234,25 @@ impl JointProblem {
         DVector::from_fn(self.unknowns.len(), |unknown, _| point[self.home(unknown).0][self.unknowns[unknown].parameter])
     }
 
+    /// The unknowns at those parameters, in the order of [`Self::unknowns`]; of a shared one, that of the first measurement counts.
+    #[must_use]
+    pub fn values_at(&self, point: &[Parameters]) -> Vec<f64> {
+        self.unknowns_at(point).as_slice().to_vec()
+    }
+
+    /// The parameters of each measurement, given as many values as there are unknowns; all others as at the start.
+    #[must_use]
+    pub fn point_with(&self, values: &[f64]) -> Vec<Parameters> {
+        self.parameters_of(&DVector::from_column_slice(values))
+    }
+
+    /// Sum of the squares of the residuals; none without data and where it is not finite.
+    #[must_use]
+    pub fn sum_of_squares(&self, point: &[Parameters]) -> Option<f64> {
+        let mut residuals = DVector::zeros(self.len());
+        (!self.is_empty() && self.write_residuals(point, &mut residuals)).then(|| residuals.norm_squared())
+    }
+
     /// Writes the residuals; false where parameters are no surface or a residual is not finite.
     pub(crate) fn write_residuals(&self, point: &[Parameters], out: &mut DVector<f64>) -> bool {
         let out = out.as_mut_slice();
@@ -283,6 +303,14 @@ impl JointProblem {
         delta_e(sums, [self.square_sum(0), self.square_sum(1).filter(|_| self.has()[1])])
     }
 
+    /// What the data determine at that point, and how well, if the noise is as large as the misfit there or as stated; none without data and
+    /// where a residual is not finite.
+    #[must_use]
+    pub fn uncertainty_at(&self, point: &[Parameters]) -> Option<Uncertainty<JointUnknown>> {
+        let sum_of_squares = self.sum_of_squares(point)?;
+        Some(Uncertainty::of_unknowns(&self.with_start(point), &self.unknowns_at(point), sum_of_squares, &[]))
+    }
+
     /// What the sum of squares is multiplied by to give the residual sum of squares in the unit of the data.
     pub(crate) fn rss_scale(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
@@ -315,11 +343,15 @@ impl JointProblem {
         self.with_parts(Problem::with_squared_loss)
     }
 
-    pub(crate) fn with_loss_scales(&self, loss_scales: [f64; 2]) -> Self {
+    /// The same problem with those scales of the loss for DoLP and BRDF.
+    #[must_use]
+    pub fn with_loss_scales(&self, loss_scales: [f64; 2]) -> Self {
         self.with_parts(|part| part.with_loss_scales(loss_scales))
     }
 
-    pub(crate) fn with_block_weights(&self, block_weights: [f64; 2]) -> Self {
+    /// The same problem with the residuals of DoLP and BRDF multiplied by those numbers.
+    #[must_use]
+    pub fn with_block_weights(&self, block_weights: [f64; 2]) -> Self {
         self.with_parts(|part| part.with_block_weights(block_weights))
     }
 

@@ -6,9 +6,10 @@ use crate::fit::intervals::band::PredictionBand;
 use crate::fit::intervals::bootstrap::{Bootstrap, bootstrap_of};
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::{Uncertainty, UndeterminedDirection};
-use crate::fit::intervals::profile::{Profile, profile_of, set_interval};
+use crate::fit::intervals::profile::{Profile, profile_all, profile_of, set_interval};
 use crate::fit::joint::problem::JointProblem;
 use crate::fit::joint::unknown::JointUnknown;
+use crate::fit::multistart::basin::MultistartResult;
 use crate::fit::observer::Observer;
 use crate::fit::result::{ByKey, Correlations, Course, FitResult, SUMMARY_FIELDS, Statistics, is_exact, serialize_summary};
 use crate::fit::stop_reason::StopReason;
@@ -213,6 +214,25 @@ impl JointResult {
             },
         }
     }
+}
+
+/// The result of a search of several measurements, which may have been made before, with the intervals of the unknowns where they are known.
+/// The problem has the loss scales and block weights that the search had.
+#[must_use]
+pub fn analyse_jointly(
+    problem: &JointProblem,
+    search: MultistartResult<Vec<Parameters>>,
+    elapsed_ms: f64,
+    intervals: Option<&[[Interval; 2]]>,
+) -> JointResult {
+    JointResult::new(problem, Analysis::new(problem, search, elapsed_ms), intervals)
+}
+
+/// The joint result with the profile-likelihood intervals of all unknowns, as [`crate::fit::with_intervals`] has it of one measurement.
+#[must_use]
+pub fn with_intervals_jointly(problem: &JointProblem, result: JointResult, observer: Observer<'_>) -> JointResult {
+    let (analysis, intervals) = profile_all(problem, result.analysis(problem), observer);
+    JointResult::new(problem, analysis, intervals.as_deref())
 }
 
 /// Follows the profile of an unknown of a finished joint fit; it ends early, with what it has, when it is cancelled.

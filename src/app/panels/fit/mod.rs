@@ -13,40 +13,26 @@ use crate::app::text::glossary;
 use crate::app::views::Cx;
 use crate::app::views::action::Action;
 use crate::app::work::edit::{Edit, Switch};
-use crate::app::work::fit_setup::free;
+use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_setup::{free, free_together, is_joint};
 use crate::app::work::surface::Surface;
-use egui::{Label, RichText, Ui};
+use crate::app::work::workspace::Workspace;
+use egui::{Button, Label, RichText, Ui, vec2};
 use pbrdf::fit::{FitOptions, Weights};
 use pbrdf::model::{Parameter, ParameterSet};
+use std::sync::Arc;
 use tr::tr;
 
 pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     let work = cx.work;
     let (surface, document) = (work.surface(), work.active());
-    let free = free(surface, document.measurement.has_brdf());
     let jobs = cx.jobs;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
-        ui.horizontal(|ui| {
-            let running = jobs.fits.fit.is_running();
-            let fit =
-                ui.add_enabled(!running, egui::Button::new(egui::RichText::new(tr!("Fit")).strong()).min_size(egui::vec2(84.0, 26.0)));
-            if fit.on_hover_text(tr!("Levenberg–Marquardt from the sliders, all parameters that are not fixed")).clicked() {
-                cx.actions.push(Action::StartFit);
-            }
-            if ui
-                .add_enabled(running, egui::Button::new(tr!("Cancel")).min_size(egui::vec2(64.0, 26.0)))
-                .on_hover_text(tr!("Stop and keep the best so far"))
-                .clicked()
-            {
-                cx.actions.push(Action::CancelFit);
-            }
-            if running {
-                ui.spinner();
-            }
-        });
-        ui.weak(free_text(free, surface));
-        if let Some(text) = cx.derived.values().and_then(|values| glossary::too_few(values, free.len())) {
+        buttons_ui(cx, ui);
+        let scope = Scope::of(cx);
+        ui.weak(scope.text);
+        if let Some(text) = scope.values.and_then(|values| glossary::too_few(values, scope.free)) {
             ui.add(Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
         }
         sigmas_ui(cx, ui);
@@ -70,7 +56,7 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
                 if fit.report.model != surface.model {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("This fit is of another model than the sliders show."));
                 }
-                if fit.generation != document.generation {
+                if is_of_another_mask(fit, work) {
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("The mask has changed since this fit."))
                         .on_hover_text(glossary::mask_help());
                 }
@@ -87,6 +73,73 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     });
 }
 
+/// Whether a measurement of the fit has another mask now.
+fn is_of_another_mask(fit: &FitEntry, work: &Workspace) -> bool {
+    let has_changed = |part: &Arc<FitEntry>| work.measurements().get(part.number).is_some_and(|open| open.generation != part.generation);
+    work.fit_history().parts(fit.id).any(has_changed)
+}
+
+/// Fit, and the way to stop it.
+fn buttons_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let running = cx.jobs.fits.fit.is_running();
+    let list = cx.work.measurements();
+    ui.horizontal(|ui| {
+        let fit = ui.add_enabled(!running, Button::new(RichText::new(tr!("Fit")).strong()).min_size(vec2(84.0, 26.0)));
+        let help = if is_joint(list) {
+            tr!("All measurements together, from their sliders, all parameters that are not fixed")
+        } else {
+            tr!("Levenberg–Marquardt from the sliders, all parameters that are not fixed")
+        };
+        if fit.on_hover_text(help).clicked() {
+            cx.actions.push(Action::StartFit);
+        }
+        let cancel = ui.add_enabled(running, Button::new(tr!("Cancel")).min_size(vec2(64.0, 26.0)));
+        if cancel.on_hover_text(tr!("Stop and keep the best so far")).clicked() {
+            cx.actions.push(Action::CancelFit);
+        }
+        if running {
+            ui.spinner();
+        } else if list.measured().count() > 1 && !is_joint(list) {
+            let each = ui.add(Button::new(tr!("Fit each")).min_size(vec2(0.0, 26.0)));
+            if each.on_hover_text(tr!("Every open measurement by itself, one after the other")).clicked() {
+                cx.actions.push(Action::FitEach);
+            }
+        }
+    });
+}
+
+/// What a fit would change, and how many values there are.
+struct Scope {
+    text: String,
+    values: Option<usize>,
+    free: usize,
+}
+
+impl Scope {
+    fn of(cx: &Cx<'_>) -> Self {
+        let (list, surface) = (cx.work.measurements(), cx.work.surface());
+        if !is_joint(list) {
+            let free = free(surface, list.active().measurement.has_brdf());
+            return Self { text: free_text(free, surface), values: cx.derived.values_of(list.active().number), free: free.len() };
+        }
+        let sets = list.measured().map(|open| free_together(list, open));
+        let shared = sets.clone().fold(ParameterSet::EMPTY, ParameterSet::union).intersection(list.shared());
+        let own: Vec<ParameterSet> = sets.map(|free| free.without_all(list.shared())).collect();
+        let names = |set: ParameterSet| set.iter().map(Parameter::symbol).collect::<Vec<_>>().join(", ");
+        let any_own = own.iter().copied().fold(ParameterSet::EMPTY, ParameterSet::union);
+        let text = match (shared.is_empty(), any_own.is_empty()) {
+            (true, true) => tr!("Nothing is free: all parameters are fixed."),
+            (false, true) => tr!("{0} measurements together. Free and shared: {1}", own.len(), names(shared)),
+            (true, false) => tr!("{0} measurements together. Free and own: {1}", own.len(), names(any_own)),
+            (false, false) => {
+                tr!("{0} measurements together. Free and shared: {1}; own: {2}", own.len(), names(shared), names(any_own))
+            }
+        };
+        let values = list.measured().map(|open| cx.derived.values_of(open.number)).sum();
+        Self { text, values, free: shared.len() + own.iter().map(|set| set.len()).sum::<usize>() }
+    }
+}
+
 /// ΔE as a label.
 pub fn delta_e_text(delta_e: Option<f64>) -> String {
     delta_e.map_or_else(|| tr!("ΔE not defined"), |value| format!("ΔE = {value:.4e}"))
@@ -94,7 +147,7 @@ pub fn delta_e_text(delta_e: Option<f64>) -> String {
 
 /// Offers stated standard deviations as weights, where they are there.
 fn sigmas_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
-    if cx.derived.states_sigmas() && cx.derived.values().is_some_and(|values| values > 0) {
+    if cx.derived.states_sigmas() && cx.derived.values_of(cx.work.active().number).is_some_and(|values| values > 0) {
         let fit_options = cx.work.settings().fit_options;
         let mut used = fit_options.weights == Weights::Sigma;
         let help =

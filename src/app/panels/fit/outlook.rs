@@ -1,7 +1,6 @@
 //! What a fit from the sliders would determine, before it is made.
 
 use crate::app::text::glossary::open_help;
-use crate::app::text::localized::Localized as _;
 use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};
 use pbrdf::rounding::significant;
@@ -18,7 +17,11 @@ pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
     } else {
         tr!("if the noise is as large as the present misfit")
     };
-    ui.weak(tr!("Standard errors at the sliders, {}:", basis));
+    if outlook.measurements > 1 {
+        ui.weak(tr!("Standard errors at the sliders by {0} measurements together, {1}:", outlook.measurements, basis));
+    } else {
+        ui.weak(tr!("Standard errors at the sliders, {}:", basis));
+    }
     Grid::new("outlook").num_columns(2).show(ui, |ui| {
         for (parameter, error) in &outlook.errors {
             ui.label(parameter.symbol());
@@ -30,6 +33,6 @@ pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
         }
     });
     for direction in &outlook.open {
-        ui.add(egui::Label::new(format!("• {}", direction.localized())).wrap());
+        ui.add(egui::Label::new(format!("• {direction}")).wrap());
     }
 }

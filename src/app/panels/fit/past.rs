@@ -22,7 +22,7 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
     if fits.is_empty() {
         return;
     }
-    let is_mixed = fits.iter().any(|fit| fit.number != number);
+    let is_mixed = fits.rows(number).any(|fit| fit.number != number);
     let title = tr!("History of fits ({})", fits.len());
     CollapsingHeader::new(title).id_salt("past fits").show(ui, |ui| {
         ui.weak(tr!("A click returns to a fit; undo takes it back."));
@@ -31,7 +31,7 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
             ui.strong("ΔE").on_hover_text(delta_e_help());
             ui.strong(tr!("time"));
             ui.end_row();
-            for (index, fit) in fits.iter().enumerate() {
+            for (index, fit) in fits.rows(number).enumerate() {
                 let report = &fit.report;
                 let model = Preset::of(report.model).map_or_else(|| tr!("own terms"), |preset| preset.key.to_owned());
                 let elsewhere =
@@ -42,11 +42,18 @@ pub fn past_fits_ui(work: &Workspace, commands: &mut Vec<Action>, ui: &mut Ui) {
                 };
                 let values: String = report.estimates.iter().filter(|estimate| estimate.free).map(line).collect();
                 let help = format!("{}\n{}{elsewhere}{values}", fit.document, report.stop_reason.localized());
-                let about = if is_mixed { format!(" · {}", beginning(&fit.document)) } else { String::new() };
+                let about = if let Some(part) = &fit.joint {
+                    format!(" · {}", tr!("{} together", part.of.result.sets.len()))
+                } else if is_mixed {
+                    format!(" · {}", beginning(&fit.document))
+                } else {
+                    String::new()
+                };
                 if ui.selectable_label(is_shown, format!("{}. {model}{about}", fit.id)).on_hover_text(help).clicked() {
                     commands.push(Action::ReturnToFit(index));
                 }
-                ui.monospace(report.objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
+                let objective = fit.joint.as_ref().map_or(report.objective, |part| part.of.result.objective);
+                ui.monospace(objective.map_or_else(|| "-".to_owned(), |value| format!("{value:.4e}")));
                 ui.monospace(if report.course.minima.is_empty() {
                     "–".to_owned()
                 } else {

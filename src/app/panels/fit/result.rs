@@ -6,13 +6,13 @@ use crate::app::tasks::fits::FitJobs;
 use crate::app::text::estimate::{bound_text, uncertainty_help, uncertainty_text};
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
-use crate::app::text::localized::Localized as _;
+use crate::app::text::localized::Localized;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::{Action, ListAction};
-use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_history::{FitEntry, JointPart};
 use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, Role, TextWrapMode, Ui, WidgetInfo};
-use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, StopReason, Weights};
+use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, Statistics, StopReason, Weights};
 use pbrdf::rounding;
 use tr::tr;
 
@@ -44,18 +44,42 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mu
     } else {
         ui.colored_label(theme::warning(ui.visuals().dark_mode), capital);
     }
-    if let Some(text) = glossary::too_few(fit.problem.len(), fit.problem.free().len()) {
+    let (values, unknowns) = fit.counts();
+    if let Some(text) = glossary::too_few(values, unknowns) {
         ui.add(egui::Label::new(RichText::new(text).color(theme::warning(ui.visuals().dark_mode))).wrap());
     }
+    summary_ui(fit, ui);
+    ui.add_space(6.0);
+    estimates_ui(fit, work.diagnostics().scatter.as_ref(), ui);
+    if unknowns > 0 && values > 0 {
+        intervals_ui(report, jobs, commands, ui);
+    }
+    ui.add_space(6.0);
+    minima_ui(report, ui);
+    correlations_ui(report, ui);
+    open_ui(fit, ui);
+}
+
+/// How far the fit came, and what it took; of a joint fit of all measurements, with ΔE of the one that is shown.
+fn summary_ui(fit: &FitEntry, ui: &mut Ui) {
+    let report = &fit.report;
+    let joint = fit.joint.as_ref().map(|part| &part.of.result);
+    let statistics = joint.map_or(&report.statistics, |result| &result.statistics);
+    let (before, after) = joint.map_or((report.start_objective, report.objective), |result| (result.start_objective, result.objective));
+    let together = joint.map_or_else(String::new, |result| tr!("{} measurements", result.sets.len()));
+    let this_one = joint.map_or_else(String::new, |_| delta_e_text(report.objective));
     Grid::new("fit summary").num_columns(2).show(ui, |ui| {
         let minimised = tr!("What the fit made small, in place of ΔE");
         let chi2 = tr!("Squared residuals over their stated σ, per degree of freedom: near 1 where model and σ are right");
+        let names = joint.map_or_else(String::new, |result| result.sets.iter().map(|set| &*set.name).collect::<Vec<_>>().join(", "));
         for (name, value, help) in [
-            (tr!("Before"), delta_e_text(report.start_objective), glossary::delta_e_help()),
-            (tr!("After"), delta_e_text(report.objective), glossary::delta_e_help()),
-            (tr!("Minimised"), minimised_text(fit), minimised),
-            (tr!("χ²/dof"), reduced_chi2_text(report), chi2),
-            (tr!("AICc"), report.statistics.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), glossary::aicc_help()),
+            (tr!("Together"), together, names),
+            (tr!("Before"), delta_e_text(before), glossary::delta_e_help()),
+            (tr!("After"), delta_e_text(after), glossary::delta_e_help()),
+            (tr!("This one"), this_one, tr!("ΔE of the active measurement alone")),
+            (tr!("Minimised"), minimised_text(fit, statistics), minimised),
+            (tr!("χ²/dof"), reduced_chi2_text(statistics), chi2),
+            (tr!("AICc"), statistics.aicc.map_or_else(String::new, |aicc| format!("{aicc:.2}")), glossary::aicc_help()),
             (tr!("Time"), effort_text(report), tr!("Of all starts together; an evaluation is the model at all rows once")),
         ] {
             if !value.is_empty() {
@@ -65,32 +89,29 @@ pub fn result_ui(fit: &FitEntry, work: &Workspace, jobs: &FitJobs, commands: &mu
             }
         }
     });
-    ui.add_space(6.0);
-    estimates_ui(report, work.diagnostics().scatter.as_ref(), ui);
-    if !fit.problem.free().is_empty() && !fit.problem.is_empty() {
-        intervals_ui(report, jobs, commands, ui);
-    }
-    ui.add_space(6.0);
-    minima_ui(report, ui);
-    correlations_ui(report, ui);
-    open_ui(report, ui);
 }
 
 /// What stays open, in words, the badly known included.
-fn open_ui(report: &FitResult, ui: &mut Ui) {
-    let open = report.describe_undetermined();
+fn open_ui(fit: &FitEntry, ui: &mut Ui) {
+    let in_words = |part: &JointPart| -> Vec<String> { part.of.result.describe_undetermined().iter().map(Localized::localized).collect() };
+    let of_one = || fit.report.describe_undetermined().iter().map(Localized::localized).collect();
+    let open = fit.joint.as_ref().map_or_else(of_one, in_words);
     if open.is_empty() {
         return;
     }
     ui.add_space(6.0);
     ui.strong(tr!("The data leave open:")).on_hover_text(glossary::open_help());
     for what in &open {
-        ui.add(egui::Label::new(format!("• {}", what.localized())).wrap());
+        ui.add(egui::Label::new(format!("• {what}")).wrap());
     }
 }
 
-/// Values and their errors, one parameter a row.
-fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
+/// Values and their errors, one parameter a row; of a joint fit the measurement's own ones first.
+fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
+    let report = &fit.report;
+    let own = fit.joint.as_ref().map(|part| part.of.problem.own());
+    let is_own = |estimate: &&Estimate| own.is_none_or(|own| own.contains(estimate.parameter));
+    let is_final = report.course.intervals_complete.is_some();
     Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
         ui.label("");
         for (heading, help) in [
@@ -107,20 +128,27 @@ fn estimates_ui(report: &FitResult, bootstrap: Option<&Bootstrap>, ui: &mut Ui) 
             ui.strong(tr!("± boot")).on_hover_text(bootstrap_help(bootstrap));
         }
         ui.end_row();
-        for estimate in &report.estimates {
-            ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
-            ui.monospace(significant(estimate.start));
-            ui.monospace(estimate.value_text()).on_hover_text(significant(estimate.value));
-            uncertainty_ui(estimate, report.course.intervals_complete.is_some(), ui);
-            let scatter =
-                bootstrap.and_then(|bootstrap| bootstrap.estimates.iter().find(|scatter| scatter.parameter == estimate.parameter));
-            if let Some(scatter) = scatter {
-                let (low, high) = (significant(scatter.low), significant(scatter.high));
-                ui.label(short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
-            }
+        report.estimates.iter().filter(is_own).for_each(|estimate| estimate_ui(estimate, bootstrap, is_final, ui));
+        let mut shared = report.estimates.iter().filter(|estimate| !is_own(estimate)).peekable();
+        if shared.peek().is_some() {
+            ui.weak(tr!("shared")).on_hover_text(tr!("One value for all measurements of the fit"));
             ui.end_row();
         }
+        shared.for_each(|estimate| estimate_ui(estimate, bootstrap, is_final, ui));
     });
+}
+
+fn estimate_ui(estimate: &Estimate, bootstrap: Option<&Bootstrap>, is_final: bool, ui: &mut Ui) {
+    ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
+    ui.monospace(significant(estimate.start));
+    ui.monospace(estimate.value_text()).on_hover_text(significant(estimate.value));
+    uncertainty_ui(estimate, is_final, ui);
+    let scatter = bootstrap.and_then(|bootstrap| bootstrap.estimates.iter().find(|scatter| scatter.parameter == estimate.parameter));
+    if let Some(scatter) = scatter {
+        let (low, high) = (significant(scatter.low), significant(scatter.high));
+        ui.label(short(scatter.std_error)).on_hover_text(tr!("16th to 84th percentile: {0} … {1}", low, high));
+    }
+    ui.end_row();
 }
 
 /// Over how many data sets a bootstrap ran.
@@ -137,11 +165,11 @@ fn bootstrap_help(bootstrap: &Bootstrap) -> String {
 }
 
 /// What fell, where that was not ΔE, named for what it is.
-fn minimised_text(fit: &FitEntry) -> String {
-    let report = &fit.report;
+fn minimised_text(fit: &FitEntry, statistics: &Statistics) -> String {
     let fit_options = fit.problem.options();
-    let Some(start) = report.statistics.start_rss.filter(|_| !report.statistics.minimises_delta_e) else { return String::new() };
-    let has_brdf = !fit.problem.knows_only_ratios() && !fit_options.dolp_only;
+    let Some(start) = statistics.start_rss.filter(|_| !statistics.minimises_delta_e) else { return String::new() };
+    let knows_only_ratios = |part: &JointPart| part.of.problem.knows_only_ratios();
+    let has_brdf = !fit.joint.as_ref().map_or_else(|| fit.problem.knows_only_ratios(), knows_only_ratios) && !fit_options.dolp_only;
     let form = match fit_options.brdf_residuals {
         BrdfResiduals::Relative if has_brdf => tr!("relative residuals"),
         BrdfResiduals::Log if has_brdf => tr!("logarithmic residuals"),
@@ -153,7 +181,7 @@ fn minimised_text(fit: &FitEntry) -> String {
         Loss::Huber => tr!(", Huber loss"),
         Loss::SoftL1 => tr!(", soft-L1 loss"),
     };
-    tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", report.statistics.rss))
+    tr!("{0}, Σ² {1} to {2}", format!("{form}{weights}{loss}"), format!("{start:.3e}"), format!("{:.3e}", statistics.rss))
 }
 
 /// What it took; a session of an older version does not tell.
@@ -165,12 +193,12 @@ fn effort_text(report: &FitResult) -> String {
 }
 
 /// χ² per degree of freedom where standard deviations were stated and used.
-fn reduced_chi2_text(report: &FitResult) -> String {
+fn reduced_chi2_text(statistics: &Statistics) -> String {
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
-    let dof = report.statistics.dof as f64;
-    match report.statistics.chi2 {
-        Some(chi2) if report.statistics.dof > 0 => {
-            tr!("{0} ({1} of {2})", format!("{:.3}", chi2 / dof), format!("{chi2:.2}"), report.statistics.dof)
+    let dof = statistics.dof as f64;
+    match statistics.chi2 {
+        Some(chi2) if statistics.dof > 0 => {
+            tr!("{0} ({1} of {2})", format!("{:.3}", chi2 / dof), format!("{chi2:.2}"), statistics.dof)
         }
         Some(chi2) => tr!("χ² = {}, no degree of freedom", format!("{chi2:.2}")),
         None => String::new(),

@@ -30,27 +30,8 @@ pub fn scans_ui(fit: &FitEntry, cx: &mut Cx<'_>, ui: &mut Ui) {
         if let Some(profile) = &scans.profile {
             profile_ui(profile, ui);
         }
-        ui.horizontal(|ui| {
-            let help = tr!("Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results");
-            if ui.add_enabled(!running, Button::new(tr!("Bootstrap"))).on_hover_text(help).clicked() {
-                cx.actions.push(Action::Bootstrap);
-            }
-            let label = ui.label(tr!("data sets"));
-            let mut replicates = scans.replicates;
-            if ui.add(DragValue::new(&mut replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id).changed() {
-                cx.edits.push(Edit::SetReplicates(replicates));
-            }
-        });
-        if let Some(bootstrap) = &scans.scatter {
-            ui.weak(if bootstrap.is_complete() {
-                tr!("{0} data sets fitted, each from several starts", bootstrap.replicates)
-            } else {
-                tr!(
-                    "{0} of {1} data sets fitted, each from several starts: the bootstrap was stopped",
-                    bootstrap.replicates,
-                    bootstrap.asked
-                )
-            });
+        if fit.joint.is_none() {
+            bootstrap_ui(cx, ui);
         }
         if running {
             ui.horizontal(|ui| {
@@ -61,6 +42,28 @@ pub fn scans_ui(fit: &FitEntry, cx: &mut Cx<'_>, ui: &mut Ui) {
             });
         }
     });
+}
+
+fn bootstrap_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let (running, scans) = (cx.jobs.fits.is_scanning(), cx.work.diagnostics());
+    ui.horizontal(|ui| {
+        let help = tr!("Deal the residuals out anew, fit again, and see how the parameters scatter: a column in the table of results");
+        if ui.add_enabled(!running, Button::new(tr!("Bootstrap"))).on_hover_text(help).clicked() {
+            cx.actions.push(Action::Bootstrap);
+        }
+        let label = ui.label(tr!("data sets"));
+        let mut replicates = scans.replicates;
+        if ui.add(DragValue::new(&mut replicates).range(10..=MOST_REPLICATES)).labelled_by(label.id).changed() {
+            cx.edits.push(Edit::SetReplicates(replicates));
+        }
+    });
+    if let Some(bootstrap) = &scans.scatter {
+        ui.weak(if bootstrap.is_complete() {
+            tr!("{0} data sets fitted, each from several starts", bootstrap.replicates)
+        } else {
+            tr!("{0} of {1} data sets fitted, each from several starts: the bootstrap was stopped", bootstrap.replicates, bootstrap.asked)
+        });
+    }
 }
 
 fn profile_choice_ui(free: &[Parameter], cx: &mut Cx<'_>, ui: &mut Ui) {

@@ -1,7 +1,7 @@
 //! Carries out what menus, keys, panes and panels ask for.
 
 use crate::app::shell::app::App;
-use crate::app::shell::app::fits::{compare_models, find_intervals, start_bootstrap, start_fit, start_profile};
+use crate::app::shell::app::fits::{compare_models, find_intervals, fit_each, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
 use crate::app::shell::app::lists;
 use crate::app::shell::app::open::{cancel_import, open, open_files, start_import};
@@ -53,6 +53,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::CancelImport => cancel_import(app),
         Action::CancelLoading => app.jobs.files.cancel_load(),
         Action::StartFit => start_fit(app)?,
+        Action::FitEach => fit_each(app)?,
         Action::CancelFit => app.jobs.fits.fit.cancel(),
         Action::FindIntervals => find_intervals(app)?,
         Action::CancelIntervals => app.jobs.fits.intervals.cancel(),

@@ -1,40 +1,77 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fits::FinishedIntervals;
+use crate::app::tasks::fits::{FinishedIntervals, RefitProblem, WithIntervals};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_setup::{explain, fit_problem};
+use crate::app::work::fit_setup::{explain, fit_problem, free, is_joint, joint_problem};
+use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
 use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Problem, Profile, free_by_default};
-use pbrdf::model::{PRESETS, Parameter};
+use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use tr::tr;
 
 pub fn start_fit(app: &mut App) -> Result<(), String> {
     let Settings { fit_options, starts, seed, .. } = *app.work.settings();
-    let (surface, open) = (app.work.surface(), app.work.active());
-    let Surface { parameters, model, .. } = *surface;
-    parameters.validate(model.parameters()).map_err(|error| tr!("The fit cannot begin: {}.", error.localized()))?;
-    match fit_problem(surface, &open.measurement, model, app.free(), fit_options) {
-        Ok(problem) => app.jobs.fits.fit(problem, open, starts, seed),
-        Err(error) => Err(tr!("The fit cannot begin: {}.", explain(&error, &open.measurement))),
+    let list = app.work.measurements();
+    if !is_joint(list) {
+        let problem = problem_of(app, app.work.active())?;
+        return app.jobs.fits.fit(problem, app.work.active(), starts, seed);
     }
+    list.measured().try_for_each(validate)?;
+    let problem = joint_problem(list, ParameterSet::EMPTY, fit_options).map_err(|error| cannot_begin(&error.localized()))?;
+    app.jobs.fits.fit_jointly(problem, list, starts, seed)
 }
 
-pub fn fitted(app: &mut App, mut fit: Box<FitEntry>) {
-    let number = fit.number;
-    if let Some(open) = app.work.measurements().get(number) {
-        fit.before = open.surface.parameters;
-        fit.document.clone_from(&open.name);
+/// Fits every measurement by itself.
+pub fn fit_each(app: &mut App) -> Result<(), String> {
+    let Settings { starts, seed, .. } = *app.work.settings();
+    let problem = |open: &OpenMeasurement| -> Result<_, String> {
+        let problem = problem_of(app, open).map_err(|sentence| format!("{}: {sentence}", open.title()))?;
+        Ok((problem, open.clone()))
+    };
+    let problems = app.work.measurements().measured().map(problem).collect::<Result<_, _>>()?;
+    app.jobs.fits.fit_each(problems, starts, seed)
+}
+
+/// The problem of fitting a measurement by itself.
+fn problem_of(app: &App, open: &OpenMeasurement) -> Result<Problem, String> {
+    validate(open)?;
+    let (surface, measurement) = (&open.surface, &open.measurement);
+    let free = free(surface, measurement.has_brdf());
+    let problem = fit_problem(surface, measurement, surface.model, free, app.work.settings().fit_options);
+    problem.map_err(|error| cannot_begin(&explain(&error, measurement)))
+}
+
+fn validate(open: &OpenMeasurement) -> Result<(), String> {
+    let Surface { parameters, model, .. } = open.surface;
+    parameters.validate(model.parameters()).map_err(|error| cannot_begin(&error.localized()))
+}
+
+fn cannot_begin(reason: &str) -> String {
+    tr!("The fit cannot begin: {}.", reason)
+}
+
+pub fn fitted(app: &mut App, mut fits: Vec<FitEntry>) {
+    for fit in &mut fits {
+        if let Some(open) = app.work.measurements().get(fit.number) {
+            fit.before = open.surface.parameters;
+            fit.document.clone_from(&open.name);
+        }
     }
-    app.work.apply(Edit::AddFit(fit));
-    if number == app.work.active().number {
+    let numbers: Vec<u64> = fits.iter().map(|fit| fit.number).collect();
+    app.work.apply(Edit::AddFits(fits));
+    let active = app.work.active().number;
+    if numbers.contains(&active) {
         app.jobs.fits.abandon_scan();
     }
-    if let Err(sentence) = find_intervals_of(app, number) {
+    // Those of one joint fit are found at once.
+    if let Some(&number) = numbers.first()
+        && let Err(sentence) = find_intervals_of(app, number)
+    {
         app.toasts.error(sentence);
     }
 }
@@ -47,8 +84,8 @@ pub fn find_intervals(app: &mut App) -> Result<(), String> {
 /// The same of the fit that is shown of a measurement.
 fn find_intervals_of(app: &mut App, number: u64) -> Result<(), String> {
     let fit = app.work.shown_fit_of(number).filter(|fit| fit.report.course.intervals_complete.is_none());
-    match fit {
-        Some(fit) if !fit.problem.is_empty() && !fit.problem.free().is_empty() => app.jobs.fits.intervals(fit),
+    match fit.map(|fit| (fit, fit.counts())) {
+        Some((fit, (values, free))) if values > 0 && free > 0 => app.jobs.fits.intervals(fit),
         _ => Ok(()),
     }
 }
@@ -62,9 +99,11 @@ pub fn follow_active(app: &mut App) {
     }
 }
 
-pub fn intervals_found(app: &mut App, FinishedIntervals { id, report }: FinishedIntervals) {
-    if let Some(report) = report {
-        app.work.apply(Edit::SetFitReport { id, report });
+pub fn intervals_found(app: &mut App, FinishedIntervals { id, result }: FinishedIntervals) {
+    match result {
+        Some(WithIntervals::One(report)) => app.work.apply(Edit::SetFitReport { id, report }),
+        Some(WithIntervals::Joint(result)) => app.work.apply(Edit::SetJointResult { id, result }),
+        None => {}
     }
 }
 
@@ -76,18 +115,26 @@ pub fn refit_if_moved(app: &mut App) {
         return;
     }
     fits.refitted_at = moved_at;
-    let surface = app.work.surface();
-    let Surface { parameters, model, .. } = *surface;
-    let free = app.free().without_all(app.work.moved());
-    if parameters.validate(model.parameters()).is_err() || free.is_empty() {
-        return;
-    }
     // Why a fit is not possible is said when one is asked for.
-    if let Ok(problem) = fit_problem(surface, &app.work.active().measurement, model, free, app.work.settings().fit_options)
+    if let Some(problem) = refit_problem(app)
         && let Err(sentence) = app.jobs.fits.refit(problem)
     {
         app.toasts.error(sentence);
     }
+}
+
+fn refit_problem(app: &App) -> Option<RefitProblem> {
+    let (list, moved, fit_options) = (app.work.measurements(), app.work.moved(), app.work.settings().fit_options);
+    if is_joint(list) {
+        list.measured().try_for_each(validate).ok()?;
+        let problem = joint_problem(list, moved, fit_options).ok().filter(|problem| !problem.unknowns().is_empty())?;
+        return Some(RefitProblem::Joint(list.measured().map(|open| open.number).collect(), Box::new(problem)));
+    }
+    let open = list.active();
+    let free = app.free().without_all(moved);
+    validate(open).ok().filter(|()| !free.is_empty())?;
+    let problem = fit_problem(&open.surface, &open.measurement, open.surface.model, free, fit_options).ok()?;
+    Some(RefitProblem::One(open.number, Box::new(problem)))
 }
 
 pub fn compare_models(app: &mut App) -> Result<(), String> {
@@ -106,11 +153,11 @@ pub fn compare_models(app: &mut App) -> Result<(), String> {
 
 pub fn start_profile(app: &mut App, parameter: Parameter) -> Result<(), String> {
     app.work.apply(Edit::SetProfile(None));
-    shown_fit(app).map_or(Ok(()), |(problem, report)| app.jobs.fits.profile(problem, report, parameter))
+    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.profile(fit, parameter))
 }
 
 pub fn profiled(app: &mut App, profile: &Profile) {
-    let curve = app.work.shown_fit().map(|fit| ProfileCurve::new(profile, &fit.problem, &fit.report));
+    let curve = app.work.shown_fit().map(|fit| ProfileCurve::new(profile, fit));
     app.work.apply(Edit::SetProfile(curve));
 }
 
@@ -124,8 +171,8 @@ pub fn bootstrapped(app: &mut App, bootstrap: Bootstrap) {
     app.work.apply(Edit::SetBootstrap(Some(bootstrap)));
 }
 
-/// The fit that is shown, with the problem that it solved.
+/// The fit that is shown, with the problem that it solved; none where it is one of several measurements.
 fn shown_fit(app: &App) -> Option<(Problem, FitResult)> {
-    let fit = app.work.shown_fit()?;
+    let fit = app.work.shown_fit().filter(|fit| fit.joint.is_none())?;
     Some((Problem::clone(&fit.problem), fit.report.clone()))
 }

@@ -43,7 +43,7 @@ pub fn poll_jobs(app: &mut App) {
         || tr!("Saving the working state ended unexpectedly; it is saved again after the next change."));
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);
     poll(app, |jobs| &mut jobs.fits.intervals, intervals_found, || tr!("The intervals ended unexpectedly; nothing was lost."));
-    poll(app, |jobs| &mut jobs.fits.refit, |app, report| app.work.apply(Edit::Refit(report)), fit_panicked);
+    poll(app, |jobs| &mut jobs.fits.refit, |app, found| app.work.apply(Edit::Refit(found)), fit_panicked);
     poll(app, |jobs| &mut jobs.fits.compare, |app, (number, fits)| app.work.apply(Edit::SetModelComparison { number, fits }),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.profile, |app, profile| profiled(app, &profile), || tr!("The profile ended unexpectedly; nothing was lost."));

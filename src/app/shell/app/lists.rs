@@ -19,6 +19,7 @@ pub fn execute(app: &mut App, action: ListAction) -> Result<(), String> {
         ListAction::Move(by) => app.work.apply(Edit::MoveMeasurement { number: app.work.active().number, by }),
         ListAction::ShowAll(shown) => show_all(app, shown),
         ListAction::Close(number) => app.work.apply(Edit::Close(number.unwrap_or(app.work.active().number))),
+        ListAction::Share(sharing) => app.work.apply(Edit::Share(sharing.shared())),
         ListAction::PinSliders => pin_sliders(app),
         ListAction::PinOtherDistribution => pin_other_distribution(app)?,
         ListAction::PinFit => pin_fit(app),

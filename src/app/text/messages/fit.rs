@@ -2,8 +2,8 @@
 
 use crate::app::text::localized::Localized;
 use pbrdf::fit::{
-    BoundsError, DesignError, DistributionComparison, Evidence, ProblemError, StopReason, Undetermined, UndeterminedDirection,
-    UndeterminedReason, UnknownName, Verdict, symbols,
+    BoundsError, DesignError, DistributionComparison, Evidence, FitError, JointError, ProblemError, StopReason, Undetermined,
+    UndeterminedDirection, UndeterminedReason, UnknownName, Verdict, symbols,
 };
 use pbrdf::optics::SlopeDistribution;
 use tr::tr;
@@ -57,6 +57,35 @@ impl Localized for ProblemError {
             Self::StartOutsideBounds { parameter, value, low, high } => {
                 tr!("{0} = {1} is outside its bounds {2} … {3}", parameter.key(), value, low, high)
             }
+        }
+    }
+}
+
+impl Localized for FitError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Parameter(error) => error.localized(),
+            Self::Bounds(error) => error.localized(),
+            Self::Problem(error) => error.localized(),
+            other => other.to_string(),
+        }
+    }
+}
+
+impl Localized for JointError {
+    fn localized(&self) -> String {
+        match self {
+            Self::NoMeasurement => tr!("there is no measurement to fit"),
+            Self::NameTwice(name) => tr!("two measurements are called {}: rename one of them", name),
+            Self::UnknownName { name, known } => tr!("no measurement is called {0}; there are {1}", name, known),
+            Self::OwnOfNone(parameter) => {
+                tr!("no measurement can have its own {}: the model does not have this parameter", parameter.key())
+            }
+            Self::SharedDiffers { parameter, set } => {
+                tr!("{0} is shared, and what is said of it for {1} differs from the others: make it an own parameter", parameter.key(), set)
+            }
+            Self::Fit { set, error } => tr!("{0}: {1}", set, error.localized()),
+            other => other.to_string(),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Workspace;
 use super::results::Results;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::open_measurement::OpenMeasurement;
-use pbrdf::fit::FitResult;
+use pbrdf::fit::{FitResult, JointResult};
 use pbrdf::model::{Model, Parameters};
 use std::sync::Arc;
 
@@ -43,14 +43,67 @@ impl Workspace {
 
     /// Brings back a fit with its values and its data, closed ones too.
     pub(super) fn return_to_fit(&mut self, index: usize) {
-        let Some(fit) = self.fit_history.get(index) else { return };
-        if self.measurements.get(fit.number).is_none() {
+        let Some(fit) = self.fit_history.get(index, self.active().number) else { return };
+        let mut parts: Vec<Arc<FitEntry>> = self.fit_history.parts(fit.id).cloned().collect();
+        parts.sort_by_key(|part| part.joint.as_ref().map(|joint| joint.set));
+        if parts.iter().any(|part| self.measurements.get(part.number).is_none()) {
             self.record_step();
-            self.measurements.reopen(fit.number, || fit.measurement());
+        }
+        for part in parts.iter().filter(|part| self.measurements.get(part.number).is_none()).collect::<Vec<_>>() {
+            self.measurements.reopen(part.number, || part.measurement());
         }
         self.activate(fit.number);
-        self.take_values(fit.report.parameters, fit.report.model);
-        self.show_fit(fit);
+        if let Some(joint) = &fit.joint {
+            self.measurements.set_shared(joint.of.shared);
+        }
+        for part in parts {
+            self.measurements.set_values_of(part.number, part.report.model, part.report.parameters);
+            self.show_fit(part);
+        }
+        self.moved_at = 0;
+    }
+
+    /// Values of the shown fit to the sliders of its measurements, with its model or without.
+    pub(super) fn use_shown_fit(&mut self, values: impl Fn(&FitEntry) -> Parameters, with_model: bool) {
+        let Some(shown) = self.shown_fit().cloned() else { return };
+        if with_model {
+            self.measurements.set_model(shown.report.model);
+        }
+        self.move_to(values(&shown));
+        let others = self.fit_history.parts(shown.id).filter(|part| part.number != shown.number);
+        let others: Vec<(u64, Parameters)> = others.map(|part| (part.number, values(part))).collect();
+        for (number, parameters) in others {
+            self.measurements.set_parameters_of(number, parameters);
+        }
+        self.measurements.set_parameters(values(&shown));
+    }
+
+    /// Puts the result with intervals in the place of that of a joint fit. If its minimum is a better one, sliders that stand at the
+    /// minimum before follow.
+    pub(super) fn set_joint_result(&mut self, id: usize, result: JointResult) {
+        let before: Vec<(u64, Parameters)> = self.fit_history.parts(id).map(|fit| (fit.number, fit.report.parameters)).collect();
+        let parts = self.fit_history.replace_joint(id, result);
+        let stands_there = |(number, parameters): &(u64, Parameters)| {
+            self.measurements.get(*number).is_some_and(|open| open.surface.parameters == *parameters)
+        };
+        let is_better = parts.iter().zip(&before).any(|(part, (_, before))| part.report.parameters != *before);
+        if is_better && before.iter().all(stands_there) {
+            self.record_step();
+            for part in &parts {
+                self.measurements.set_values_of(part.number, part.report.model, part.report.parameters);
+            }
+            self.moved_at = 0;
+            // Undo goes from the better minimum to what was before the fit.
+            self.replace_step();
+        }
+        for part in parts {
+            for results in self.results.showing(id, part.number) {
+                results.shown_fit = Some(part.clone());
+                if is_better {
+                    results.diagnostics.forget();
+                }
+            }
+        }
     }
 
     pub(super) fn set_fit_report(&mut self, id: usize, report: FitResult) {
@@ -64,7 +117,7 @@ impl Workspace {
             // Undo goes from the better minimum to what was before the fit.
             self.replace_step();
         }
-        for results in self.results.showing(id) {
+        for results in self.results.showing(id, fit.number) {
             results.shown_fit = Some(fit.clone());
             if after != before {
                 results.diagnostics.forget();

@@ -36,9 +36,10 @@ impl ResultsByMeasurement {
         self.all.entry(number).or_insert(Results::NONE)
     }
 
-    /// Those that show the fit of that id.
-    pub fn showing(&mut self, id: usize) -> impl Iterator<Item = &mut Results> {
-        self.all.values_mut().filter(move |results| results.shown_fit.as_ref().is_some_and(|fit| fit.id == id))
+    /// Those that show the fit of that id of the measurement of that number.
+    pub fn showing(&mut self, id: usize, number: u64) -> impl Iterator<Item = &mut Results> {
+        let is_it = move |fit: &Arc<FitEntry>| (fit.id, fit.number) == (id, number);
+        self.all.values_mut().filter(move |results| results.shown_fit.as_ref().is_some_and(is_it))
     }
 
     /// Lets go of what is known about a measurement.
