@@ -374,7 +374,7 @@ fn a_plan_for_many_surfaces_is_better_at_the_worst_of_them() {
         let draws: Vec<Parameters> = sample.draws().map(|draw| draw.parameters).collect();
         let mut mean = STEEL;
         for &parameter in &sample.parameters {
-            mean[parameter] = sample.summary(parameter).mean;
+            mean[parameter] = sample.summary(&parameter).mean;
         }
         let local = request(Model::CAUCHY, mean, grid("10:80:5", "0:85:5"), 27, DesignCriterion::Determinant);
         let averaged = AngleChoice { surfaces: draws.clone(), ..local.clone() };

@@ -4,8 +4,10 @@
 #![allow(clippy::expect_used, clippy::print_stdout, reason = "a test fails by panicking, and may tell its figures")]
 #![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of draws and fits")]
 
-use pbrdf::fit::posterior::{Posterior, PosteriorSample, PosteriorSettings, Prior, convergence};
-use pbrdf::fit::{FitOptions, Observer, Starts, Weights, fit};
+use pbrdf::fit::posterior::{
+    Posterior, PosteriorError, PosteriorProblem, PosteriorSample, PosteriorSettings, Prior, PriorError, convergence,
+};
+use pbrdf::fit::{FitOptions, JointFit, JointUnknown, Observer, Starts, UnknownName as _, Weights, fit};
 use pbrdf::measurement::{Columns, Quantity, Row, Simulation, grid_geometries};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
@@ -61,7 +63,8 @@ fn drawn(columns: Columns, weights: Weights, priors: &[(Parameter, Prior)], sett
     let data = measurement(columns);
     let problem =
         Fit::new(&data, Model::GAUSS).options(FitOptions { weights, ..FitOptions::default() }).problem().expect("a valid problem");
-    let posterior = Posterior::new(&problem, priors, settings).expect("a posterior");
+    let priors: Vec<(JointUnknown, Prior)> = priors.iter().map(|&(parameter, prior)| (parameter.into(), prior)).collect();
+    let posterior = Posterior::new(&problem, &priors, settings).expect("a posterior");
     let start = fit(posterior.problem(), Starts::One, 1, Observer::NONE).parameters;
     posterior.run(&[start], Observer::NONE, &mut |_, _| {}).expect("draws")
 }
@@ -72,7 +75,7 @@ fn draws_hold_the_truth_and_the_noise() {
         let settings = PosteriorSettings { draws: 400, ..PosteriorSettings::default() };
         let sample = drawn(columns, weights, &[], settings);
         for &parameter in &sample.parameters {
-            let summary = sample.summary(parameter);
+            let summary = sample.summary(&parameter);
             // Of some twenty intervals, one beyond four standard deviations is one in a thousand.
             assert!((summary.mean - TRUTH[parameter]).abs() < 4.0 * summary.sd, "{columns:?} {weights:?} {parameter:?}: {summary:?}");
             let convergence = summary.convergence.expect("draws enough");
@@ -88,13 +91,75 @@ fn draws_hold_the_truth_and_the_noise() {
     }
 }
 
+/// Of each free parameter, mean and standard deviation.
+fn moments<P: PosteriorProblem>(problem: &P, start: P::Point) -> Vec<(String, f64, f64)> {
+    let settings = PosteriorSettings { draws: 600, ..PosteriorSettings::default() };
+    let posterior = Posterior::new(problem, &[], settings).expect("a posterior");
+    let sample = posterior.run(&[start], Observer::NONE, &mut |_, _| {}).expect("draws");
+    let of = |name: &P::Name| {
+        let summary = sample.summary(name);
+        assert!(summary.convergence.expect("draws enough").rhat < 1.05, "{name:?}: {summary:?}");
+        (name.key().into_owned(), summary.mean, summary.sd)
+    };
+    sample.parameters.iter().map(of).collect()
+}
+
+/// Means differ by less than a third of a standard deviation: with 200 effective draws each has an error of 0.07.
+fn assert_near(one: &(String, f64, f64), other: &(String, f64, f64)) {
+    assert!((one.1 - other.1).abs() < 0.33 * one.2.min(other.2) && (one.2 / other.2 - 1.0).abs() < 0.3, "{one:?} {other:?}");
+}
+
+#[test]
+fn several_measurements_share_or_own() {
+    let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
+    let data = measurement(Columns::Dolp);
+    let halves: [Measurement; 2] = [0, 1].map(|half| {
+        let rows = data.rows.iter().skip(half).step_by(2).copied().collect();
+        Measurement { name: format!("{half}"), rows, lines: Vec::new(), ..data.clone() }
+    });
+    let joint = || JointFit::new(&halves, Model::GAUSS).options(options);
+    // All shared: as one measurement with all rows.
+    let problem = Fit::new(&data, Model::GAUSS).options(options).problem().expect("a valid problem");
+    let start = fit(&problem, Starts::One, 1, Observer::NONE).parameters;
+    let together = moments(&problem, start);
+    let shared = moments(&joint().problem().expect("a valid problem"), vec![start; 2]);
+    together.iter().zip(&shared).for_each(|(one, other)| assert_near(one, other));
+    // All own: each by itself.
+    let apart = joint().own(Model::GAUSS.parameters().iter()).problem().expect("a valid problem");
+    let own = moments(&apart, vec![start; 2]);
+    for half in &halves {
+        let problem = Fit::new(half, Model::GAUSS).options(options).problem().expect("a valid problem");
+        for (name, mean, sd) in moments(&problem, start) {
+            let key = format!("{name}@{}", half.name);
+            let other = own.iter().find(|(other, ..)| *other == key).expect("an own parameter");
+            assert_near(&(name, mean, sd), other);
+        }
+    }
+}
+
+#[test]
+fn a_prior_may_be_of_one_measurement_alone() {
+    let data = measurement(Columns::Dolp);
+    let [one, other] = ["one", "other"].map(|name| Measurement { name: name.to_owned(), ..data.clone() });
+    let problem = JointFit::new([&one, &other], Model::GAUSS).own([Parameter::N]).problem().expect("a valid problem");
+    let of = |set: Option<&str>| JointUnknown { parameter: Parameter::N, set: set.map(Into::into) };
+    let (wide, narrow) = (Prior::Normal { mean: 2.0, sd: 0.5 }, Prior::Normal { mean: 2.2, sd: 0.001 });
+    let settings = PosteriorSettings { draws: 300, ..PosteriorSettings::default() };
+    let posterior = Posterior::new(&problem, &[(of(None), wide), (of(Some("other")), narrow)], settings).expect("a posterior");
+    let sample = posterior.run(&[vec![TRUTH; 2]], Observer::NONE, &mut |_, _| {}).expect("draws");
+    let [free, held] = ["one", "other"].map(|set| sample.summary(&of(Some(set))));
+    assert!((held.mean - 2.2).abs() < 0.001 && held.sd < 0.0015 && free.sd > 0.003, "{held:?} {free:?}");
+    let nobody = Posterior::new(&problem, &[(of(Some("nobody")), wide)], settings);
+    assert!(matches!(nobody, Err(PosteriorError::Prior(PriorError::NotFree { .. }))), "{nobody:?}");
+}
+
 #[test]
 fn a_narrow_prior_holds_its_parameter() {
     let settings = PosteriorSettings { draws: 300, ..PosteriorSettings::default() };
     let prior = Prior::Normal { mean: 2.2, sd: 0.001 };
     let uniform = Prior::Uniform { low: 2.0, high: 4.0 };
     let sample = drawn(Columns::Dolp, Weights::Sigma, &[(Parameter::N, prior), (Parameter::K, uniform)], settings);
-    let (n, k) = (sample.summary(Parameter::N), sample.summary(Parameter::K));
+    let (n, k) = (sample.summary(&Parameter::N), sample.summary(&Parameter::K));
     assert!((n.mean - 2.2).abs() < 0.001 && n.sd < 0.0015, "{n:?}");
     assert!(sample.draws().all(|draw| (2.0..=4.0).contains(&draw.parameters.k)), "{k:?}");
 }
@@ -163,14 +228,14 @@ fn ranks_of_the_truth_are_uniform() {
         let data = Measurement { rows: rows.collect(), ..Measurement::default() };
         let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
         let problem = Fit::new(&data, Model::CAUCHY).options(options).problem().expect("a valid problem");
-        let priors = ranges.map(|(parameter, low, high)| (parameter, Prior::Uniform { low, high }));
+        let priors = ranges.map(|(parameter, low, high)| (parameter.into(), Prior::Uniform { low, high }));
         let settings = PosteriorSettings { draws: 1000, chains: 2, seed };
         let posterior = Posterior::new(&problem, &priors, settings).expect("a posterior");
         let start = fit(&posterior.problem().with_start(truth), Starts::One, 1, Observer::NONE).parameters;
         let sample = posterior.run(&[start], Observer::NONE, &mut |_, _| {}).expect("draws");
         divergences += sample.divergences;
         for (parameter, ..) in ranges {
-            let summary = sample.summary(parameter);
+            let summary = sample.summary(&parameter);
             largest_rhat = largest_rhat.max(summary.convergence.expect("draws enough").rhat);
             let thinned = sample.draws().step_by(sample.len() / (RANKS - 1)).take(RANKS - 1);
             let rank = thinned.filter(|draw| draw.parameters[parameter] < truth[parameter]).count();

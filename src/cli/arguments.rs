@@ -176,12 +176,15 @@ pub struct ProblemArguments {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct PosteriorArguments {
-    /// Measurements, taken together: theta_i, theta_r and dolp or brdf, in degrees and 1/sr.
+    /// Measurements: theta_i, theta_r and dolp or brdf, in degrees and 1/sr; a column set makes several of one file.
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
+    /// Parameters that each measurement has for itself, such as n,k, or all; the others are shared.
+    #[arg(long, value_name = "NAMES|all", value_parser = values::own)]
+    pub own: Option<OwnParameters>,
     #[command(flatten)]
     pub problem: ProblemArguments,
     /// Draws of each chain, after the warm-up.

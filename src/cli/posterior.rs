@@ -2,16 +2,16 @@
 
 use crate::cli::arguments::PosteriorArguments;
 use crate::cli::failure::Failure;
+use crate::cli::fit_text::NAME_WIDTH;
 use crate::cli::output::Progress;
-use crate::cli::problem::{named_set, problem};
+use crate::cli::problem::{check, joint_failure, joint_problem, model, own_parameters, problem};
+use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
-use crate::cli::{input, interrupt, output};
+use crate::cli::{interrupt, output};
 use pbrdf::fit::posterior::{
-    Convergence, MarginalSummary, NoiseQuantiles, Posterior, PosteriorSample, PosteriorSettings, PosteriorVerdict,
+    Convergence, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict, SampleOf,
 };
-use pbrdf::fit::{Loss, Problem, Starts, Weights, fit};
-use pbrdf::measurement::Measurement;
-use pbrdf::model::{Parameter, Parameters};
+use pbrdf::fit::{Intervals, JointError, Loss, Observer, Starts, UnknownName, Weights, fit, fit_jointly};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -21,14 +21,52 @@ const QUANTILES: [&str; 5] = ["q05", "q16", "q50", "q84", "q95"];
 
 pub fn run(arguments: &PosteriorArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
-    let problem = posed(arguments)?;
-    let priors: Vec<_> = arguments.prior.iter().flat_map(|priors| priors.0.iter().copied()).collect();
+    let options = &arguments.problem;
+    if options.starts.is_some() || options.loss != Loss::Squared || options.loss_scale.is_some() {
+        return Err(Failure::usage("A posterior takes no --starts and no --loss: its likelihood is Gaussian."));
+    }
+    let sets = MeasurementSets::read(&arguments.inputs)?;
+    check(options, &sets)?;
+    let model = model(arguments.model, options);
+    let own = own_parameters(arguments.own.as_ref(), model);
+    if let Some(stranger) = own.without_all(model.parameters()).iter().next() {
+        return Err(joint_failure(&JointError::OwnOfNone(stranger), &sets));
+    }
+    let seed = options.seed;
+    if let [set] = &sets.all[..] {
+        let problem =
+            problem(arguments.model, options, &set.measurement).map_err(|reason| reason.about(sets.path(set), &set.measurement))?;
+        let minima = |problem: &_, observer: Observer<'_>| {
+            let result = fit(problem, Starts::Automatic, seed, observer);
+            result.course.minima.iter().map(|minimum| minimum.parameters).collect()
+        };
+        draw(arguments, &sets, &problem, &minima)
+    } else {
+        let problem = joint_problem(arguments.model, options, own, &sets).map_err(|error| joint_failure(&error, &sets))?;
+        let minima = |problem: &_, observer: Observer<'_>| {
+            let result = fit_jointly(problem, Starts::Automatic, seed, Intervals::None, observer);
+            result.course.minima.into_iter().map(|minimum| minimum.parameters).collect()
+        };
+        draw(arguments, &sets, &problem, &minima)
+    }
+}
+
+/// Draws from the posterior of a problem and writes what came of it, given how its minima are found.
+fn draw<P: PosteriorProblem>(
+    arguments: &PosteriorArguments,
+    sets: &MeasurementSets,
+    problem: &P,
+    minima: &dyn Fn(&P, Observer<'_>) -> Vec<P::Point>,
+) -> Result<ExitCode, Failure> {
+    let mut priors = Vec::new();
+    for option in arguments.prior.iter().flat_map(|priors| &priors.0) {
+        priors.push((sets.unknown(option)?, option.value));
+    }
     let settings = PosteriorSettings { draws: arguments.draws, chains: arguments.chains, seed: arguments.problem.seed };
-    let posterior = Posterior::new(&problem, &priors, settings).map_err(|error| Failure::usage(format!("{error}.")))?;
+    let posterior = Posterior::new(problem, &priors, settings).map_err(|error| Failure::usage(format!("{error}.")))?;
     let watched = Watched::new("fitting");
     let watch = watched.watch();
-    let report = fit(posterior.problem(), Starts::Automatic, settings.seed, watch.as_watch());
-    let minima: Vec<Parameters> = report.course.minima.iter().map(|minimum| minimum.parameters).collect();
+    let minima = minima(posterior.problem(), watch.as_watch());
     let mut progress = Progress::new("drawing");
     let sample = posterior
         .run(&minima, watch.as_watch(), &mut |done, _| progress.tell_fraction(done))
@@ -40,70 +78,51 @@ pub fn run(arguments: &PosteriorArguments) -> Result<ExitCode, Failure> {
         return Err(Failure::interrupted());
     }
     if let Some(path) = &arguments.output {
-        output::write(Some(path), |out| write_draws(out, &sample))?;
+        output::write(Some(path), |out| write_draws::<P>(out, &sample))?;
     }
-    let summaries: Vec<(Parameter, MarginalSummary)> =
-        sample.parameters.iter().map(|&parameter| (parameter, sample.summary(parameter))).collect();
-    let verdict = verdict(&sample, &summaries);
+    let summaries: Vec<(P::Name, MarginalSummary)> =
+        sample.parameters.iter().map(|parameter| (parameter.clone(), sample.summary(parameter))).collect();
+    let verdict = verdict::<P>(&sample, &summaries);
     if arguments.json {
-        output::write_json(&document(arguments, &problem, &sample, &summaries, verdict))?;
+        output::write_json(&document(arguments, problem, &sample, &summaries, &verdict))?;
     } else {
-        output::write(None, |out| print(out, &problem, &sample, &summaries, verdict))?;
+        output::write(None, |out| print(out, problem, &sample, &summaries, &verdict))?;
     }
     Ok(output::exit_code())
 }
 
-/// The problem of all files together.
-fn posed(arguments: &PosteriorArguments) -> Result<Problem, Failure> {
-    let options = &arguments.problem;
-    if options.starts.is_some() || options.loss != Loss::Squared || options.loss_scale.is_some() {
-        return Err(Failure::usage("A posterior takes no --starts and no --loss: its likelihood is Gaussian."));
-    }
-    if let Some(set) = named_set(options) {
-        return Err(Failure::usage(format!("All measurements of a posterior share their parameters; nothing can be said of {set} alone.")));
-    }
-    let mut all = Measurement::default();
-    // Which file each row comes from, for messages.
-    let mut ends = Vec::new();
-    for path in &arguments.inputs {
-        let measurement = input::measurement(path, &input::bytes(path)?)?;
-        all.rows.extend(measurement.rows);
-        all.lines.extend(measurement.lines);
-        ends.push(all.rows.len());
-    }
-    problem(arguments.model, options, &all).map_err(|reason| {
-        let place = reason.row().and_then(|row| ends.iter().position(|&end| row < end)).unwrap_or(0);
-        reason.about(&arguments.inputs[place], &all)
-    })
-}
-
-fn verdict(sample: &PosteriorSample, summaries: &[(Parameter, MarginalSummary)]) -> PosteriorVerdict {
-    let all: Option<Vec<(Parameter, Convergence)>> =
-        summaries.iter().map(|&(parameter, summary)| Some((parameter, summary.convergence?))).collect();
+fn verdict<P: PosteriorProblem>(sample: &SampleOf<P>, summaries: &[(P::Name, MarginalSummary)]) -> PosteriorVerdict<P::Name> {
+    let all: Option<Vec<(P::Name, Convergence)>> =
+        summaries.iter().map(|(parameter, summary)| Some((parameter.clone(), summary.convergence?))).collect();
     all.map_or(PosteriorVerdict::TooFewDraws, |all| sample.verdict_of(&all))
 }
 
 /// One row per draw.
-fn write_draws(out: &mut dyn Write, sample: &PosteriorSample) -> io::Result<()> {
-    let names: Vec<&str> = sample.parameters.iter().map(|parameter| parameter.key()).collect();
+fn write_draws<P: PosteriorProblem>(out: &mut dyn Write, sample: &SampleOf<P>) -> io::Result<()> {
+    let names: Vec<String> = keys::<P>(sample);
     writeln!(out, "{},log_posterior,chain", names.join(","))?;
     for (chain, draws) in sample.chains.iter().enumerate() {
         for draw in draws {
-            sample.parameters.iter().try_for_each(|&parameter| write!(out, "{},", draw.parameters[parameter]))?;
+            draw.unknowns.iter().try_for_each(|value| write!(out, "{value},"))?;
             writeln!(out, "{},{chain}", draw.log_posterior)?;
         }
     }
     Ok(())
 }
 
-fn document(
+/// Names of the free parameters in files.
+fn keys<P: PosteriorProblem>(sample: &SampleOf<P>) -> Vec<String> {
+    sample.parameters.iter().map(|parameter| parameter.key().into_owned()).collect()
+}
+
+fn document<P: PosteriorProblem>(
     arguments: &PosteriorArguments,
-    problem: &Problem,
-    sample: &PosteriorSample,
-    summaries: &[(Parameter, MarginalSummary)],
-    verdict: PosteriorVerdict,
+    problem: &P,
+    sample: &SampleOf<P>,
+    summaries: &[(P::Name, MarginalSummary)],
+    verdict: &PosteriorVerdict<P::Name>,
 ) -> Value {
-    let of = |(parameter, summary): &(Parameter, MarginalSummary)| {
+    let of = |(parameter, summary): &(P::Name, MarginalSummary)| {
         let mut values = Map::new();
         values.insert("mean".to_owned(), json!(summary.mean));
         values.insert("sd".to_owned(), json!(summary.sd));
@@ -112,9 +131,9 @@ fn document(
         values.insert("rhat".to_owned(), json!(convergence.map(|of| of.rhat)));
         values.insert("ess_bulk".to_owned(), json!(convergence.map(|of| of.ess_bulk)));
         values.insert("ess_tail".to_owned(), json!(convergence.map(|of| of.ess_tail)));
-        (parameter.key().to_owned(), Value::Object(values))
+        (parameter.key().into_owned(), Value::Object(values))
     };
-    let names: Vec<&str> = sample.parameters.iter().map(|parameter| parameter.key()).collect();
+    let names = keys::<P>(sample);
     let matrix: Vec<Vec<f64>> = sample.correlations().row_iter().map(|row| row.iter().copied().collect()).collect();
     json!({
         "model": arguments.model.key,
@@ -133,7 +152,7 @@ fn document(
 }
 
 /// The noise of DoLP, or of BRDF where that alone is measured; of both, that of BRDF beside it.
-fn noise(problem: &Problem, sample: &PosteriorSample) -> Value {
+fn noise<P: PosteriorProblem>(problem: &P, sample: &SampleOf<P>) -> Value {
     let stated = problem.options().weights == Weights::Sigma;
     let [dolp, brdf] = sample.noise;
     let of = |noise: Option<NoiseQuantiles>| json!({ "stated": stated, "q16": noise.map(|of| of.q16), "q50": noise.map(|of| of.q50), "q84": noise.map(|of| of.q84) });
@@ -144,29 +163,30 @@ fn noise(problem: &Problem, sample: &PosteriorSample) -> Value {
     json
 }
 
-fn print(
+fn print<P: PosteriorProblem>(
     out: &mut dyn Write,
-    problem: &Problem,
-    sample: &PosteriorSample,
-    summaries: &[(Parameter, MarginalSummary)],
-    verdict: PosteriorVerdict,
+    problem: &P,
+    sample: &SampleOf<P>,
+    summaries: &[(P::Name, MarginalSummary)],
+    verdict: &PosteriorVerdict<P::Name>,
 ) -> io::Result<()> {
     writeln!(
         out,
         "{} draws of {} chains from the posterior of {} values ({} evaluations, {:.1} s); {verdict}",
         sample.len(),
         sample.chains.len(),
-        problem.len(),
+        problem.residual_count(),
         sample.evaluations,
         sample.elapsed_ms / 1e3
     )?;
-    writeln!(out, "\n{:<8} {:>11} {:>11} {:>11} {:>11} {:>11} {:>7} {:>7}", "", "mean", "sd", "16 %", "median", "84 %", "R̂", "size")?;
+    let width = sample.parameters.iter().map(|parameter| parameter.key().chars().count()).max().unwrap_or(0).max(NAME_WIDTH);
+    writeln!(out, "\n{:<width$} {:>11} {:>11} {:>11} {:>11} {:>11} {:>7} {:>7}", "", "mean", "sd", "16 %", "median", "84 %", "R̂", "size")?;
     for (parameter, summary) in summaries {
         let [_, q16, q50, q84, _] = summary.quantiles;
         let (rhat, size) = summary.convergence.map_or((f64::NAN, f64::NAN), |of| (of.rhat, of.ess_bulk.min(of.ess_tail)));
         writeln!(
             out,
-            "{:<8} {:>11.5} {:>11.5} {q16:>11.5} {q50:>11.5} {q84:>11.5} {rhat:>7.3} {size:>7.0}",
+            "{:<width$} {:>11.5} {:>11.5} {q16:>11.5} {q50:>11.5} {q84:>11.5} {rhat:>7.3} {size:>7.0}",
             parameter.key(),
             summary.mean,
             summary.sd

@@ -22,14 +22,6 @@ pub enum NoProblem {
 }
 
 impl NoProblem {
-    /// The row of the measurement that it is about, if it is about one.
-    pub fn row(&self) -> Option<usize> {
-        match self {
-            Self::Data(ProblemError::MissingSigma { row, .. }) => Some(*row),
-            _ => None,
-        }
-    }
-
     /// As the failure of a command on that file.
     pub fn about(self, path: &Path, measurement: &Measurement) -> Failure {
         match self {
@@ -140,15 +132,6 @@ pub fn described<'a>(mut fit: Fit<'a>, arguments: &ProblemArguments, dolp_only: 
 fn in_order<'a, T>(options: &'a [Targeted<T>], is_meant: &dyn Fn(&str) -> bool) -> Vec<&'a Targeted<T>> {
     let of_all = options.iter().filter(|option| option.set.is_none());
     of_all.chain(options.iter().filter(|option| option.set.as_ref().is_some_and(|set| is_meant(set)))).collect()
-}
-
-/// The first measurement that an option names.
-pub fn named_set(arguments: &ProblemArguments) -> Option<&str> {
-    let of_values = arguments.start.iter().filter_map(|option| option.set.as_deref());
-    let of_fixed = arguments.fix.iter().filter_map(|option| option.set.as_deref());
-    let of_free = arguments.free.iter().filter_map(|option| option.set.as_deref());
-    let of_bounds = arguments.bounds.iter().filter_map(|option| option.set.as_deref());
-    of_values.chain(of_fixed).chain(of_free).chain(of_bounds).next()
 }
 
 /// Whether an option gives a parameter a value to start from.

@@ -4,8 +4,10 @@ use crate::cli::arguments::ProblemArguments;
 use crate::cli::failure::Failure;
 use crate::cli::input;
 use crate::cli::values::Targeted;
+use pbrdf::fit::JointUnknown;
 use pbrdf::measurement::Measurement;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One measurement of a command.
 pub struct NamedMeasurement {
@@ -89,21 +91,34 @@ impl MeasurementSets {
         set.name == name || (is_alone && (self.path(set).display().to_string() == name || file_name(self.path(set)) == name))
     }
 
+    /// The unknown that an option means.
+    ///
+    /// # Errors
+    ///
+    /// A failure where no measurement, or more than one, has the name in the option.
+    pub fn unknown<T>(&self, option: &Targeted<T>) -> Result<JointUnknown, Failure> {
+        let set = option.set.as_ref().map(|name| self.named(name)).transpose()?;
+        Ok(JointUnknown { parameter: option.parameter, set: set.map(|set| Arc::from(set.name.as_str())) })
+    }
+
+    /// The measurement that a name on the command line means.
+    fn named(&self, name: &str) -> Result<&NamedMeasurement, Failure> {
+        let known = || self.all.iter().map(|set| set.name.as_str()).collect::<Vec<_>>().join(", ");
+        let meant: Vec<&NamedMeasurement> = self.all.iter().filter(|set| self.is_meant(set, name)).collect();
+        match meant[..] {
+            [set] => Ok(set),
+            [] => Err(Failure::usage(format!("No measurement is called {name}; there are {}.", known()))),
+            _ => Err(Failure::usage(format!("{name} may be several measurements; there are {}.", known()))),
+        }
+    }
+
     /// Refuses options about a measurement that is not there, or that may be several.
     pub fn check(&self, options: &ProblemArguments) -> Result<(), Failure> {
         fn sets<T>(options: &[Targeted<T>]) -> impl Iterator<Item = &String> {
             options.iter().filter_map(|option| option.set.as_ref())
         }
-        let named = sets(&options.start).chain(sets(&options.fix)).chain(sets(&options.free)).chain(sets(&options.bounds));
-        for name in named {
-            let known = || self.all.iter().map(|set| set.name.as_str()).collect::<Vec<_>>().join(", ");
-            match self.all.iter().filter(|set| self.is_meant(set, name)).count() {
-                1 => {}
-                0 => return Err(Failure::usage(format!("No measurement is called {name}; there are {}.", known()))),
-                _ => return Err(Failure::usage(format!("{name} may be several measurements; there are {}.", known()))),
-            }
-        }
-        Ok(())
+        let mut named = sets(&options.start).chain(sets(&options.fix)).chain(sets(&options.free)).chain(sets(&options.bounds));
+        named.try_for_each(|name| self.named(name).map(|_| ()))
     }
 }
 

@@ -51,7 +51,7 @@ pub enum OwnParameters {
 
 /// Priors of parameters.
 #[derive(Debug, Clone)]
-pub struct Priors(pub Vec<(Parameter, Prior)>);
+pub struct Priors(pub Vec<Targeted<Prior>>);
 
 /// Angles in degrees, in their order.
 #[derive(Debug, Clone)]
@@ -209,7 +209,7 @@ pub fn chain_count(text: &str) -> Result<usize, String> {
     count(text).ok().filter(|&chains| chains <= 100).ok_or_else(|| format!("{text:?} is no whole number from 1 to 100"))
 }
 
-/// `n=normal(2.07,0.1),k=uniform(1,5)`.
+/// `n=normal(2.07,0.1),k=uniform(1,5)`, each name also with `@measurement`.
 pub fn priors(text: &str) -> Result<Priors, String> {
     let mut rest = text.trim();
     let mut priors = Vec::new();
@@ -219,15 +219,19 @@ pub fn priors(text: &str) -> Result<Priors, String> {
         rest = rest[end..].trim_start();
         rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
     }
-    if let Some((parameter, _)) = priors.iter().enumerate().find_map(|(i, of)| priors[..i].iter().find(|other| other.0 == of.0)) {
-        return Err(format!("{} has two priors", parameter.key()));
+    let key = |prior: &Targeted<Prior>| (prior.parameter, prior.set.clone());
+    if let Some(twice) = priors.iter().enumerate().find_map(|(i, of)| priors[..i].iter().find(|other| key(other) == key(of))) {
+        return Err(format!("{} has two priors", twice.parameter.key()));
     }
+    // What is said of one measurement overrules what is said of all.
+    priors.sort_by_key(|prior: &Targeted<Prior>| prior.set.is_some());
     Ok(Priors(priors))
 }
 
-fn prior(text: &str) -> Result<(Parameter, Prior), String> {
+fn prior(text: &str) -> Result<Targeted<Prior>, String> {
     let expected = || format!("expected name=normal(mean,sd), name=uniform(low,high) or name=loguniform(low,high), found {text:?}");
-    let (name, prior) = text.split_once('=').ok_or_else(expected)?;
+    let (option, set) = without_set(text);
+    let (name, prior) = option.split_once('=').ok_or_else(expected)?;
     let (kind, numbers) = prior.split_once('(').ok_or_else(expected)?;
     let (one, other) = numbers.strip_suffix(')').and_then(|numbers| numbers.split_once(',')).ok_or_else(expected)?;
     let (one, other) = (number(one)?, number(other)?);
@@ -237,7 +241,7 @@ fn prior(text: &str) -> Result<(Parameter, Prior), String> {
         "loguniform" => Prior::LogUniform { low: one, high: other },
         _ => return Err(expected()),
     };
-    Ok((parameter(name)?, prior))
+    Ok(Targeted::new(set, parameter(name)?, prior))
 }
 
 /// `name` or `name=value`.
@@ -392,7 +396,7 @@ pub fn picture_file(text: &str) -> Result<PathBuf, String> {
 }
 #[cfg(test)]
 mod tests {
-    use super::{grid, interval, priors};
+    use super::{Targeted, grid, interval, priors};
     use pbrdf::fit::posterior::Prior;
     use pbrdf::model::Parameter;
 
@@ -410,8 +414,10 @@ mod tests {
     #[test]
     fn priors_are_separated_by_the_commas_outside_brackets() {
         let read = priors("n=normal(2.07, 0.1), k=uniform(1,5)").map(|priors| priors.0);
-        let expected = vec![(Parameter::N, Prior::Normal { mean: 2.07, sd: 0.1 }), (Parameter::K, Prior::Uniform { low: 1.0, high: 5.0 })];
-        assert_eq!(read, Ok(expected));
+        let (normal, uniform) = (Prior::Normal { mean: 2.07, sd: 0.1 }, Prior::Uniform { low: 1.0, high: 5.0 });
+        assert_eq!(read, Ok(vec![Targeted::new(None, Parameter::N, normal), Targeted::new(None, Parameter::K, uniform)]));
+        let read = priors("n@B.csv=normal(2.07,0.1),n=uniform(1,5)").map(|priors| priors.0);
+        assert_eq!(read, Ok(vec![Targeted::new(None, Parameter::N, uniform), Targeted::new(Some("B.csv"), Parameter::N, normal)]));
         for wrong in [
             "n",
             "n=normal",

@@ -15,6 +15,11 @@ pub trait UnknownName: Clone + PartialEq + Send + Sync + fmt::Debug {
     /// Which parameter it is.
     fn parameter(&self) -> Parameter;
 
+    /// The measurement that has it for itself; none where it is shared, or where there is one measurement.
+    fn set(&self) -> Option<&str> {
+        None
+    }
+
     /// Its name in files: `n`, or `n@B.csv` where a measurement has its own.
     fn key(&self) -> Cow<'_, str>;
 

@@ -171,6 +171,13 @@ impl JointProblem {
         Self { parts: self.parts.iter().map(change).collect(), ..self.clone() }
     }
 
+    /// The same problem with each measurement's changed, its start too.
+    pub(crate) fn changed<E>(&self, change: impl Fn(usize, &Problem) -> Result<Problem, E>) -> Result<Self, E> {
+        let started = self.parts.iter().zip(&self.start).map(|(part, start)| part.with_start(*start)).enumerate();
+        let parts: Vec<Problem> = started.map(|(index, part)| change(index, &part)).collect::<Result<_, _>>()?;
+        Ok(Self { start: parts.iter().map(|part| *part.start()).collect(), parts, ..self.clone() })
+    }
+
     /// The same problem from another start.
     #[must_use]
     pub fn with_start(&self, start: &[Parameters]) -> Self {

@@ -22,12 +22,22 @@ impl UnknownName for JointUnknown {
         self.parameter
     }
 
+    fn set(&self) -> Option<&str> {
+        self.set.as_deref()
+    }
+
     fn key(&self) -> Cow<'_, str> {
         self.named(self.parameter.key())
     }
 
     fn symbol(&self) -> Cow<'_, str> {
         self.named(self.parameter.symbol())
+    }
+}
+
+impl From<Parameter> for JointUnknown {
+    fn from(parameter: Parameter) -> Self {
+        Self { parameter, set: None }
     }
 }
 

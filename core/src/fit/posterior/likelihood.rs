@@ -1,21 +1,23 @@
 //! The likelihood of the data, by the residuals of the fit.
 //!
 //! With stated standard deviations the sum of squares is χ² and `ln L = −χ²/2`. Else each quantity has one unknown standard deviation s
-//! with the prior 1/s, which is integrated out: `L ∝ SS^(−N/2)`, a factor for DoLP and one for BRDF. Constants are those of
-//! densities of the data in units of the residuals, so that models are compared on the same footing.
+//! with the prior 1/s, which is integrated out: `L ∝ SS^(−N/2)`, a factor for DoLP and one for BRDF, each over the rows of all
+//! measurements. Constants are those of densities of the data in units of the residuals, so that models are compared on the same footing.
 
 use crate::fit::objective::Problem;
-use crate::fit::options::Weights;
-use crate::model::{Batch, DolpGradients, Parameter, Parameters, Pbrdf};
+use crate::model::{Batch, DolpGradients, Parameters, Pbrdf};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
 /// Sum of squares, in units of ΔE of Eq. (18), that rounding alone leaves: data without noise have no narrower posterior.
 const ROUNDING: f64 = 1e-20;
 
-/// The likelihood of a problem's data, with buffers for its evaluation.
+/// Sum of squares of DoLP and of BRDF.
+pub(crate) type SquareSums = [f64; 2];
+
+/// The sums of squares of a measurement, with buffers for their evaluation.
 #[derive(Debug, Clone)]
-pub(crate) struct Likelihood {
+pub(crate) struct Misfit {
     problem: Problem,
     /// Where DoLP alone is measured: the geometries for the kernels, and measured value and weight of each point.
     dolp: Option<DolpData>,
@@ -32,10 +34,10 @@ struct DolpData {
     out: DolpGradients,
 }
 
-/// Sum of squares of DoLP and of BRDF.
-pub(crate) type SquareSums = [f64; 2];
+/// Derivatives of both sums by the free parameters.
+pub(crate) type SumGradients = [Vec<f64>; 2];
 
-impl Likelihood {
+impl Misfit {
     pub(crate) fn new(problem: &Problem) -> Self {
         let data = problem.observations().data();
         let counts = [0, 1].map(|block| data.iter().filter(|datum| datum.kind.block() == block).count());
@@ -58,19 +60,13 @@ impl Likelihood {
         self.counts
     }
 
-    /// ln L; writes its derivatives by the free parameters. None where it is not finite.
-    pub(crate) fn value_and_gradient(&mut self, parameters: &Parameters, gradient: &mut [f64]) -> Option<f64> {
-        let by_sigma = self.problem.options().weights == Weights::Sigma;
-        gradient.fill(0.0);
-        let value = if self.dolp.is_some() {
-            self.dolp_value_and_gradient(parameters, gradient, by_sigma)?
-        } else {
-            self.general_value_and_gradient(parameters, gradient, by_sigma)?
-        };
-        (value.is_finite() && gradient.iter().all(|slope| slope.is_finite())).then_some(value)
+    /// The sums; writes their derivatives. None where the parameters are no surface.
+    pub(crate) fn sums_and_gradients(&mut self, parameters: &Parameters, gradients: &mut SumGradients) -> Option<SquareSums> {
+        gradients.iter_mut().for_each(|by| by.fill(0.0));
+        if self.dolp.is_some() { self.of_dolp(parameters, gradients) } else { self.of_any(parameters, gradients) }
     }
 
-    fn dolp_value_and_gradient(&mut self, parameters: &Parameters, gradient: &mut [f64], by_sigma: bool) -> Option<f64> {
+    fn of_dolp(&mut self, parameters: &Parameters, [by_dolp, _]: &mut SumGradients) -> Option<SquareSums> {
         let DolpData { batch, measured, out } = self.dolp.as_mut()?;
         let surface = Pbrdf::new(self.problem.model(), *parameters).ok()?;
         batch.dolp_gradients(&surface, out);
@@ -81,26 +77,22 @@ impl Likelihood {
             sum += residual * residual;
             *slot = weight * residual;
         }
-        let (value, slope) = log_likelihood(sum, self.counts[0], by_sigma);
-        for (slot, &parameter) in gradient.iter_mut().zip(self.problem.free()) {
-            let along: f64 = out.dolp.iter().zip(&out.by[parameter]).map(|(a, b)| a * b).sum();
-            *slot = 2.0 * slope * along;
+        for (slot, &parameter) in by_dolp.iter_mut().zip(self.problem.free()) {
+            *slot = 2.0 * out.dolp.iter().zip(&out.by[parameter]).map(|(a, b)| a * b).sum::<f64>();
         }
-        Some(value)
+        Some([sum, 0.0])
     }
 
-    fn general_value_and_gradient(&mut self, parameters: &Parameters, gradient: &mut [f64], by_sigma: bool) -> Option<f64> {
-        let Self { problem, residuals, jacobian, counts, .. } = self;
+    fn of_any(&mut self, parameters: &Parameters, gradients: &mut SumGradients) -> Option<SquareSums> {
+        let Self { problem, residuals, jacobian, .. } = self;
         if !(problem.residuals(parameters, residuals) && problem.jacobian(parameters, jacobian)) {
             return None;
         }
-        let sums = square_sums(problem, residuals);
-        let terms = [0, 1].map(|block| log_likelihood(sums[block], counts[block], by_sigma));
         for (row, datum) in problem.observations().data().iter().enumerate() {
-            let factor = 2.0 * terms[datum.kind.block()].1 * residuals[row];
-            gradient.iter_mut().enumerate().for_each(|(j, slot)| *slot += factor * jacobian[(row, j)]);
+            let by = &mut gradients[datum.kind.block()];
+            by.iter_mut().enumerate().for_each(|(j, slot)| *slot += 2.0 * residuals[row] * jacobian[(row, j)]);
         }
-        Some(terms[0].0 + terms[1].0)
+        Some(square_sums(problem, residuals))
     }
 
     /// Sums of squares in units of the measured values: of DoLP, of BRDF.
@@ -110,11 +102,6 @@ impl Likelihood {
         let scales = problem.observations().scales();
         let sums = square_sums(problem, residuals);
         [0, 1].map(|block| sums[block] / (scales[block] * scales[block]))
-    }
-
-    /// The free parameters.
-    pub(crate) fn free(&self) -> &[Parameter] {
-        self.problem.free()
     }
 }
 
@@ -127,7 +114,7 @@ fn square_sums(problem: &Problem, residuals: &DVector<f64>) -> SquareSums {
 }
 
 /// ln L of so many residuals with that sum of squares, and its derivative by the sum.
-fn log_likelihood(sum: f64, count: usize, by_sigma: bool) -> (f64, f64) {
+pub(crate) fn log_likelihood(sum: f64, count: usize, by_sigma: bool) -> (f64, f64) {
     if count == 0 {
         return (0.0, 0.0);
     }

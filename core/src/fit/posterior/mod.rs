@@ -22,6 +22,7 @@ mod likelihood;
 mod log_density;
 mod metric;
 mod nuts;
+mod parts;
 mod prior;
 mod run;
 mod sample;
@@ -33,6 +34,7 @@ mod walls;
 
 pub use diagnostics::{Convergence, convergence, quantile};
 pub use evidence::LogEvidence;
+pub use parts::PosteriorProblem;
 pub use prior::{Prior, PriorError};
-pub use run::{Posterior, PosteriorError, PosteriorSettings};
+pub use run::{Posterior, PosteriorError, PosteriorProgress, PosteriorSettings, SampleOf};
 pub use sample::{MarginalSummary, NoiseQuantiles, PosteriorDraw, PosteriorSample, PosteriorVerdict};

@@ -1,20 +1,20 @@
 //! A posterior to draw from: problem and priors, and the run.
 
-use crate::fit::bounds::BoundsError;
+use crate::fit::bounds::{Bounds, BoundsError};
+use crate::fit::fit_problem::{FitProblem, UnknownName as _};
+use crate::fit::joint::unknown::JointUnknown;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
 use crate::fit::posterior::density::PosteriorDensity;
 use crate::fit::posterior::diagnostics::quantile;
 use crate::fit::posterior::evidence::log_evidence;
-use crate::fit::posterior::likelihood::Likelihood;
-use crate::fit::posterior::log_density::LogDensity as _;
+use crate::fit::posterior::parts::PosteriorProblem;
 use crate::fit::posterior::prior::{BoundedPrior, Prior, PriorError};
 use crate::fit::posterior::sample::{NoiseQuantiles, PosteriorDraw, PosteriorSample};
 use crate::fit::posterior::sampler::{ChainDraws, Sampled, draw_chains};
-use crate::fit::posterior::transform::{Transform, Transformed};
 use crate::measurement::Deviates;
-use crate::model::{Parameter, Parameters};
+use nalgebra::DVector;
 
 /// Draws of each chain, at least: fewer tell nothing of convergence.
 const FEWEST_DRAWS: usize = 100;
@@ -69,7 +69,7 @@ pub enum PosteriorError {
     NotFinite,
 }
 
-/// Posterior of the free parameters of a problem.
+/// Posterior of the free parameters of a problem, of one measurement or of several.
 ///
 /// ```
 /// use pbrdf::fit::posterior::{Posterior, PosteriorSettings, Prior};
@@ -80,59 +80,68 @@ pub enum PosteriorError {
 /// let data = Measurement::read(table.as_bytes())?;
 /// let problem = Fit::new(&data, Model::SPECULAR).free(N).problem()?;
 /// let settings = PosteriorSettings { draws: 500, ..PosteriorSettings::default() };
-/// let posterior = Posterior::new(&problem, &[(K, Prior::Normal { mean: 2.9, sd: 0.5 })], settings)?;
+/// let posterior = Posterior::new(&problem, &[(K.into(), Prior::Normal { mean: 2.9, sd: 0.5 })], settings)?;
 /// let start = fit(posterior.problem(), Starts::One, 1, Observer::NONE).parameters;
 /// let sample = posterior.run(&[start], Observer::NONE, &mut |_, _| {})?;
-/// println!("{}: {}", sample.verdict(), sample.summary(N).mean);
+/// println!("{}: {}", sample.verdict(), sample.summary(&N).mean);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Posterior {
-    problem: Problem,
+pub struct Posterior<P = Problem> {
+    problem: P,
+    /// Of each unknown.
     priors: Vec<BoundedPrior>,
     settings: PosteriorSettings,
 }
 
-/// Hears of the share that is done, 0 to 1, and can ask for the draws so far.
-pub type PosteriorProgress<'a> = &'a mut dyn FnMut(f64, &dyn Fn() -> PosteriorSample);
+/// The sample of a problem's posterior.
+pub type SampleOf<P> = PosteriorSample<<P as FitProblem>::Name, <P as FitProblem>::Point>;
 
-impl Posterior {
-    /// Of a problem, with priors on some parameters; the others are equally likely within their bounds.
+/// Hears of the share that is done, 0 to 1, and can ask for the draws so far.
+pub type PosteriorProgress<'a, P = Problem> = &'a mut dyn FnMut(f64, &dyn Fn() -> SampleOf<P>);
+
+impl<P: PosteriorProblem> Posterior<P> {
+    /// Of a problem, with priors on some unknowns, those of one measurement alone named so; the others are equally likely within their
+    /// bounds. The last prior of an unknown counts.
     ///
     /// # Errors
     ///
     /// [`PosteriorError`] where a prior is none or on a parameter that is not free, where nothing is free or measured, and of too few
     /// draws.
-    pub fn new(problem: &Problem, priors: &[(Parameter, Prior)], settings: PosteriorSettings) -> Result<Self, PosteriorError> {
+    pub fn new(problem: &P, priors: &[(JointUnknown, Prior)], settings: PosteriorSettings) -> Result<Self, PosteriorError> {
         let PosteriorSettings { draws, chains, .. } = settings;
         if draws < FEWEST_DRAWS || chains == 0 {
             return Err(PosteriorError::TooFewDraws { draws, chains });
         }
-        if problem.free().is_empty() {
+        if problem.names().is_empty() {
             return Err(PosteriorError::NothingFree);
         }
-        if problem.is_empty() {
+        if problem.residual_count() == 0 {
             return Err(PosteriorError::NoData);
         }
-        if let Some(&(parameter, _)) = priors.iter().find(|(parameter, _)| !problem.free().contains(parameter)) {
-            return Err(PriorError::NotFree { parameter }.into());
+        let is_of = |unknown: &JointUnknown, name: &P::Name| {
+            unknown.parameter == name.parameter() && unknown.set.as_deref().is_none_or(|set| name.set() == Some(set))
+        };
+        if let Some((unknown, _)) = priors.iter().find(|(unknown, _)| !problem.names().iter().any(|name| is_of(unknown, name))) {
+            return Err(PriorError::NotFree { parameter: unknown.parameter }.into());
         }
-        let mut bounds = *problem.bounds();
-        let mut start = *problem.start();
+        let mut bounded_problem = problem.clone();
         let mut bounded = Vec::new();
-        for &parameter in problem.free() {
-            let prior = priors.iter().rev().find(|(other, _)| *other == parameter).map_or(Prior::Flat, |(_, prior)| *prior);
-            let ends = prior.narrowed(parameter, &bounds)?;
-            bounds.set(parameter, ends.0, ends.1)?;
-            start[parameter] = bounds.clamp(parameter, start[parameter]);
+        for (index, name) in problem.names().iter().enumerate() {
+            let prior = priors.iter().rev().find(|(unknown, _)| is_of(unknown, name)).map_or(Prior::Flat, |(_, prior)| *prior);
+            let (low, high) = problem.bounds_of(index);
+            let mut bounds = Bounds::default();
+            bounds.set(name.parameter(), low, high)?;
+            let ends = prior.narrowed(name.parameter(), &bounds)?;
+            bounded_problem = bounded_problem.with_bounds_of(index, ends)?;
             bounded.push(BoundedPrior::new(prior, ends));
         }
-        Ok(Self { problem: problem.with_bounds(bounds).with_start(start), priors: bounded, settings })
+        Ok(Self { problem: bounded_problem, priors: bounded, settings })
     }
 
     /// The problem within the bounds of the priors: its minima are where the chains begin.
     #[must_use]
-    pub fn problem(&self) -> &Problem {
+    pub fn problem(&self) -> &P {
         &self.problem
     }
 
@@ -145,14 +154,13 @@ impl Posterior {
     /// [`PosteriorError`] where the density is not finite at any of the minima.
     pub fn run(
         &self,
-        minima: &[Parameters],
+        minima: &[P::Point],
         observer: Observer<'_>,
-        progress: PosteriorProgress<'_>,
-    ) -> Result<PosteriorSample, PosteriorError> {
+        progress: PosteriorProgress<'_, P>,
+    ) -> Result<SampleOf<P>, PosteriorError> {
         let PosteriorSettings { draws, chains, seed } = self.settings;
-        let best = minima.first().unwrap_or(self.problem.start());
-        let transform = Transform::new(&self.problem, best);
-        let mut density = PosteriorDensity::new(Likelihood::new(&self.problem), self.priors.clone(), transform);
+        let best = minima.first().unwrap_or(self.problem.start_point());
+        let mut density = PosteriorDensity::new(&self.problem, self.priors.clone(), best);
         let starts = starts(&mut density, minima).ok_or(PosteriorError::NotFinite)?;
         let starts: Vec<Vec<f64>> = (0..chains).map(|i| starts[i % starts.len()].clone()).collect();
         let mut tell = |share: f64, chains: &[ChainDraws]| progress(share, &|| self.sample(&density, chains));
@@ -164,21 +172,21 @@ impl Posterior {
     }
 
     /// What takes all draws: noise and evidence.
-    fn conclude(&self, density: &mut PosteriorDensity, sampled: &Sampled, seed: u64, result: &mut PosteriorSample) {
+    fn conclude(&self, density: &mut PosteriorDensity<P>, sampled: &Sampled, seed: u64, result: &mut SampleOf<P>) {
         if self.problem.options().weights == Weights::None {
-            result.noise = noise(&mut density.likelihood, result, seed);
+            result.noise = noise(density, result, seed);
         }
         result.log_evidence = log_evidence(density, sampled, seed);
     }
 
-    fn sample(&self, density: &PosteriorDensity, chains: &[ChainDraws]) -> PosteriorSample {
+    fn sample(&self, density: &PosteriorDensity<P>, chains: &[ChainDraws]) -> SampleOf<P> {
         let length = chains.iter().map(|chain| chain.points.len()).min().unwrap_or(0);
-        let mut at = Transformed::default();
-        let mut draw = |point: &Vec<f64>, log_density: f64| {
-            density.transform.transform(point, &mut at);
-            PosteriorDraw { parameters: at.parameters, log_posterior: log_density - at.log_jacobian }
+        let draw = |point: &Vec<f64>, log_density: f64| {
+            let (x, log_jacobian) = density.unknowns_at(point);
+            let parameters = self.problem.point_at(&x);
+            PosteriorDraw { unknowns: x.as_slice().to_vec(), parameters, log_posterior: log_density - log_jacobian }
         };
-        let of_chain = |chain: &ChainDraws| -> Vec<PosteriorDraw> {
+        let of_chain = |chain: &ChainDraws| -> Vec<PosteriorDraw<P::Point>> {
             chain.points.iter().zip(&chain.log_density).take(length).map(|(point, &log)| draw(point, log)).collect()
         };
         let sum = |of: fn(&ChainDraws) -> usize| chains.iter().map(of).sum();
@@ -186,7 +194,7 @@ impl Posterior {
         let count = (length * chains.len()).max(1) as f64;
         PosteriorSample {
             model: self.problem.model(),
-            parameters: self.problem.free().to_vec(),
+            parameters: self.problem.names().to_vec(),
             evaluations: sum(|chain| chain.evaluations),
             divergences: sum(|chain| chain.divergences),
             cut: sum(|chain| chain.cut),
@@ -200,27 +208,26 @@ impl Posterior {
 }
 
 /// Places of the minima in ℝᵈ, without those whose likelihood is next to nothing; none where it is not finite at any.
-fn starts(density: &mut PosteriorDensity, minima: &[Parameters]) -> Option<Vec<Vec<f64>>> {
-    let mut gradient = vec![0.0; density.dimension()];
+fn starts<P: PosteriorProblem>(density: &mut PosteriorDensity<P>, minima: &[P::Point]) -> Option<Vec<Vec<f64>>> {
     let mut best = None;
     let mut starts = Vec::new();
-    for parameters in minima {
-        let Some(value) = density.likelihood.value_and_gradient(parameters, &mut gradient) else { continue };
+    for minimum in minima {
+        let Some((value, place)) = density.start_at(minimum) else { continue };
         if value >= *best.get_or_insert(value) - FARTHEST_START {
-            starts.push(density.transform.coordinates(parameters));
+            starts.push(place);
         }
     }
     (!starts.is_empty()).then_some(starts)
 }
 
 /// Quantiles of the unknown standard deviation of each quantity: given the parameters, `s² = SS/χ²_N`.
-fn noise(likelihood: &mut Likelihood, sample: &PosteriorSample, seed: u64) -> [Option<NoiseQuantiles>; 2] {
-    let counts = likelihood.counts();
+fn noise<P: PosteriorProblem>(density: &mut PosteriorDensity<P>, sample: &SampleOf<P>, seed: u64) -> [Option<NoiseQuantiles>; 2] {
+    let counts = density.counts();
     let step = sample.len().div_ceil(NOISE_DRAWS).max(1);
     let mut deviates = Deviates::new(seed ^ 0x9e37_79b9_7f4a_7c15);
     let mut drawn: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
     for draw in sample.draws().step_by(step) {
-        let sums = likelihood.square_sums(&draw.parameters);
+        let sums = density.square_sums(&DVector::from_column_slice(&draw.unknowns));
         for block in [0, 1] {
             #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
             let half = 0.5 * counts[block] as f64;

@@ -1,5 +1,6 @@
 //! Draws from a posterior, and what they say.
 
+use crate::fit::fit_problem::UnknownName;
 use crate::fit::posterior::diagnostics::{Convergence, convergence, quantile};
 use crate::fit::posterior::evidence::LogEvidence;
 use crate::model::{Model, Parameter, Parameters};
@@ -14,10 +15,12 @@ const SMALLEST_SIZE: f64 = 400.0;
 const LARGEST_DIVERGING_SHARE: f64 = 0.001;
 
 /// One draw.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PosteriorDraw {
-    /// All parameters of the model, the held ones at their values.
-    pub parameters: Parameters,
+#[derive(Debug, Clone, PartialEq)]
+pub struct PosteriorDraw<P = Parameters> {
+    /// The free parameters, in their order.
+    pub unknowns: Vec<f64>,
+    /// All parameters of the model, the held ones at their values; of several measurements, those of each.
+    pub parameters: P,
     /// Natural logarithm of likelihood × priors there.
     pub log_posterior: f64,
 }
@@ -36,13 +39,13 @@ pub struct NoiseQuantiles {
 /// Draws of all chains.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct PosteriorSample {
+pub struct PosteriorSample<N = Parameter, P = Parameters> {
     /// Which terms there are.
     pub model: Model,
     /// The free parameters.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<N>,
     /// The draws, chain by chain, all of one length.
-    pub chains: Vec<Vec<PosteriorDraw>>,
+    pub chains: Vec<Vec<PosteriorDraw<P>>>,
     /// Evaluations of value and gradient, those of the warm-up among them.
     pub evaluations: usize,
     /// Transitions after the warm-up whose energy ran away.
@@ -73,9 +76,9 @@ pub struct MarginalSummary {
 }
 
 /// Whether the draws are to be trusted; `Display` says it in a sentence.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum PosteriorVerdict {
+pub enum PosteriorVerdict<N = Parameter> {
     /// R̂ and effective sizes are good, and next to no transition diverged.
     Converged {
         /// The smallest effective size, bulk or tail.
@@ -86,14 +89,14 @@ pub enum PosteriorVerdict {
     /// Chains disagree.
     NotMixed {
         /// On what most.
-        parameter: Parameter,
+        parameter: N,
         /// Its R̂.
         rhat: f64,
     },
     /// The draws depend on each other too much.
     SmallSize {
         /// Of what most.
-        parameter: Parameter,
+        parameter: N,
         /// Its smaller effective size.
         size: f64,
     },
@@ -106,7 +109,7 @@ pub enum PosteriorVerdict {
     },
 }
 
-impl fmt::Display for PosteriorVerdict {
+impl<N: UnknownName> fmt::Display for PosteriorVerdict<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Converged { size } => write!(f, "converged: at least {size:.0} effective draws of each parameter"),
@@ -126,7 +129,7 @@ impl fmt::Display for PosteriorVerdict {
     }
 }
 
-impl PosteriorSample {
+impl<N: UnknownName, P> PosteriorSample<N, P> {
     /// Number of draws of all chains.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -140,14 +143,25 @@ impl PosteriorSample {
     }
 
     /// All draws, chain after chain.
-    pub fn draws(&self) -> impl Iterator<Item = &PosteriorDraw> {
+    pub fn draws(&self) -> impl Iterator<Item = &PosteriorDraw<P>> {
         self.chains.iter().flatten()
     }
 
     /// What the draws say of a function of the parameters; not finite values make it NaN.
     #[must_use]
-    pub fn summary_of(&self, quantity: impl Fn(&Parameters) -> f64) -> MarginalSummary {
-        let values: Vec<Vec<f64>> = self.chains.iter().map(|chain| chain.iter().map(|draw| quantity(&draw.parameters)).collect()).collect();
+    pub fn summary_of(&self, quantity: impl Fn(&P) -> f64) -> MarginalSummary {
+        self.summary_by(|draw| quantity(&draw.parameters))
+    }
+
+    /// What the draws say of a free parameter; NaN of one that is not free.
+    #[must_use]
+    pub fn summary(&self, parameter: &N) -> MarginalSummary {
+        let place = self.parameters.iter().position(|other| other == parameter);
+        self.summary_by(|draw| place.map_or(f64::NAN, |place| draw.unknowns[place]))
+    }
+
+    fn summary_by(&self, quantity: impl Fn(&PosteriorDraw<P>) -> f64) -> MarginalSummary {
+        let values: Vec<Vec<f64>> = self.chains.iter().map(|chain| chain.iter().map(&quantity).collect()).collect();
         let mut sorted = values.concat();
         sorted.sort_by(f64::total_cmp);
         #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
@@ -158,19 +172,13 @@ impl PosteriorSample {
         MarginalSummary { mean, sd, quantiles, convergence: convergence(&values) }
     }
 
-    /// What the draws say of a parameter.
-    #[must_use]
-    pub fn summary(&self, parameter: Parameter) -> MarginalSummary {
-        self.summary_of(|parameters| parameters[parameter])
-    }
-
     /// Correlation coefficients of the free parameters; NaN of one that does not vary.
     #[must_use]
     pub fn correlations(&self) -> DMatrix<f64> {
         let dimension = self.parameters.len();
         #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
         let count = self.len() as f64;
-        let value = |draw: &PosteriorDraw, i: usize| draw.parameters[self.parameters[i]];
+        let value = |draw: &PosteriorDraw<P>, i: usize| draw.unknowns[i];
         let means: Vec<f64> = (0..dimension).map(|i| self.draws().map(|draw| value(draw, i)).sum::<f64>() / count).collect();
         let mut covariance: DMatrix<f64> = DMatrix::zeros(dimension, dimension);
         for draw in self.draws() {
@@ -186,25 +194,27 @@ impl PosteriorSample {
 
     /// Whether the draws are to be trusted.
     #[must_use]
-    pub fn verdict(&self) -> PosteriorVerdict {
-        let each = || self.parameters.iter().map(|&parameter| Some((parameter, self.summary(parameter).convergence?)));
-        let Some(all) = each().collect::<Option<Vec<(Parameter, Convergence)>>>() else { return PosteriorVerdict::TooFewDraws };
+    pub fn verdict(&self) -> PosteriorVerdict<N> {
+        let each = || self.parameters.iter().map(|parameter| Some((parameter.clone(), self.summary(parameter).convergence?)));
+        let Some(all) = each().collect::<Option<Vec<(N, Convergence)>>>() else { return PosteriorVerdict::TooFewDraws };
         self.verdict_of(&all)
     }
 
     /// The same, given the convergence of each parameter.
     #[must_use]
-    pub fn verdict_of(&self, all: &[(Parameter, Convergence)]) -> PosteriorVerdict {
+    pub fn verdict_of(&self, all: &[(N, Convergence)]) -> PosteriorVerdict<N> {
         let size = |of: &Convergence| of.ess_bulk.min(of.ess_tail);
         let worst_rhat = all.iter().max_by(|a, b| a.1.rhat.total_cmp(&b.1.rhat));
         let smallest = all.iter().min_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
         let share = self.divergences as f64 / self.len().max(1) as f64;
         match (worst_rhat, smallest) {
-            (Some(&(parameter, of)), _) if of.rhat > LARGEST_RHAT || of.rhat.is_nan() => {
-                PosteriorVerdict::NotMixed { parameter, rhat: of.rhat }
+            (Some((parameter, of)), _) if of.rhat > LARGEST_RHAT || of.rhat.is_nan() => {
+                PosteriorVerdict::NotMixed { parameter: parameter.clone(), rhat: of.rhat }
             }
-            (_, Some((parameter, of))) if size(of) < SMALLEST_SIZE => PosteriorVerdict::SmallSize { parameter: *parameter, size: size(of) },
+            (_, Some((parameter, of))) if size(of) < SMALLEST_SIZE => {
+                PosteriorVerdict::SmallSize { parameter: parameter.clone(), size: size(of) }
+            }
             _ if share > LARGEST_DIVERGING_SHARE => PosteriorVerdict::Diverged { count: self.divergences, share },
             (_, Some((_, of))) => PosteriorVerdict::Converged { size: size(of) },
             _ => PosteriorVerdict::TooFewDraws,

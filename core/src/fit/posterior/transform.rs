@@ -5,20 +5,54 @@
 //! `ln(σ²/(h k_s))` is added to their coordinates (h = 1 for Gauss, q − 1 for Cauchy). A measured BRDF determines that peak: `ln(h/σ²)`
 //! is added to the coordinate of k_s. Depolarised light lowers DoLP as a larger D = n + k²/n does: to the coordinate of D,
 //! `ln(1 + Σ a eᵘ)` is added, where u are the coordinates of k_d and k_v, and a eᵘ is the mean ratio of their light to the specular one.
+//!
+//! Of several measurements each has its transform. A shared coordinate is one of several transforms, and gives the same value in each: what
+//! is added to it depends on shared parameters alone.
 
 use crate::fit::objective::Problem;
 use crate::fit::posterior::valley::Valley;
 use crate::fit::posterior::walls::{Walled, Walls};
-use crate::model::{Model, Parameter, Parameters, Pbrdf};
+use crate::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
 use crate::optics::SlopeDistribution;
 
 /// Share of a range that a start keeps away from either wall.
 const START_MARGIN: f64 = 1e-3;
 
+/// The part that a measurement's parameters play among those of all.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TransformRole {
+    /// The parameters that each measurement has for itself.
+    pub own: ParameterSet,
+    /// Of each free parameter, whether its volume counts here: that of a shared one counts in one measurement.
+    pub counted: Vec<bool>,
+    /// Whether k_s, k_d and k_v enter by their ratios alone, where they are shared and where they are own.
+    pub shared_ratios: bool,
+    pub own_ratios: bool,
+}
+
+impl TransformRole {
+    /// Of a measurement by itself.
+    pub(crate) fn alone(problem: &Problem) -> Self {
+        let ratios = problem.knows_only_ratios();
+        let counted = vec![true; problem.free().len()];
+        Self { own: ParameterSet::EMPTY, counted, shared_ratios: ratios, own_ratios: ratios }
+    }
+
+    fn knows_only_ratios(&self, parameter: Parameter) -> bool {
+        if self.own.contains(parameter) { self.own_ratios } else { self.shared_ratios }
+    }
+
+    /// Whether the coordinate of one parameter may depend on another: a shared one's on shared ones.
+    fn may_follow(&self, parameter: Parameter, other: Parameter) -> bool {
+        self.own.contains(parameter) || !self.own.contains(other)
+    }
+}
+
 /// The transform of a box.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Transform {
     model: Model,
+    role: TransformRole,
     free: Vec<Parameter>,
     held: Parameters,
     low: Parameters,
@@ -29,7 +63,6 @@ pub(crate) struct Transform {
     single: Vec<usize>,
     /// Where weights of depolarised light are among the free ones, and their light over the specular one per eᵘ.
     depolarised: Vec<(usize, f64)>,
-    knows_only_ratios: bool,
 }
 
 /// The parameters at a point of ℝᵈ.
@@ -46,7 +79,7 @@ pub(crate) struct Transformed {
 
 impl Transform {
     /// For the box of a problem; the ratios of depolarised to specular light are those at a reference, such as a fit.
-    pub(crate) fn new(problem: &Problem, reference: &Parameters) -> Self {
+    pub(crate) fn new(problem: &Problem, reference: &Parameters, role: TransformRole) -> Self {
         let free = problem.free().to_vec();
         let (mut low, mut high) = (*problem.start(), *problem.start());
         for &parameter in &free {
@@ -57,6 +90,10 @@ impl Transform {
         let valleys: Vec<(Valley, [usize; 2])> = [Valley::Index, Valley::Slope]
             .into_iter()
             .filter(|&valley| valley == Valley::Index || is_cauchy)
+            .filter(|valley| {
+                let [first, second] = valley.parameters();
+                role.own.contains(first) == role.own.contains(second)
+            })
             .filter_map(|valley| {
                 let [first, second] = valley.parameters().map(place);
                 Some((valley, [first?, second?]))
@@ -68,13 +105,22 @@ impl Transform {
             Parameter::Ks => 1,
             _ => 0,
         });
-        let (model, knows_only_ratios) = (problem.model(), problem.knows_only_ratios());
         let (depolarised, held) = (Vec::new(), *problem.start());
-        let mut transform = Self { model, free, held, low, high, valleys, single, depolarised, knows_only_ratios };
-        if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) && knows_only_ratios {
+        let mut transform = Self { model: problem.model(), role, free, held, low, high, valleys, single, depolarised };
+        if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) {
             transform.depolarised = transform.depolarised_ratios(problem, reference);
         }
         transform
+    }
+
+    /// The same with the ratios of depolarised light of another measurement, where n and k are shared with it.
+    pub(crate) fn with_ratios_of(mut self, first: &Self) -> Self {
+        if !self.role.own.contains(Parameter::N) {
+            let place = |parameter: Parameter| self.free.iter().position(|&free| free == parameter);
+            let of_first = first.depolarised.iter().filter_map(|&(other, ratio)| Some((place(first.free[other])?, ratio)));
+            self.depolarised = of_first.collect();
+        }
+        self
     }
 
     /// Light of each free weight over the specular one, per eᵘ of its coordinate: mean over the geometries, weighted by DoLP².
@@ -96,12 +142,10 @@ impl Transform {
             let (shear, _) = self.shear(self.free[place], reference)?;
             Some(sum / whole / libm::exp(shear)).filter(|ratio| ratio.is_finite())
         };
-        let weights = self.single.iter().copied().filter(|&place| matches!(self.free[place], Parameter::Kd | Parameter::Kv));
+        let follows = |weight: Parameter| self.role.knows_only_ratios(weight) && self.role.may_follow(Parameter::N, weight);
+        let is_weight = |parameter: Parameter| matches!(parameter, Parameter::Kd | Parameter::Kv) && follows(parameter);
+        let weights = self.single.iter().copied().filter(|&place| is_weight(self.free[place]));
         weights.filter_map(|place| mean(place).map(|ratio| (place, ratio))).collect()
-    }
-
-    pub(crate) fn dimension(&self) -> usize {
-        self.free.len()
     }
 
     /// Lower end of a parameter's range, and its walls counted from there.
@@ -112,13 +156,15 @@ impl Transform {
 
     /// What is added to the coordinate of a weight, and the derivatives of that by other parameters.
     fn shear(&self, parameter: Parameter, p: &Parameters) -> Option<(f64, [(Parameter, f64); 3])> {
+        let knows_only_ratios = self.role.knows_only_ratios(parameter);
+        let has_one_peak = [Parameter::Sigma, Parameter::Q].iter().all(|&shape| self.role.may_follow(parameter, shape));
         let sign = match parameter {
-            _ if !self.model.specular => return None,
-            Parameter::Kd | Parameter::Kv if self.knows_only_ratios => 1.0,
-            Parameter::Ks if !self.knows_only_ratios => -1.0,
+            _ if !self.model.specular || !has_one_peak => return None,
+            Parameter::Kd | Parameter::Kv if knows_only_ratios => 1.0,
+            Parameter::Ks if !knows_only_ratios => -1.0,
             _ => return None,
         };
-        let by_ks = self.knows_only_ratios && self.free.contains(&Parameter::Ks);
+        let by_ks = knows_only_ratios && self.free.contains(&Parameter::Ks) && self.role.may_follow(parameter, Parameter::Ks);
         let (ks_log, ks_slope) = if by_ks { (libm::log(p.ks), 1.0 / p.ks) } else { (0.0, 0.0) };
         let height = self.model.distribution.height(p.q);
         let q_slope = if self.model.distribution == SlopeDistribution::Cauchy { 1.0 / height } else { 0.0 };
@@ -147,7 +193,9 @@ impl Transform {
                 // Rounding may pass an end by an ulp.
                 to.parameters[parameter] = value.max(self.low[parameter]).min(self.high[parameter]);
             }
-            to.log_jacobian += log_volume + libm::log(one.slope * other.slope);
+            if self.role.counted[first] {
+                to.log_jacobian += log_volume + libm::log(one.slope * other.slope);
+            }
             (to.walled[first], to.walled[second]) = (one, other);
         }
         for &place in &self.single {
@@ -156,16 +204,23 @@ impl Transform {
             let shear = self.shear(parameter, &to.parameters).map_or(0.0, |(shear, _)| shear);
             let walled = walls.value(u[place] - shear);
             to.parameters[parameter] = (low + walled.value).min(self.high[parameter]);
-            to.log_jacobian += libm::log(walled.slope);
+            if self.role.counted[place] {
+                to.log_jacobian += libm::log(walled.slope);
+            }
             to.walled[place] = walled;
         }
+    }
+
+    /// 1 where the volume of a free parameter counts here, else 0.
+    fn count(&self, place: usize) -> f64 {
+        f64::from(u8::from(self.role.counted[place]))
     }
 
     /// Adds the derivatives of ln|∂p/∂u| to those of a function by the parameters, in place, and turns all into derivatives by u.
     pub(crate) fn pull_back(&self, at: &Transformed, gradient: &mut [f64]) {
         for &place in self.single.iter().rev() {
             let walled = at.walled[place];
-            let slope = gradient[place] * walled.slope + walled.log_slope_change();
+            let slope = gradient[place] * walled.slope + self.count(place) * walled.log_slope_change();
             gradient[place] = slope;
             for (parameter, shear_slope) in self.shear(self.free[place], &at.parameters).into_iter().flat_map(|(_, by)| by) {
                 if let Some(other) = self.free.iter().position(|&free| free == parameter) {
@@ -177,10 +232,12 @@ impl Transform {
             let (one, other) = (at.walled[first], at.walled[second]);
             let moving = valley.second_walls(one.value, &self.low, &self.high);
             let [combination, jumped] = moving.with_gap(other.value);
-            let [by_first, by_second] = valley.pull_back([one.value, combination], [gradient[first], gradient[second]]);
+            let count = self.count(first);
+            let [by_first, by_second] = valley.pull_back([one.value, combination], [gradient[first], gradient[second]], count);
             let [moved, log_slope_moved] = other.moved(moving.walls, moving.slopes);
-            gradient[second] = by_second * other.slope + other.log_slope_change();
-            gradient[first] = (by_first + by_second * (moved + jumped) + log_slope_moved) * one.slope + one.log_slope_change();
+            gradient[second] = by_second * other.slope + count * other.log_slope_change();
+            gradient[first] =
+                (by_first + by_second * (moved + jumped) + count * log_slope_moved) * one.slope + count * one.log_slope_change();
             if valley == Valley::Index {
                 for (&(place, _), ratio) in self.depolarised.iter().zip(&at.ratios) {
                     gradient[place] -= gradient[first] * ratio * at.specular_share;
@@ -226,7 +283,7 @@ impl Transform {
 #[cfg(test)]
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
-    use super::{Transform, Transformed};
+    use super::{Transform, TransformRole, Transformed};
     use crate::fit::{Bounds, FitOptions, Problem};
     use crate::measurement::{Columns, Simulation};
     use crate::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
@@ -240,7 +297,7 @@ mod tests {
             Simulation { model_name: String::new(), surface, theta_i, theta_r, dphi: 180.0, columns, noise: 0.0, brdf_noise: 0.0, seed: 1 };
         let start = Parameters { n: 1.5, k: 2.5, ..Parameters::default() };
         let problem = Problem::new(&simulation.run().unwrap(), model, start, free, *bounds, FitOptions::default()).unwrap();
-        Transform::new(&problem, &start)
+        Transform::new(&problem, &start, TransformRole::alone(&problem))
     }
 
     fn at(transform: &Transform, u: &[f64]) -> Transformed {
@@ -273,7 +330,7 @@ mod tests {
     #[test]
     fn the_transform_inverts_and_its_jacobian_is_the_volume() {
         for transform in cases() {
-            for u in points(transform.dimension()) {
+            for u in points(transform.free.len()) {
                 let at = self::at(&transform, &u);
                 let back = transform.coordinates_inside(&at.parameters);
                 assert!(u.iter().zip(&back).all(|(a, b)| (a - b).abs() < 1e-7), "{u:?} {back:?}");
@@ -296,7 +353,7 @@ mod tests {
     fn derivatives_are_pulled_back_with_those_of_the_volume() {
         for transform in cases() {
             let function = |p: &Parameters| transform.free.iter().enumerate().map(|(i, &q)| (i as f64 + 1.0) * p[q] * p[q]).sum::<f64>();
-            for u in points(transform.dimension()) {
+            for u in points(transform.free.len()) {
                 let at = self::at(&transform, &u);
                 let mut gradient: Vec<f64> =
                     transform.free.iter().enumerate().map(|(i, &q)| 2.0 * (i as f64 + 1.0) * at.parameters[q]).collect();

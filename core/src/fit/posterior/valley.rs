@@ -142,17 +142,18 @@ impl Valley {
         }
     }
 
-    /// Derivatives by the combinations of a function and the logarithm of that volume, from those of the function by the parameters.
-    pub(crate) fn pull_back(self, [first, second]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
+    /// Derivatives by the combinations of a function and `count` times the logarithm of that volume, from those of the function by the
+    /// parameters.
+    pub(crate) fn pull_back(self, [first, second]: [f64; 2], [a, b]: [f64; 2], count: f64) -> [f64; 2] {
         let root = second.sqrt();
         match self {
             Self::Index => {
                 let one_over = 1.0 / (1.0 + second);
                 let k_by_s = first * one_over * (0.5 / root - root * one_over);
-                let by_second = -a * first * one_over * one_over + b * k_by_s - 0.5 / second - 2.0 * one_over;
-                [(a + b * root) * one_over + 1.0 / first, by_second]
+                let by_second = -a * first * one_over * one_over + b * k_by_s - count * (0.5 / second + 2.0 * one_over);
+                [(a + b * root) * one_over + count / first, by_second]
             }
-            Self::Slope => [a * root, 0.5 * a * first / root + b + 0.5 / second],
+            Self::Slope => [a * root, 0.5 * a * first / root + b + count * 0.5 / second],
         }
     }
 }
