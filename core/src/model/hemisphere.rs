@@ -10,6 +10,7 @@
 
 use crate::model::Pbrdf;
 use crate::model::batch::{Batch, Radiances};
+use crate::model::map_parallel::map_parallel;
 use crate::optics::{Facet, Geometry, GeometryError};
 use std::f64::consts::PI;
 
@@ -64,7 +65,7 @@ impl Hemisphere {
     pub fn new(theta_i: f64, size: usize, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Option<Self>, GeometryError> {
         Geometry::new(theta_i, 0.0, 0.0)?;
         let row = |index: usize| if cancelled() { None } else { Some(Row::new(theta_i, size, index)) };
-        let rows = map_rows(size, &row);
+        let rows = map_parallel(size, &row);
         Ok(rows.into_iter().collect::<Option<Vec<_>>>().map(|rows| Self { size, rows }))
     }
 
@@ -85,7 +86,7 @@ impl Hemisphere {
             self.rows[index].batch.radiances(surface, &mut radiances);
             Some(radiances)
         };
-        let rows = map_rows(self.size, &radiances).into_iter().collect::<Option<Vec<_>>>()?;
+        let rows = map_parallel(self.size, &radiances).into_iter().collect::<Option<Vec<_>>>()?;
         let blank = vec![f64::NAN; self.size * self.size];
         let mut map =
             HemisphereMap { size: self.size, dolp: blank.clone(), angle: blank.clone(), brdf: blank.clone(), specular_share: blank };
@@ -138,17 +139,6 @@ fn center(index: usize, size: usize) -> f64 {
 
 fn degrees(radians: f64) -> f64 {
     radians * (180.0 / PI)
-}
-
-/// One value for each row, on all threads.
-fn map_rows<T: Send>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
-    #[cfg(feature = "threads")]
-    {
-        use rayon::prelude::*;
-        (0..count).into_par_iter().map(of).collect()
-    }
-    #[cfg(not(feature = "threads"))]
-    (0..count).map(of).collect()
 }
 
 #[cfg(test)]

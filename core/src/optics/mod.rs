@@ -22,6 +22,7 @@ pub use fresnel::{Fresnel, FresnelGradient};
 pub use geometry::{Geometry, GeometryError, Rotation};
 pub use masking::Masking;
 pub use metals::{Metal, MetalSource, MetalsError, MetalsErrorKind, OutsideRange, Sample, metal, metal_named_in, metals, read_metals};
+pub(crate) use polarization::angle_of_polarisation;
 pub use polarization::{Mueller, Stokes};
 pub(crate) use quadrature::{Order, pieces};
 pub use refractive_index::{RefractiveIndex, RefractiveIndexError};

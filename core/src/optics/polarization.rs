@@ -6,6 +6,7 @@
 
 use crate::optics::{Fresnel, Rotation};
 use nalgebra::{Complex, Matrix4, Vector4};
+use std::f64::consts::PI;
 
 /// A Stokes vector (S0, S1, S2, S3).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +21,19 @@ impl Stokes {
     pub fn dolp(self) -> f64 {
         if self.0[0] > 0.0 { libm::hypot(self.0[1], self.0[2]) / self.0[0] } else { 0.0 }
     }
+
+    /// Angle of polarisation in degrees, 0 to 180, from the first vector of the basis towards the second; none where nothing is polarised.
+    #[must_use]
+    pub fn angle(self) -> Option<f64> {
+        angle_of_polarisation(self.0[1], self.0[2])
+    }
+}
+
+/// `½ atan2(S2, S1)` in degrees, 0 to 180; none where both are 0.
+pub(crate) fn angle_of_polarisation(s1: f64, s2: f64) -> Option<f64> {
+    let angle = libm::atan2(s2, s1) * (90.0 / PI);
+    // Rounding takes what is barely below 0 to 180.
+    (s1 != 0.0 || s2 != 0.0).then(|| if angle < 0.0 { (angle + 180.0) % 180.0 } else { angle % 180.0 })
 }
 
 /// A Mueller matrix: how a reflection changes a Stokes vector.

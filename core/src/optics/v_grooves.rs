@@ -62,7 +62,12 @@ impl VGrooves {
 
     /// u of a facet of slope s and azimuth φ.
     pub(crate) fn u(&self, s: f64, phi: f64) -> f64 {
-        1.0 - s * self.tan_theta * libm::cos(phi)
+        self.u_at(s, libm::cos(phi))
+    }
+
+    /// The same from cos φ.
+    pub(crate) fn u_at(&self, s: f64, cos_phi: f64) -> f64 {
+        1.0 - s * self.tan_theta * cos_phi
     }
 
     /// G u of a facet of slope s: 0 below the horizon.

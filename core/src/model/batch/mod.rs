@@ -16,7 +16,7 @@ pub(crate) mod lanes;
 pub(crate) mod prepared;
 pub(crate) mod surface_row;
 
-use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter};
+use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter, Reflection};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
 use coefficients::Coefficients;
 use gradient::{BrdfGradient, COLUMNS, DolpGradient, Slopewise};
@@ -217,11 +217,43 @@ impl Batch {
     }
 
     fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
+        Runner { instructions: self.instructions, single_threaded: self.single_threaded }.run(run, kernel);
+    }
+}
+
+/// How kernels are run.
+struct Runner {
+    instructions: Instructions,
+    single_threaded: bool,
+}
+
+impl Runner {
+    fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
         if self.single_threaded {
             run.run(kernel, self.instructions);
         } else {
             run.run_parallel(kernel, self.instructions);
         }
+    }
+}
+
+/// DoLP, BRDF and its specular part of prepared points that no [`Batch`] holds, on the calling thread. `reflection` is the scalar form
+/// at the point of that number.
+pub(crate) fn radiances_of_blocks(
+    surface: &Pbrdf,
+    blocks: &[PointBlock],
+    columns: [&mut [f64]; 3],
+    reflection: &(dyn Fn(usize) -> Reflection + Sync),
+) {
+    let scalar = |point: usize| {
+        let reflection = reflection(point);
+        [reflection.dolp, reflection.brdf, reflection.specular]
+    };
+    let run = KernelRun { blocks, count: columns[0].len(), columns, first: 0, scalar: &scalar };
+    let runner = Runner { instructions: Instructions::Widest, single_threaded: true };
+    match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
+        Some(of) => run_with_terms!(runner, run, Both, of.model, &of),
+        None => run.run_scalar(),
     }
 }
 
