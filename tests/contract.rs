@@ -116,6 +116,7 @@ fn help() {
         compare --help
         plan --help
         report --help
+        picture --help
         import --help
         export --help
         export mitsuba --help
@@ -158,6 +159,18 @@ fn usage_that_is_refused() {
         plan --theta-i 30
         plan --theta-i 30 --theta-r 20 --fix n,k,sigma,kd,kv,q,c,sigma_v
         export mitsuba --resolution 3,4 -o out.pbsdf
+        picture
+        picture -o out.svg
+        picture --lamp 30 -o out.png
+        picture --lamp 190,0 -o out.png
+        picture --lamp 30,x -o out.png
+        picture --sky -1 -o out.png
+        picture --size 1 -o out.png
+        picture --shape cube -o out.png
+        picture --show s3 -o out.png
+        picture --model fresnel -o out.png
+        picture --set c=-2 --sky 1 -o out.png
+        picture -o no/such/folder/out.png
         metals unobtainium
         metals Cu --wavelength -5
         report speed",
@@ -283,6 +296,21 @@ fn simulate() {
         cat out.csv
         simulate --model lambert --set q=3 --theta-i 30 --theta-r 0:60:20 --dphi 90 --columns brdf -o out.csv
         cat out.csv",
+    );
+}
+
+#[test]
+fn picture() {
+    check(
+        "picture",
+        "picture --size 6 -o out.csv
+        cat out.csv
+        picture --model gauss --set n=1.5,k=0,kd=0.02 --lamp 70,-20 --sky 0.5 --shape relief --size 4 -o out.csv
+        cat out.csv
+        picture --shape plate --sky 1 --size 5 -o out.csv
+        cat out.csv
+        picture --shape cylinder --size 16 --show aop -o out.png
+        picture --size 16 -o out.exr",
     );
 }
 

@@ -2,12 +2,12 @@
 
 use crate::cli::values;
 use crate::cli::values::{Assignment, Criterion, Grid, OwnParameters, Priors, Targeted};
-use crate::report::TableFormat;
+use crate::report::{PictureQuantity, TableFormat};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::formats::FORMATS;
 use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
-use pbrdf::model::{DolpFormula, Parameter, Preset};
+use pbrdf::model::{DolpFormula, Lamp, Parameter, Preset, Shape};
 use std::path::PathBuf;
 
 /// Explores, fits and simulates polarised reflection from metal surfaces.
@@ -41,6 +41,8 @@ pub enum Commands {
     Plan(PlanArguments),
     /// Report on error against run time, on numerical stability, or on the cost of each term.
     Report(ReportArguments),
+    /// Paint what a polarisation camera sees of a surface.
+    Picture(PictureArguments),
     /// Turn a foreign file into a measurement.
     Import(ImportArguments),
     /// Write a surface for another program.
@@ -413,6 +415,45 @@ pub struct SimulateArguments {
     #[arg(short, long)]
     pub output: PathBuf,
 }
+
+/// `picture`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true, after_help = PICTURE_HELP)]
+pub struct PictureArguments {
+    #[command(flatten)]
+    pub surface: SurfaceArguments,
+    /// What the camera sees.
+    #[arg(long, default_value = "sphere", value_parser = values::shape())]
+    pub shape: Shape,
+    /// Direction of a distant, unpolarised lamp of irradiance 1: its angle from the camera, 0 to 180 degrees, and the angle from right to up;
+    /// 30,135 where there is no sky either.
+    #[arg(long, value_name = "POLAR,AZIMUTH", allow_hyphen_values = true, value_parser = values::lamp)]
+    pub lamp: Option<Lamp>,
+    /// Radiance of a uniform, unpolarised sky.
+    #[arg(long, value_name = "RADIANCE", value_parser = values::positive)]
+    pub sky: Option<f64>,
+    /// Pixels along an edge, 2 to 4096.
+    #[arg(long, value_name = "PIXELS", default_value = "512", value_parser = values::picture_size)]
+    pub size: usize,
+    /// What a .png shows; the other files hold Stokes vectors.
+    #[arg(long, default_value = "s0", value_parser = values::picture_quantity())]
+    pub show: PictureQuantity,
+    /// Angle of the analyser from right to up, in degrees.
+    #[arg(long, value_name = "DEGREES", default_value = "30", allow_hyphen_values = true, value_parser = values::number)]
+    pub analyser: f64,
+    /// File to write: a picture, an image of numbers, or a table.
+    #[arg(short, long, value_name = "FILE.png|.exr|.csv", value_parser = values::stokes_file)]
+    pub output: PathBuf,
+}
+
+/// What the files of `picture` hold.
+const PICTURE_HELP: &str = "\
+The camera looks along -z: x runs to the right, y up, z towards it. The sphere and the cylinder, whose axis is y, have the
+radius 1; the plate is tilted by 45 degrees towards +x; nothing casts a shadow.
+.png    the picture, one pixel a pixel, and the key of its colours to the right
+.exr    channels S0, S1, S2, S3 as 32-bit numbers; 0 where there is no surface
+.csv    a row for each lit pixel: x, y, theta_i, theta_r, dphi, s0, s1, s2, s3; angles are those of the lamp
+S1 > 0 is polarised along x, S2 > 0 along the diagonal of x and y; the angle of polarisation runs from x towards y.";
 
 /// `report`.
 #[derive(Debug, Args)]

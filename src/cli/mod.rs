@@ -20,6 +20,7 @@ mod joint;
 mod metals;
 mod mitsuba;
 mod output;
+mod picture;
 mod plan;
 mod posterior;
 mod problem;
@@ -57,6 +58,7 @@ pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
         Some(Commands::Posterior(arguments)) => posterior::run(&arguments),
         Some(Commands::Plan(arguments)) => plan::run(&arguments),
         Some(Commands::Report(arguments)) => report::run(&arguments),
+        Some(Commands::Picture(arguments)) => picture::run(&arguments),
         Some(Commands::Import(arguments)) => import::run(&arguments),
         Some(Commands::Export(ExportTarget::Mitsuba(arguments))) => mitsuba::run(&arguments),
         Some(Commands::Metals(arguments)) => metals::run(&arguments),

@@ -1,12 +1,12 @@
 //! The values of options: parameters, assignments, intervals, lists and ranges of angles.
 
-use crate::files::export;
-use crate::report::TableFormat;
+use crate::files::{export, picture};
+use crate::report::{PictureQuantity, TableFormat};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{BrdfResiduals, Intervals, Loss, Weights};
 use pbrdf::measurement::{BrdfMeaning, Columns, Field, Mapping, TensorResolution};
-use pbrdf::model::{DolpFormula, PRESETS, Parameter, ParameterSet, Preset, assignment_from_text};
+use pbrdf::model::{DolpFormula, Lamp, PRESETS, Parameter, ParameterSet, Preset, Shape, assignment_from_text};
 use std::path::PathBuf;
 
 /// `n=2`.
@@ -136,6 +136,47 @@ pub fn columns() -> impl TypedValueParser<Value = Columns> {
     const CHOICES: [Choice<Columns>; 3] =
         [("dolp", "DoLP", Columns::Dolp), ("brdf", "BRDF", Columns::Brdf), ("both", "Both", Columns::Both)];
     choice(&CHOICES)
+}
+
+/// What a camera sees.
+pub fn shape() -> impl TypedValueParser<Value = Shape> {
+    const CHOICES: [Choice<Shape>; 4] = [
+        ("sphere", "Of radius 1", Shape::Sphere),
+        ("cylinder", "Of radius 1, upright", Shape::Cylinder),
+        ("plate", "A square, tilted by 45° to the right", Shape::Plate),
+        ("relief", "A rough height field", Shape::Relief),
+    ];
+    choice(&CHOICES)
+}
+
+/// What a picture shows.
+pub fn picture_quantity() -> impl TypedValueParser<Value = PictureQuantity> {
+    const CHOICES: [Choice<PictureQuantity>; 4] = [
+        ("s0", "Radiance", PictureQuantity::S0),
+        ("dolp", "Degree of linear polarisation", PictureQuantity::Dolp),
+        ("aop", "Angle of polarisation", PictureQuantity::Aop),
+        ("analyser", "Radiance through an analyser", PictureQuantity::Analyser),
+    ];
+    choice(&CHOICES)
+}
+
+/// `30,135`: the direction of a lamp.
+pub fn lamp(text: &str) -> Result<Lamp, String> {
+    let expected = || format!("expected two angles in degrees, such as 30,135, found {text:?}");
+    let (polar, azimuth) = text.split_once(',').ok_or_else(expected)?;
+    Lamp::new(number(polar)?, number(azimuth)?).map_err(|error| error.to_string())
+}
+
+/// Pixels along an edge of a picture.
+pub fn picture_size(text: &str) -> Result<usize, String> {
+    let size = text.trim().parse::<usize>().ok().filter(|size| (2..=4096).contains(size));
+    size.ok_or_else(|| format!("{text:?} is no whole number from 2 to 4096"))
+}
+
+/// The name of a file that Stokes vectors are written to.
+pub fn stokes_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    picture::stokes_file_kind(&path).map_err(|error| error.to_string()).map(|_| path)
 }
 
 /// A preset by its name.

@@ -57,7 +57,7 @@ pub struct Ruled {
 }
 
 impl Ruled {
-    fn new(axis: &Axis, ends: (f64, f64), most: usize) -> Self {
+    pub fn new(axis: &Axis, ends: (f64, f64), most: usize) -> Self {
         Self { low: ends.0, high: ends.1, scale: axis.scale, ticks: ticks(axis, ends, most) }
     }
 

@@ -7,6 +7,8 @@
 
 mod axis;
 mod canvas;
+#[cfg(feature = "figures")]
+mod color_key;
 mod heat_map;
 mod layout;
 mod palette;

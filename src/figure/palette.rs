@@ -50,6 +50,8 @@ pub enum ColorMap {
     Diverging,
     /// Cyclic, for angles: twilight.
     Cyclic,
+    /// From black to white as light is: even steps of light, in the bytes of sRGB.
+    Light,
 }
 
 const VIRIDIS: [Rgb; 17] = [
@@ -123,6 +125,7 @@ impl ColorMap {
             Self::Sequential => &VIRIDIS,
             Self::Diverging => &RED_BLUE,
             Self::Cyclic => &TWILIGHT,
+            Self::Light => return grey(fraction),
         };
         let last = anchors.len() - 1;
         #[expect(clippy::cast_precision_loss, reason = "a number of anchors")]
@@ -138,6 +141,15 @@ impl ColorMap {
     }
 }
 
+/// Grey of that share of the light of white, by the transfer curve of sRGB (IEC 61966-2-1).
+fn grey(light: f64) -> Rgb {
+    let light = if light.is_finite() { light.clamp(0.0, 1.0) } else { 0.0 };
+    let coded = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 255")]
+    let byte = (255.0 * coded).round() as u8;
+    Rgb(byte, byte, byte)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{ColorMap, RED_BLUE, Rgb, TWILIGHT, VIRIDIS};
@@ -150,6 +162,9 @@ mod tests {
         assert_eq!(ColorMap::Cyclic.at(0.0), ColorMap::Cyclic.at(1.0));
         assert_eq!(ColorMap::Cyclic.at(0.5), TWILIGHT[8]);
         assert_eq!(ColorMap::Sequential.at(7.0), VIRIDIS[16]);
+        assert_eq!((ColorMap::Light.at(0.0), ColorMap::Light.at(1.0)), (Rgb(0, 0, 0), Rgb(255, 255, 255)));
+        // A fifth of the light is half of the bytes, nearly.
+        assert_eq!(ColorMap::Light.at(0.2159), Rgb(128, 128, 128));
         assert_eq!(ColorMap::Sequential.at(f64::NAN), VIRIDIS[0]);
     }
 

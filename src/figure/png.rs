@@ -49,21 +49,7 @@ impl Figure {
     ///
     /// [`PngError`] where `dpi` and the size give no image of 1 to 10⁸ pixels, or the renderer fails.
     pub fn image(&self, dpi: f64) -> Result<Image, PngError> {
-        let tree = Tree::from_str(&self.drawn(Missing::Boxes), &Options::default())?;
-        let wrong = || PngError::Size { width_mm: self.width_mm, height_mm: self.height_mm, dpi };
-        let pixels = |mm: f64| (mm / 25.4 * dpi).round();
-        let (width, height) = (pixels(self.width_mm), pixels(self.height_mm));
-        if !(dpi > 0.0 && width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
-            return Err(wrong());
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most MOST_PIXELS")]
-        let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or_else(wrong)?;
-        let size = tree.size();
-        #[expect(clippy::cast_possible_truncation, reason = "a scale for a renderer of f32")]
-        let scale = Transform::from_scale((width / f64::from(size.width())) as f32, (height / f64::from(size.height())) as f32);
-        resvg::render(&tree, scale, &mut pixmap.as_mut());
-        // The page is white and opaque, so that premultiplied and plain colours are the same.
-        Ok(Image { width: pixmap.width(), height: pixmap.height(), rgba: pixmap.take() })
+        rendered(&self.drawn(Missing::Boxes), self.width_mm, self.height_mm, dpi)
     }
 
     /// The figure as the bytes of a PNG file at `dpi` dots per inch (300 for print), which the file
@@ -74,15 +60,44 @@ impl Figure {
     /// [`PngError`] where `dpi` and the size give no image of 1 to 10⁸ pixels, or renderer or
     /// encoder fail.
     pub fn png(&self, dpi: f64) -> Result<Vec<u8>, PngError> {
-        let image = self.image(dpi)?;
+        self.image(dpi)?.png(dpi)
+    }
+}
+
+/// A drawing of that size in millimetres as pixels.
+pub fn rendered(drawing: &str, width_mm: f64, height_mm: f64, dpi: f64) -> Result<Image, PngError> {
+    let tree = Tree::from_str(drawing, &Options::default())?;
+    let wrong = || PngError::Size { width_mm, height_mm, dpi };
+    let pixels = |mm: f64| (mm / 25.4 * dpi).round();
+    let (width, height) = (pixels(width_mm), pixels(height_mm));
+    if !(dpi > 0.0 && width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
+        return Err(wrong());
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most MOST_PIXELS")]
+    let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or_else(wrong)?;
+    let size = tree.size();
+    #[expect(clippy::cast_possible_truncation, reason = "a scale for a renderer of f32")]
+    let scale = Transform::from_scale((width / f64::from(size.width())) as f32, (height / f64::from(size.height())) as f32);
+    resvg::render(&tree, scale, &mut pixmap.as_mut());
+    // The page is white and opaque, so that premultiplied and plain colours are the same.
+    Ok(Image { width: pixmap.width(), height: pixmap.height(), rgba: pixmap.take() })
+}
+
+impl Image {
+    /// The bytes of a PNG file that states that resolution in dots per inch.
+    ///
+    /// # Errors
+    ///
+    /// [`PngError`] where the encoder fails.
+    pub fn png(&self, dpi: f64) -> Result<Vec<u8>, PngError> {
         let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, image.width, image.height);
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(png::ColorType::Rgba);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a resolution; casts saturate")]
         let per_metre = (dpi * INCHES_PER_METRE).round() as u32;
         encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&image.rgba)?;
+        writer.write_image_data(&self.rgba)?;
         writer.finish()?;
         Ok(bytes)
     }

@@ -130,7 +130,7 @@ fn draw_x_axis(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed) {
 }
 
 /// A vertical axis at the left of its frame, or at the right.
-fn draw_y_axis(canvas: &mut Canvas<'_>, axis: &Ruled, title: &str, frame: &Frame, at_right: bool) {
+pub fn draw_y_axis(canvas: &mut Canvas<'_>, axis: &Ruled, title: &str, frame: &Frame, at_right: bool) {
     let (edge, outwards, anchor) = if at_right { (frame.right(), 1.0, Anchor::Start) } else { (frame.left, -1.0, Anchor::End) };
     let mut marks = String::new();
     for (y, label) in places(axis, |fraction| frame.bottom() - fraction * frame.height) {

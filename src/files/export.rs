@@ -25,7 +25,7 @@ pub enum ReportKind {
     Markdown,
 }
 
-fn extension(path: &Path) -> String {
+pub fn extension(path: &Path) -> String {
     path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
@@ -36,6 +36,8 @@ pub enum Endings {
     Picture,
     /// `.html`, `.md`.
     Report,
+    /// `.png`, `.exr`, `.csv`.
+    Stokes,
     /// One alone, without its dot.
     #[cfg(any(feature = "gui", test))]
     Only(&'static str),
@@ -46,6 +48,7 @@ impl std::fmt::Display for Endings {
         match self {
             Self::Picture => f.write_str(".svg or .png"),
             Self::Report => f.write_str(".html or .md"),
+            Self::Stokes => f.write_str(".png, .exr or .csv"),
             #[cfg(any(feature = "gui", test))]
             Self::Only(ending) => write!(f, ".{ending}"),
         }
@@ -63,7 +66,7 @@ pub struct EndingError {
 }
 
 impl EndingError {
-    fn new(path: &Path, expected: Endings) -> Self {
+    pub fn new(path: &Path, expected: Endings) -> Self {
         Self { path: path.to_owned(), expected }
     }
 }

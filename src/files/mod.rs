@@ -2,4 +2,5 @@
 
 pub mod export;
 pub mod open_file;
+pub mod picture;
 pub mod write_file;

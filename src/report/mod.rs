@@ -10,6 +10,7 @@ mod fit_json;
 mod joint_document;
 mod joint_json;
 mod language;
+mod picture;
 mod residual_table;
 mod result_table;
 
@@ -23,5 +24,6 @@ pub use fit_json::fit_json;
 pub use joint_document::{JointDocument, JointSource};
 pub use joint_json::joint_json;
 pub use language::{English, ReportLanguage};
+pub use picture::{PictureQuantity, picture_figure, picture_map};
 pub use residual_table::{FITTED_COLUMNS, fitted_cells, write_fitted};
 pub use result_table::{ResultCells, ResultColumn, ResultTable, TableFormat};

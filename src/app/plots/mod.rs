@@ -14,8 +14,9 @@ mod polyline;
 mod range;
 pub mod theme;
 
-pub use color_scale::ColorScale;
+pub use color_scale::{BAR_ROOM, ColorScale, color_bar};
 pub use figure_plot::{FigurePlot, PanelPlot, PanelStyle};
 pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui, symbol_shapes};
+pub use plot_axis::PlotAxis;
 pub use polyline::{Polyline, finite, line};
 pub use range::{AutoRange, Range, nice_ceiling};

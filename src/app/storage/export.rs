@@ -6,12 +6,14 @@ use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::WindowWording;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::pane_id::PaneId;
+use crate::app::work::picture_scene::{Scene, SceneKey};
 use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
 use crate::files::export;
+use crate::files::picture::{StokesFileKind, stokes_file_kind, write_colors, write_exr, write_table};
 use crate::files::write_file::write_file;
-use crate::report::{DataSource, FitDocument, write_curves, write_fitted};
-use pbrdf::model::Pbrdf;
+use crate::report::{DataSource, FitDocument, picture_map, write_curves, write_fitted};
+use pbrdf::model::{Pbrdf, Quality};
 use std::path::{Path, PathBuf};
 use tr::tr;
 
@@ -24,6 +26,8 @@ pub enum ExportKind {
     /// The measurement with the fit beside it.
     Fitted,
     Report,
+    /// The picture as numbers or colours.
+    Picture,
     Session,
 }
 
@@ -41,6 +45,7 @@ impl ExportKind {
             Self::Curves => "The table of curves",
             Self::Fitted => "The table of the fit",
             Self::Report => "The report",
+            Self::Picture => "The picture",
             Self::Session => "The session",
         }
     }
@@ -51,6 +56,7 @@ impl ExportKind {
             Self::Plot(_) => &["svg", "png"],
             Self::Curves | Self::Fitted => &["csv"],
             Self::Report => &["html", "md"],
+            Self::Picture => &["exr", "png", "csv"],
             Self::Session => &["pbrdf.json"],
         }
     }
@@ -64,6 +70,7 @@ impl ExportKind {
             Self::Curves => "-curves".to_owned(),
             Self::Fitted => "-fitted".to_owned(),
             Self::Report => "-report".to_owned(),
+            Self::Picture => "-picture".to_owned(),
             Self::Session => String::new(),
         };
         format!("{stem}{what}.{}", self.extensions()[0])
@@ -83,6 +90,7 @@ impl ExportKind {
             Self::Plot(_) => export::picture_kind(path).map(drop),
             Self::Curves | Self::Fitted => export::expect_ending(path, "csv"),
             Self::Report => export::report_kind(path).map(drop),
+            Self::Picture => stokes_file_kind(path).map(drop),
             Self::Session => export::expect_ending(path, "json"),
         };
         fits.map_err(|reason| tr!("{}.", reason.localized()))
@@ -115,6 +123,7 @@ impl ExportKind {
                 Ok(written(move |out| write_fitted(&measurement, &surface, fit_options.dolp_only, out)))
             }
             Self::Report => report(work),
+            Self::Picture => picture(work),
             Self::Session => {
                 let session = Session::of(work);
                 Ok(written(move |out| session.write(out)))
@@ -155,6 +164,29 @@ fn report(work: &Workspace) -> Result<Write, String> {
             words: &WindowWording,
         };
         export::write_report(path, kind, &fit.document()).map_err(|error| failure(path, &error))
+    }))
+}
+
+/// Pixels along an edge of an exported picture.
+const PICTURE_SIZE: usize = 512;
+
+/// The picture of the sliders, one half of it of the companion where there is one.
+fn picture(work: &Workspace) -> Result<Write, String> {
+    surface(work)?;
+    let (key, options) = (SceneKey::of(work), work.settings().picture);
+    Ok(Box::new(move |path| {
+        let kind = stokes_file_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
+        let (lamp, has_sky) = (key.lamp, key.sky.is_some());
+        let scene = Scene::new(key, PICTURE_SIZE, Quality::Fine, None, &|| false).ok_or_else(|| tr!("There is no picture to export."))?;
+        let body = |out: &mut dyn std::io::Write| match kind {
+            StokesFileKind::Png => {
+                let (shown, axis) = (scene.shown(&options), options.quantity.axis());
+                write_colors(&picture_map(&shown.values, PICTURE_SIZE, axis.between(shown.range.0, shown.range.1), shown.colors), out)
+            }
+            StokesFileKind::Exr => write_exr(&scene.joined(), out),
+            StokesFileKind::Csv => write_table(&scene.picture, &scene.joined(), lamp.as_ref(), has_sky, out),
+        };
+        write_file(path, body).map_err(|error| failure(path, &error))
     }))
 }
 

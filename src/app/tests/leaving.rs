@@ -56,7 +56,7 @@ fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
 
 /// Panes and a title of an axis or a colour bar in their figures; of the reports those in the tests
 /// of the core.
-const TITLES: [(PaneId, &[&str]); 14] = [
+const TITLES: [(PaneId, &[&str]); 15] = [
     (PaneId::Dolp, &["θr / °", "DoLP"]),
     (PaneId::Lobes, &["θr / °", "BRDF / sr⁻¹"]),
     (PaneId::PolarLobes, &["BRDF / sr⁻¹"]),
@@ -64,6 +64,7 @@ const TITLES: [(PaneId, &[&str]); 14] = [
     (PaneId::Convergence, &["residual evaluations", "ΔE"]),
     (PaneId::Metals, &["wavelength / nm", "n", "k"]),
     (PaneId::Hemisphere, &["−θr cos Δφ / °", "−θr sin Δφ / °", "DoLP"]),
+    (PaneId::Picture, &["x", "y", "radiance S0 / sr⁻¹"]),
     (PaneId::Mueller, &["θr / °", "m00 / m00", "m01 / m00", "m33 / m00"]),
     (PaneId::Landscape, &["n", "k", "ΔE"]),
     (PaneId::Audit, &["θi / °", "directional-hemispherical reflectance"]),

@@ -28,6 +28,7 @@ mod mueller;
 mod notices;
 mod options;
 mod panes;
+mod picture;
 mod places;
 mod planning;
 mod reports;

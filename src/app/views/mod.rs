@@ -25,6 +25,7 @@ mod metals;
 mod models;
 mod mueller;
 pub mod picking;
+mod picture;
 mod planner;
 mod polar_lobes;
 mod report;
@@ -42,7 +43,7 @@ pub use series_choice::choice_menu_ui;
 #[cfg(test)]
 pub use {
     audit::AuditView, data::DataView, dolp::DolpView, hemisphere::HemisphereView, landscape::LandscapeView, lobes::LobesView,
-    planner::PlannerView,
+    picture::PictureView, planner::PlannerView,
 };
 
 use crate::app::work::pane_id::{PaneId, with_panes};

@@ -6,6 +6,7 @@ use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
+use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::{Bootstrap, Estimate, FitOptions, FitResult, JointResult, Starts};
@@ -49,6 +50,7 @@ pub enum Edit {
     SetSeed(u64),
     SetViewOptions(ViewOptions),
     SetLandscapeAxes(LandscapeAxes),
+    SetPictureOptions(PictureOptions),
     SetMetalSelection(MetalSelection),
     /// The angles that might be measured.
     SetDesign(DesignSettings),

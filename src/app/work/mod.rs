@@ -14,6 +14,8 @@ pub mod model_fit;
 pub mod open_measurement;
 pub mod pane_id;
 pub mod parameter_text;
+pub mod picture_options;
+pub mod picture_scene;
 pub mod predicted_errors;
 pub mod settings;
 pub mod settings_error;

@@ -10,6 +10,7 @@ macro_rules! with_panes {
         $then! {
             Dolp dolp Upper,
             Lobes lobes Lower,
+            Picture picture Upper,
             PolarLobes polar_lobes Lower,
             Facets facets Lower,
             Convergence convergence Upper,

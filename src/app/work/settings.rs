@@ -4,6 +4,7 @@
 use crate::app::text::i18n::Language;
 use crate::app::work::design::DesignSettings;
 use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::settings_error::SettingsError;
 use pbrdf::fit::{FitOptions, Starts};
 use pbrdf::model::Parameter;
@@ -196,6 +197,7 @@ pub struct Settings {
     #[serde(rename = "tabulated")]
     pub metal_selection: MetalSelection,
     pub landscape: LandscapeAxes,
+    pub picture: PictureOptions,
 }
 
 impl Default for Settings {
@@ -216,6 +218,7 @@ impl Default for Settings {
             view_options: ViewOptions::default(),
             metal_selection: MetalSelection::default(),
             landscape: LandscapeAxes::default(),
+            picture: PictureOptions::default(),
         }
     }
 }
@@ -250,6 +253,7 @@ impl Settings {
         Geometry::new(self.theta_i, 0.0, self.dphi).map_err(SettingsError::Angles)?;
         let others = [
             ("plan", self.design.is_sound()),
+            ("picture", self.picture.is_sound()),
             ("tabulated.wavelength_nm", is_positive(self.metal_selection.wavelength_nm)),
             ("choices.loss_scale", self.fit_options.loss_scale.is_none_or(is_positive)),
         ];

@@ -205,6 +205,7 @@ impl Workspace {
             Edit::SetStarts(starts) => self.settings.starts = starts,
             Edit::SetSeed(seed) => self.settings.seed = seed,
             Edit::SetViewOptions(options) => self.settings.view_options = options,
+            Edit::SetPictureOptions(options) => self.settings.picture = options,
             Edit::SetLandscapeAxes(axes) => self.settings.landscape = axes,
             Edit::SetMetalSelection(selection) => self.settings.metal_selection = selection,
             Edit::SetDesign(design) => self.settings.design = design,

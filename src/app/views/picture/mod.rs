@@ -1,0 +1,220 @@
+//! The picture that a polarisation camera sees of the surface: a shape under a lamp and a sky, beside another surface if wanted.
+//!
+//! A job makes the picture and its colours; the pane puts them on the screen. Dragging on the picture moves the highlight, and the
+//! lamp with it.
+
+mod canvas;
+mod controls;
+mod made;
+
+use crate::app::jobs::async_memo::AsyncMemo;
+use crate::app::jobs::memo::Memo;
+use crate::app::text::numbers::significant;
+use crate::app::views::context::{Cx, PaneSpec, View};
+use crate::app::views::curves::MOST_POINTS;
+use crate::app::work::edit::Edit;
+use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::picture_options::PictureOptions;
+use crate::app::work::picture_scene::SceneKey;
+use crate::figure::Figure;
+use crate::report::PictureQuantity;
+use canvas::{Canvas, Mark};
+use egui::Ui;
+use made::{Made, MadeKey};
+use pbrdf::model::{Lamp, Shape};
+use pbrdf::optics::{Geometry, Stokes};
+use tr::tr;
+
+pub static SPEC: PaneSpec = PaneSpec {
+    title: "Picture",
+    tooltip: "What a polarisation camera sees of a sphere, a cylinder, a plate or a relief under a lamp and a sky",
+    shortcut: None,
+    has_options: false,
+    has_figure: true,
+    new: || Box::new(PictureView::default()),
+};
+
+/// What the pane keeps.
+#[derive(Default)]
+pub struct PictureView {
+    job: AsyncMemo<MadeKey, Option<Made>>,
+    canvas: Canvas,
+    /// The analyser turns by itself: how far it has turned from its setting, degrees.
+    turned: Option<f64>,
+    /// Measured directions by the measurement, where the lamp is and the shape.
+    measured: Memo<(u64, Option<Lamp>, Shape), Vec<Mark>>,
+    /// What was clicked: x and y.
+    chosen: Option<[f64; 2]>,
+}
+
+/// How fast the analyser turns by itself, degrees per second.
+const TURN: f64 = 30.0;
+/// A measured direction is seen under the lamp where twice its β is the lamp's angle from the camera to this, in degrees.
+const SEEN: f64 = 1.0;
+
+/// Measured directions on the sphere, each under a lamp at the azimuth of the present one.
+fn measured(document: &OpenMeasurement, lamp: Option<Lamp>, shape: Shape) -> Vec<Mark> {
+    let Some(lamp) = lamp.filter(|_| shape == Shape::Sphere) else { return Vec::new() };
+    let geometries = document.measurement.rows.iter().map(|row| row.geometry);
+    let mark = |geometry: Geometry| {
+        let (own, [x, y, _]) = Lamp::facing(geometry, lamp.azimuth().0)?;
+        Some(Mark { at: [x, y], seen: (own.polar().0 - lamp.polar().0).abs() < SEEN })
+    };
+    geometries.filter_map(mark).take(MOST_POINTS).collect()
+}
+
+impl PictureView {
+    /// The newest picture.
+    fn made(&self) -> Option<&Made> {
+        self.job.get()?.as_ref()
+    }
+
+    /// The options with the analyser where it has turned to.
+    fn options(&self, cx: &Cx<'_>) -> PictureOptions {
+        let set = cx.work.settings().picture;
+        PictureOptions { analyser: (set.analyser + self.turned.unwrap_or(0.0)).rem_euclid(180.0), ..set }
+    }
+
+    /// What is known at a place of the picture; none beside the shape.
+    fn reading(&self, [x, y]: [f64; 2], options: &PictureOptions) -> Option<String> {
+        let scene = &self.made()?.scene;
+        let (row, column) = canvas::pixel([x, y], scene.image.size)?;
+        let normal = scene.picture.normal(row, column)?;
+        let geometry = scene.key.lamp.and_then(|lamp| lamp.geometry(normal));
+        let angles = match geometry {
+            Some(at) => {
+                let [theta_i, theta_r, dphi] = [at.theta_i(), at.theta_r(), at.dphi()].map(|angle| format!("{:.1}", angle.0));
+                tr!("θi = {0}°, θr = {1}°, Δφ = {2}°", theta_i, theta_r, dphi)
+            }
+            None if scene.key.lamp.is_some() => tr!("in its own shadow"),
+            None => tr!("θr = {}°", format!("{:.1}", libm::acos(normal[2].min(1.0)).to_degrees())),
+        };
+        if options.difference && scene.other.is_some() {
+            let value = self.made()?.values[row * scene.image.size + column];
+            return Some(tr!("{0}: difference {1}", angles, significant(value)));
+        }
+        let stokes = scene.joined_at(row, column)?;
+        Some(format!("{angles}: {}", stokes_text(stokes, options)))
+    }
+
+    /// The angles of a place that was clicked, for all other plots.
+    fn direction(&self, [x, y]: [f64; 2]) -> Option<Edit> {
+        let scene = &self.made()?.scene;
+        let (row, column) = canvas::pixel([x, y], scene.image.size)?;
+        let geometry = scene.key.lamp?.geometry(scene.picture.normal(row, column)?)?;
+        let round = |degrees: f64| (degrees * 100.0).round() / 100.0;
+        let theta_i = round(geometry.theta_i().0).min(89.99);
+        Some(Edit::SetDirection { theta_i, dphi: round(geometry.dphi().0.rem_euclid(360.0)) })
+    }
+
+    /// What the picture teaches under this light.
+    fn lesson(&self) -> Option<String> {
+        let made = self.made()?;
+        let key = &made.scene.key;
+        match (key.lamp, key.sky) {
+            (Some(_), None) => {
+                let limit = made.fresnel_limit?;
+                Some(tr!(
+                    "A lamp alone: every pixel has the same half vector, so the angle of polarisation and the Fresnel limit {0} are the same everywhere; what varies is the depolarised share.",
+                    format!("DoLP_s = {limit:.3}")
+                ))
+            }
+            (None, Some(_)) => {
+                Some(tr!("A sky alone: only θr counts, and light swings along circles around the middle. DoLP is greatest in a ring."))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a picture is being made.
+    #[cfg(test)]
+    pub fn is_running(&self) -> bool {
+        self.job.is_running()
+    }
+
+    /// The newest picture's numbers.
+    #[cfg(test)]
+    pub fn scene(&self) -> Option<&crate::app::work::picture_scene::Scene> {
+        self.made().map(|made| &*made.scene)
+    }
+}
+
+/// A Stokes vector in words.
+fn stokes_text(stokes: Stokes, options: &PictureOptions) -> String {
+    let [s0, s1, s2, _] = stokes.0.into();
+    let angle = stokes.angle().map_or_else(|| "–".to_owned(), |angle| format!("{angle:.1}°"));
+    let text = tr!("S0 = {0}, DoLP = {1}, angle of polarisation {2}", significant(s0), format!("{:.4}", stokes.dolp()), angle);
+    match options.quantity {
+        PictureQuantity::S1 => format!("{text}, S1 = {}", significant(s1)),
+        PictureQuantity::S2 => format!("{text}, S2 = {}", significant(s2)),
+        _ => text,
+    }
+}
+
+impl View for PictureView {
+    fn refresh(&mut self, cx: &mut Cx<'_>) {
+        let options = self.options(cx);
+        let key = MadeKey { scene: SceneKey::of(cx.work), options, held: cx.interacting };
+        // Values that are not numbers differ from themselves: a job would follow a job for ever.
+        if key != key {
+            self.job = AsyncMemo::default();
+            return;
+        }
+        let before = self.made().map(|made| (made.scene.clone(), made.held_range(&key)));
+        let own = key.clone();
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(own, before, stopped));
+        let lamp = SceneKey::of(cx.work).lamp;
+        self.measured.refresh((cx.work.active().generation, lamp, options.shape), |_| measured(cx.work.active(), lamp, options.shape));
+    }
+
+    fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let mut set = cx.work.settings().picture;
+        controls::content_ui(&mut set, ui);
+        controls::light_ui(&mut set, ui);
+        controls::analyser_ui(&mut set, &mut self.turned, ui);
+        controls::companion_ui(&mut set, cx.work.pinned(), ui);
+        if let Some(turned) = &mut self.turned {
+            *turned = (*turned + TURN * f64::from(ui.input(|input| input.stable_dt.min(0.1)))).rem_euclid(180.0);
+            ui.ctx().request_repaint();
+        }
+        let options = self.options(cx);
+        // Two lines below, whatever they say: the picture does not jump.
+        let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+        let side = (ui.available_height() - 2.0 * line).max(60.0);
+        let mut pointer = None;
+        if let Some(Some(made)) = self.job.get() {
+            let marks = self.measured.get().map_or(&[][..], Vec::as_slice);
+            let touched = self.canvas.ui(made, marks, self.chosen, side, ui);
+            pointer = touched.hovered;
+            if let Some((polar, azimuth)) = touched.lamp.filter(|_| set.lamp) {
+                (set.polar, set.azimuth) = (polar, azimuth);
+            }
+            if let Some(at) = touched.clicked {
+                self.chosen = Some(at);
+                cx.edits.extend(self.direction(at));
+            }
+        }
+        let reading = pointer.and_then(|at| self.reading(at, &options));
+        let hint = || tr!("The pointer reads a pixel; a click takes its θi and Δφ to the other plots; dragging moves the lamp.");
+        ui.add(egui::Label::new(reading.unwrap_or_else(hint)).truncate());
+        if let Some(lesson) = self.lesson() {
+            ui.add(egui::Label::new(egui::RichText::new(&lesson).weak()).truncate()).on_hover_text(lesson);
+        }
+        if set != cx.work.settings().picture {
+            cx.edits.push(Edit::SetPictureOptions(set));
+        }
+    }
+
+    fn figure(&self, cx: &Cx<'_>) -> Option<Figure> {
+        Some(self.made()?.figure(cx.work.active().title()))
+    }
+
+    fn suspend(&mut self) {
+        self.job.stop_if(|_| true);
+        self.turned = None;
+    }
+
+    fn lag(&self) -> u64 {
+        self.job.frames_behind()
+    }
+}
