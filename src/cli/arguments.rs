@@ -96,7 +96,7 @@ pub struct FitArguments {
     /// Print the results as a table for a paper: a row for each parameter, a column for each measurement.
     #[arg(long, value_name = "FORM", value_parser = values::table_format(), conflicts_with = "json")]
     pub table: Option<TableFormat>,
-    /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them.
+    /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them; what was fitted stands in its comments.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// File for a report with figures: .html in one file, .md with its figures as .svg files beside it.

@@ -188,12 +188,18 @@ fn print(out: &mut dyn Write, measurement: &Measurement, results: &[ModelResult]
     }
     let fits: Vec<(&str, &FitResult)> =
         results.iter().filter_map(|(preset, result)| Some((preset.key, &result.as_ref().ok()?.1))).collect();
-    let truth = |parameter: Parameter| measurement.metadata(parameter.key()).filter(|_| measurement.metadata("simulated") == Some("true"));
+    let is_simulated = measurement.metadata("simulated") == Some("true");
+    // In the table of a fit the truth has a name of its own.
+    let stated = |parameter: Parameter| {
+        let key = parameter.key();
+        measurement.metadata(key).or_else(|| measurement.metadata(&format!("simulated_{key}")))
+    };
+    let truth = |parameter: Parameter| stated(parameter).filter(|_| is_simulated);
     write!(out, "\n{:<9}", "")?;
     for (key, _) in &fits {
         write!(out, " {key:>22}")?;
     }
-    writeln!(out, " {:>10}", if measurement.metadata("simulated") == Some("true") { "truth" } else { "" })?;
+    writeln!(out, " {:>10}", if is_simulated { "truth" } else { "" })?;
     for parameter in Parameter::ALL {
         write!(out, "{:<9}", parameter.key())?;
         for (_, report) in &fits {

@@ -10,9 +10,9 @@ use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
 use crate::cli::{interrupt, joint, output};
 use crate::files::export;
-use crate::report::{English, FITTED_COLUMNS, FitDocument, ResultColumn, ResultTable, fit_json, fitted_cells};
+use crate::report::{English, FitDocument, ResultColumn, ResultTable, fit_comments, fit_json, fitted_cells, write_beside};
 use pbrdf::fit::{FitResult, JointError, Problem, Profile, bootstrap, profile};
-use pbrdf::measurement::{Measurement, append_columns};
+use pbrdf::measurement::Measurement;
 use pbrdf::model::Pbrdf;
 use serde_json::json;
 use std::io::{self, Write};
@@ -51,7 +51,9 @@ fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCo
     if let Some(path) = &arguments.output {
         let surface = Pbrdf::new(report.model, report.parameters).map_err(|error| Failure::usage(error.to_string()))?;
         let cells = fitted_cells(measurement, &surface, arguments.model.dolp_only);
-        output::write(Some(path), |out| append_columns(bytes, &FITTED_COLUMNS, &measurement.lines, &cells, out))?;
+        let estimates = report.estimates.iter().map(|estimate| (estimate.parameter.key(), estimate));
+        let comments = fit_comments(arguments.model.key, report.objective, estimates);
+        output::write(Some(path), |out| write_beside(bytes, (&measurement.lines, &cells), measurement, &comments, out))?;
     }
     write_documents(arguments, bytes, measurement, &problem, &report)?;
     if arguments.json {

@@ -10,9 +10,11 @@ use crate::cli::scans::{add_scans, is_cut_short, print_cut_short, print_scans};
 use crate::cli::sets::{MeasurementSets, NamedMeasurement};
 use crate::cli::watched::Watched;
 use crate::files::export;
-use crate::report::{DataSource, English, FITTED_COLUMNS, JointDocument, JointSource, ResultColumn, ResultTable, fitted_cells, joint_json};
+use crate::report::{
+    DataSource, English, JointDocument, JointSource, ResultColumn, ResultTable, fit_comments, fitted_cells, joint_json, write_beside,
+};
 use pbrdf::fit::{JointProblem, JointResult, JointUnknown, UnknownName as _, bootstrap_jointly, profile_jointly};
-use pbrdf::measurement::{Measurement, append_columns, write_measurements};
+use pbrdf::measurement::{Measurement, write_measurements};
 use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
 use serde_json::json;
 use std::io::{self, Write};
@@ -113,7 +115,9 @@ fn write_fitted(arguments: &FitArguments, sets: &MeasurementSets, result: &Joint
         &table
     };
     let (lines, cells): (Vec<u64>, Vec<Vec<String>>) = rows.into_iter().unzip();
-    output::write(Some(path), |out| append_columns(source, &FITTED_COLUMNS, &lines, &cells, out))
+    let estimates = result.estimates().map(|(name, estimate)| (name.key().into_owned(), estimate));
+    let comments = fit_comments(arguments.model.key, result.objective, estimates.collect::<Vec<_>>());
+    output::write(Some(path), |out| write_beside(source, (&lines, &cells), &sets.all[0].measurement, &comments, out))
 }
 
 /// The report for a person.

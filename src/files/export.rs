@@ -3,6 +3,8 @@
 use crate::figure::Figure;
 use crate::files::write_file::write_file;
 use crate::report::ReportDocument;
+#[cfg(any(feature = "gui", test))]
+use crate::report::TableFormat;
 use pbrdf::selftest::Machine;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -38,6 +40,9 @@ pub enum Endings {
     Report,
     /// `.png`, `.exr`, `.csv`.
     Stokes,
+    /// `.csv`, `.md`, `.tex`.
+    #[cfg(any(feature = "gui", test))]
+    Table,
     /// One alone, without its dot.
     #[cfg(any(feature = "gui", test))]
     Only(&'static str),
@@ -49,6 +54,8 @@ impl std::fmt::Display for Endings {
             Self::Picture => f.write_str(".svg or .png"),
             Self::Report => f.write_str(".html or .md"),
             Self::Stokes => f.write_str(".png, .exr or .csv"),
+            #[cfg(any(feature = "gui", test))]
+            Self::Table => f.write_str(".csv, .md or .tex"),
             #[cfg(any(feature = "gui", test))]
             Self::Only(ending) => write!(f, ".{ending}"),
         }
@@ -86,6 +93,17 @@ pub fn report_kind(path: &Path) -> Result<ReportKind, EndingError> {
         "html" | "htm" => Ok(ReportKind::Html),
         "md" | "markdown" => Ok(ReportKind::Markdown),
         _ => Err(EndingError::new(path, Endings::Report)),
+    }
+}
+
+/// The form of a table of results by the ending of its file name. The command line has an option for it.
+#[cfg(any(feature = "gui", test))]
+pub fn table_format(path: &Path) -> Result<TableFormat, EndingError> {
+    match extension(path).as_str() {
+        "csv" => Ok(TableFormat::Csv),
+        "md" | "markdown" => Ok(TableFormat::Markdown),
+        "tex" => Ok(TableFormat::Latex),
+        _ => Err(EndingError::new(path, Endings::Table)),
     }
 }
 
@@ -155,7 +173,8 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{PictureKind, ReportKind, expect_ending, picture_kind, report_kind, sha256};
+    use super::{PictureKind, ReportKind, expect_ending, picture_kind, report_kind, sha256, table_format};
+    use crate::report::TableFormat;
     use std::path::Path;
 
     #[test]
@@ -165,6 +184,8 @@ mod tests {
         assert!(picture_kind(Path::new("svg")).unwrap_err().to_string().contains(".svg or .png"));
         assert_eq!(report_kind(Path::new("b.md")), Ok(ReportKind::Markdown));
         assert!(report_kind(Path::new("b.pdf")).is_err());
+        assert_eq!(table_format(Path::new("b.TEX")), Ok(TableFormat::Latex));
+        assert!(table_format(Path::new("b.xlsx")).unwrap_err().to_string().contains("ends in .csv, .md or .tex"));
         assert_eq!(expect_ending(Path::new("a/b.CSV"), "csv"), Ok(()));
         assert!(expect_ending(Path::new("b.csv.svg"), "csv").unwrap_err().to_string().contains("ends in .csv"));
     }

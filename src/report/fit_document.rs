@@ -310,7 +310,7 @@ impl FitDocument<'_> {
 
     pub(super) fn model(&self) -> Vec<DocumentPart> {
         let model = self.report.model;
-        let preset = Preset::of(model);
+        let preset = Preset::of_fit(model, self.choices().dolp_only);
         let mut rows = vec![
             ("model", self.text(preset.map_or("own choice of terms", |preset| preset.name))),
             ("source", preset.map_or_else(String::new, |preset| self.text(preset.citation))),

@@ -1,5 +1,6 @@
 //! A fitted model beside the measured values: columns for a table.
 
+use crate::report::fit_comments::{insert_comments, with_fit};
 use pbrdf::measurement::{Measurement, append_columns, shortest};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
@@ -23,14 +24,37 @@ pub fn fitted_cells(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool)
     cells.collect()
 }
 
-/// Writes a measurement with the fitted columns beside it.
+/// Writes a measurement with the fitted columns beside it, and the comment lines of the fit above.
 ///
 /// # Errors
 ///
 /// Those of `out`.
-pub fn write_fitted(measurement: &Measurement, surface: &Pbrdf, dolp_only: bool, out: impl Write) -> io::Result<()> {
+pub fn write_fitted(
+    measurement: &Measurement,
+    surface: &Pbrdf,
+    dolp_only: bool,
+    comments: &[(String, String)],
+    out: impl Write,
+) -> io::Result<()> {
     let mut table = Vec::new();
-    measurement.write(&mut table)?;
+    Measurement { metadata: with_fit(measurement, comments), ..measurement.clone() }.write(&mut table)?;
     let lines = Measurement::read(&table[..]).map_err(io::Error::other)?.lines;
     append_columns(&table, &FITTED_COLUMNS, &lines, &fitted_cells(measurement, surface, dolp_only), out)
+}
+
+/// Writes a table as it was read, with the fitted cells beside its rows and the comment lines of the fit above its header.
+///
+/// # Errors
+///
+/// Those of `out`.
+pub fn write_beside(
+    table: &[u8],
+    (lines, cells): (&[u64], &[Vec<String>]),
+    measurement: &Measurement,
+    comments: &[(String, String)],
+    mut out: impl Write,
+) -> io::Result<()> {
+    let mut whole = Vec::new();
+    append_columns(table, &FITTED_COLUMNS, lines, cells, &mut whole)?;
+    out.write_all(&insert_comments(&whole, measurement, comments))
 }

@@ -4,9 +4,11 @@
 //! from 1 on is written with its decimal point, `15.3(1.2)`. What is no value with an uncertainty carries a mark that a note explains.
 
 use crate::report::language::ReportLanguage;
-use pbrdf::fit::rounding::{decimal_places, significant, trimmed};
-use pbrdf::fit::{Edge, Estimate, EstimateStatus, FitResult, Interval, JointResult};
+use crate::report::number::{Number, symmetric, within};
+use pbrdf::fit::rounding::{significant, trimmed};
+use pbrdf::fit::{Edge, Estimate, EstimateStatus, FitResult, JointResult};
 use pbrdf::model::{Parameter, ParameterSet};
+use std::fmt::Write as _;
 
 /// The form of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,13 +76,15 @@ enum Mark {
     Fixed,
     Lower,
     Upper,
+    Uneven,
     Undetermined,
     NoDegreesOfFreedom,
     Joint,
 }
 
 impl Mark {
-    const ALL: [Self; 7] = [Self::Shared, Self::Fixed, Self::Lower, Self::Upper, Self::Undetermined, Self::NoDegreesOfFreedom, Self::Joint];
+    const ALL: [Self; 8] =
+        [Self::Shared, Self::Fixed, Self::Lower, Self::Upper, Self::Uneven, Self::Undetermined, Self::NoDegreesOfFreedom, Self::Joint];
 
     /// The note, English.
     fn note(self) -> &'static str {
@@ -89,6 +93,7 @@ impl Mark {
             Self::Fixed => "held fixed",
             Self::Lower => "at its lower bound",
             Self::Upper => "at its upper bound",
+            Self::Uneven => "the interval at 68.3 %; its ends lie very unevenly about the best fit",
             Self::Undetermined => "not determined by the data; the value of the best fit",
             Self::NoDegreesOfFreedom => "no degree of freedom is left for an uncertainty",
             Self::Joint => "of all measurements fitted together",
@@ -102,14 +107,10 @@ struct Cell {
     marks: Vec<Mark>,
 }
 
-/// A number with its uncertainty, in digits.
-enum Number {
-    Text(String),
-    Symmetric { value: String, error: String, exponent: i32 },
-    Asymmetric { value: String, ends: [String; 2], in_digits: [String; 2], exponent: i32 },
-    Above(String),
-    Below(String),
-    None,
+/// A value with its uncertainty in brackets in plain text, `2.049(23)`, without marks.
+#[must_use]
+pub fn bracketed(estimate: &Estimate) -> String {
+    Writer { format: TableFormat::Plain, used: Vec::new() }.number(&cell_of(estimate).value)
 }
 
 /// The texts of a table.
@@ -204,62 +205,14 @@ fn cell_of(estimate: &Estimate) -> Cell {
         EstimateStatus::AtBound(_) => (Number::Text(trimmed(value, 6)), None),
         EstimateStatus::Determined(error) => (symmetric(value, error), None),
         EstimateStatus::NoDegreesOfFreedom => (Number::Text(trimmed(value, 6)), Some(Mark::NoDegreesOfFreedom)),
-        EstimateStatus::Within(interval) => (within(value, interval), None),
+        EstimateStatus::Within(interval) => {
+            let number = within(value, interval);
+            let is_uneven = matches!(number, Number::Between(_));
+            (number, is_uneven.then_some(Mark::Uneven))
+        }
         EstimateStatus::Undetermined => (Number::Text(trimmed(value, 3)), Some(Mark::Undetermined)),
     };
     Cell { value, marks: mark.into_iter().chain(edge).collect() }
-}
-
-/// The power of ten that a number is written with: 0 from 1e-4 to 1e6.
-fn exponent_of(value: f64) -> i32 {
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        return 0;
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "an exponent of f64")]
-    let exponent = libm::log10(value.abs()).floor() as i32;
-    exponent
-}
-
-fn symmetric(value: f64, error: f64) -> Number {
-    if !(error > 0.0 && error.is_finite()) {
-        return Number::Text(trimmed(value, 6));
-    }
-    let exponent = exponent_of(value);
-    let unit = libm::pow(10.0, f64::from(exponent));
-    let places = decimal_places(error / unit);
-    Number::Symmetric { value: format!("{:.places$}", value / unit), error: in_last_digits(error / unit, places), exponent }
-}
-
-/// An uncertainty in units of the last of so many decimal places; with its decimal point from 1 on.
-fn in_last_digits(error: f64, places: usize) -> String {
-    let text = format!("{error:.places$}");
-    if text.starts_with("0.") || text.starts_with("-0.") {
-        let digits = text.split_once('.').map_or("", |(_, digits)| digits).trim_start_matches('0');
-        if digits.is_empty() { "0".to_owned() } else { digits.to_owned() }
-    } else {
-        text
-    }
-}
-
-fn within(value: f64, interval: Interval) -> Number {
-    match (interval.low, interval.high) {
-        (Some(low), Some(high)) => {
-            let [above, below] = [high - value, value - low];
-            let finer = if above > 0.0 && below > 0.0 { above.min(below) } else { above.max(below) };
-            let exponent = exponent_of(value);
-            let unit = libm::pow(10.0, f64::from(exponent));
-            let places = decimal_places(finer / unit);
-            let ends = [above, below].map(|end| format!("{:.places$}", end / unit));
-            if ends[0] == ends[1] {
-                return symmetric(value, above);
-            }
-            let in_digits = [above, below].map(|end| in_last_digits(end / unit, places));
-            Number::Asymmetric { value: format!("{:.places$}", value / unit), ends, in_digits, exponent }
-        }
-        (Some(low), None) => Number::Above(significant(low, 3)),
-        (None, Some(high)) => Number::Below(significant(high, 3)),
-        (None, None) => Number::Text(trimmed(value, 3)),
-    }
 }
 
 /// Writes the parts of a table in one form.
@@ -363,6 +316,8 @@ impl Writer {
             Number::Asymmetric { value, in_digits: [above, below], exponent, .. } => {
                 format!("{value}(+{above}/−{below}){}", power(*exponent))
             }
+            Number::Between([low, high]) if is_latex => format!(r"{}\ldots{}", self.digits(low), self.digits(high)),
+            Number::Between([low, high]) => format!("{low} … {high}"),
             Number::Above(low) => format!("> {}", self.digits(low)),
             Number::Below(high) => format!("< {}", self.digits(high)),
         };
@@ -397,10 +352,17 @@ impl Writer {
                 }
             }
             TableFormat::Latex => {
-                let line = |cells: &[String]| format!("{} \\\\", cells.join(" & "));
+                // Ends above and below a value need room to those of the next row.
+                let room = |cells: &[String]| if cells.iter().any(|cell| cell.contains("}_{-")) { "[0.8ex]" } else { "" };
+                let line = |cells: &[String]| format!("{} \\\\{}", cells.join(" & "), room(cells));
                 lines.push("% \\usepackage{booktabs}".to_owned());
                 lines.push(format!("\\begin{{tabular}}{{l{}}}", "r".repeat(head.len() - 1)));
-                lines.extend(["\\toprule".to_owned(), line(head), "\\midrule".to_owned()]);
+                lines.push("\\toprule".to_owned());
+                match spanned(head) {
+                    Some((groups, rules, models)) => lines.extend([line(&groups), rules, line(&models)]),
+                    None => lines.push(line(head)),
+                }
+                lines.push("\\midrule".to_owned());
                 lines.extend(rows[..*first_of_goodness].iter().map(|row| line(row)));
                 lines.push("\\midrule".to_owned());
                 lines.extend(rows[*first_of_goodness..].iter().map(|row| line(row)));
@@ -414,6 +376,26 @@ impl Writer {
     }
 }
 
+/// Titles *measurement, model* in two lines, a measurement above all of its models: cells, the rules under them, and the second line.
+/// None where a title has no such parts, or no measurement has two models.
+fn spanned(head: &[String]) -> Option<(Vec<String>, String, Vec<String>)> {
+    let titles: Vec<(&str, &str)> = head[1..].iter().map(|title| title.rsplit_once(", ")).collect::<Option<_>>()?;
+    let groups: Vec<&[(&str, &str)]> = titles.chunk_by(|one, next| one.0 == next.0).collect();
+    if groups.iter().all(|group| group.len() == 1) {
+        return None;
+    }
+    let mut last = 1;
+    let (mut cells, mut rules) = (vec![String::new()], String::new());
+    for group in groups {
+        let first = last + 1;
+        last += group.len();
+        cells.push(format!("\\multicolumn{{{}}}{{c}}{{{}}}", group.len(), group[0].0));
+        let _ = write!(rules, "\\cmidrule(lr){{{first}-{last}}}");
+    }
+    let models = std::iter::once(String::new()).chain(titles.iter().map(|(_, model)| (*model).to_owned()));
+    Some((cells, rules, models.collect()))
+}
+
 fn escaped(text: &str, replacement: impl Fn(char) -> Option<String>) -> String {
     text.chars().map(|letter| replacement(letter).unwrap_or_else(|| letter.to_string())).collect()
 }
@@ -425,7 +407,8 @@ fn quoted(cell: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, Writer, symmetric, within};
+    use super::{Number, Writer, spanned};
+    use crate::report::number::{symmetric, within};
     use crate::report::result_table::TableFormat;
     use pbrdf::fit::Interval;
 
@@ -456,8 +439,21 @@ mod tests {
         assert_eq!(both(Some(1.81), Some(2.29)), ["2.05(24)", "$2.05(24)$"]);
         assert_eq!(both(Some(2.05), Some(2.29)), ["2.05(+24/−0)", "$2.05^{+0.24}_{-0.00}$"]);
         assert_eq!(both(Some(0.85), Some(5.25)), ["2.0(+3.2/−1.2)", "$2.0^{+3.2}_{-1.2}$"]);
+        // One end from 1 on, one below: both have their decimal point.
+        assert_eq!(both(Some(1.58), Some(4.28)), ["2.05(+2.23/−0.47)", "$2.05^{+2.23}_{-0.47}$"]);
+        assert_eq!(both(Some(2.04), Some(1e6)), ["2.0 … 1.0e6", r"$2.0\ldots1.0\times10^{6}$"]);
         assert_eq!(both(Some(1.2), None), ["> 1.20", "$> 1.20$"]);
         assert_eq!(both(None, Some(2.5)), ["< 2.50", "$< 2.50$"]);
+    }
+
+    #[test]
+    fn models_of_a_measurement_stand_under_its_name() {
+        let head = |titles: &[&str]| titles.iter().map(|title| (*title).to_owned()).collect::<Vec<String>>();
+        let (cells, rules, models) = spanned(&head(&["", "a, b.csv, gauss", "a, b.csv, cauchy", "c, cauchy"])).expect("two lines");
+        assert_eq!(cells, ["", r"\multicolumn{2}{c}{a, b.csv}", r"\multicolumn{1}{c}{c}"]);
+        assert_eq!((rules.as_str(), models), (r"\cmidrule(lr){2-3}\cmidrule(lr){4-4}", head(&["", "gauss", "cauchy", "cauchy"])));
+        assert_eq!(spanned(&head(&["", "a.csv", "b.csv"])), None);
+        assert_eq!(spanned(&head(&["", "a, cauchy", "b, cauchy"])), None);
     }
 
     #[test]

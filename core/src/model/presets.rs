@@ -108,6 +108,17 @@ impl Preset {
     /// The last preset with exactly these terms, whatever the formula of DoLP.
     #[must_use]
     pub fn of(model: Model) -> Option<&'static Self> {
-        PRESETS.iter().rev().find(|preset| preset.model.with_dolp_formula(model.dolp_formula) == model)
+        PRESETS.iter().rev().find(|preset| preset.has_terms_of(model))
+    }
+
+    /// The same of a fit, which tells whether the model spoke of DoLP alone.
+    #[must_use]
+    pub fn of_fit(model: Model, dolp_only: bool) -> Option<&'static Self> {
+        let exact = PRESETS.iter().rev().find(|preset| preset.has_terms_of(model) && preset.dolp_only == dolp_only);
+        exact.or_else(|| Self::of(model))
+    }
+
+    fn has_terms_of(&self, model: Model) -> bool {
+        self.model.with_dolp_formula(model.dolp_formula) == model
     }
 }

@@ -31,7 +31,7 @@ pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &Slide
     let show_bounds = cx.work.settings().show_bounds;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
-        preset_ui(&mut surface, ui);
+        preset_ui(cx.work.preset(), &mut surface, ui);
         shared.iter_mut().for_each(|shared| sharing_ui(shared, ui));
         bounds_switch_ui(cx, &mut surface, ui);
         ui.separator();
@@ -79,8 +79,7 @@ impl Room {
 }
 
 /// The named models; whatever the switches below say, if they match none.
-fn preset_ui(surface: &mut Surface, ui: &mut Ui) {
-    let current = Preset::of(surface.model);
+fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Model"));
         let combo = egui::ComboBox::from_id_salt("preset")

@@ -3,7 +3,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::work_title;
-use crate::app::storage::export::ExportKind;
+use crate::app::storage::export::{ExportKind, SheetForm};
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::help::Help;
 use crate::app::text::i18n;
@@ -17,8 +17,9 @@ use crate::app::work::open_measurement::EXAMPLES;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
 use crate::app::work::sharing::Sharing;
+use crate::report::TableFormat;
 use egui::{Key, KeyboardShortcut, Modifiers};
-use pbrdf::model::{FINISHES, PRESETS, Preset};
+use pbrdf::model::{FINISHES, PRESETS};
 use std::borrow::Cow;
 use tr::tr;
 
@@ -91,7 +92,9 @@ impl Command {
             Action::ChooseExport(ExportKind::Plot(pane)) | Action::CopyPlot(pane) => {
                 tr!("Open the pane {} first (menu View).", translated(spec(pane).title))
             }
-            Action::ChooseExport(ExportKind::Fitted | ExportKind::Report)
+            Action::ChooseExport(ExportKind::Sheet(_)) => tr!("Bring two panes with plots to the screen first (menu View)."),
+            Action::ChooseExport(ExportKind::Fitted | ExportKind::Report | ExportKind::Results)
+            | Action::CopyResults(_)
             | Action::UseFit
             | Action::List(ListAction::PinFit)
             | Action::UseValuesBeforeFit
@@ -176,6 +179,14 @@ static ENTRIES: &[Entry] = &[
         always),
     row(Action::ChooseExport(ExportKind::Fitted), Menu::Export, "Fit as CSV…", "The measurement with model and residuals beside it", None,
         |app| only_if(app.work.shown_fit().is_some())),
+    row(Action::ChooseExport(ExportKind::Results), Menu::Export, "Table of results…",
+        "Fits side by side as the pane Results shows them: CSV, Markdown, or LaTeX with booktabs", None, |app| only_if(!app.work.fit_history().is_empty())),
+    row(Action::CopyResults(TableFormat::Csv), Menu::Edit, "Copy results as CSV", "The table of the pane Results, for a spreadsheet", None,
+        |app| only_if(!app.work.fit_history().is_empty())),
+    row(Action::CopyResults(TableFormat::Markdown), Menu::Edit, "Copy results as Markdown", "The table of the pane Results, for a text", None,
+        |app| only_if(!app.work.fit_history().is_empty())),
+    row(Action::CopyResults(TableFormat::Latex), Menu::Edit, "Copy results as LaTeX", "The table of the pane Results, for a paper, with booktabs", None,
+        |app| only_if(!app.work.fit_history().is_empty())),
     row(Action::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |app| only_if(app.work.shown_fit().is_some())),
@@ -294,6 +305,17 @@ fn plots(on_screen: &[PaneId]) -> impl Iterator<Item = Command> {
     })
 }
 
+/// Of several plots on screen as one figure.
+fn sheets(on_screen: &[PaneId]) -> impl Iterator<Item = Command> {
+    let plots = on_screen.iter().filter(|pane| spec(**pane).has_figure).count();
+    SheetForm::ALL.into_iter().map(move |form| {
+        let (rows, columns) = form.shape();
+        let text = tr!("Plots on screen as one figure, {0} × {1}…", rows, columns);
+        let tooltip = tr!("One SVG or PNG, for a handout or a paper").into();
+        item(Action::ChooseExport(ExportKind::Sheet(form)), Menu::Export, text.into(), tooltip, only_if(plots > 1))
+    })
+}
+
 /// Of the open measurements.
 fn measurements(app: &App) -> impl Iterator<Item = Command> {
     let active = app.work.active().number;
@@ -371,7 +393,7 @@ pub fn items(app: &App) -> Vec<Command> {
             switch(on_screen.contains(&pane)),
         )
     });
-    let current = Preset::of(app.work.surface().model).map(|preset| preset.key);
+    let current = app.work.preset().map(|preset| preset.key);
     let models = PRESETS.iter().map(|preset| {
         let text = tr!("Model: {}", translated(preset.name));
         item(Action::UseModel(preset.key), Menu::None, text.into(), translated(preset.citation).into(), switch(current == Some(preset.key)))
@@ -385,6 +407,7 @@ pub fn items(app: &App) -> Vec<Command> {
         item(Action::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(app.window.language == language))
     });
     fixed
+        .chain(sheets(&on_screen))
         .chain(plots(&on_screen))
         .chain(measurements(app))
         .chain(sharings(app))

@@ -4,6 +4,7 @@ use crate::app::storage::session::Session;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::WindowWording;
+use crate::app::work::fit_history::{FitEntry, JointEntry};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::picture_scene::{Scene, SceneKey};
@@ -12,15 +13,22 @@ use crate::figure::Figure;
 use crate::files::export;
 use crate::files::picture::{StokesFileKind, stokes_file_kind, write_colors, write_exr, write_table};
 use crate::files::write_file::write_file;
-use crate::report::{DataSource, FitDocument, picture_map, write_curves, write_fitted};
+use crate::report::{
+    DataSource, FitDocument, JointDocument, JointSource, ReportDocument, ResultTable, fit_comments, picture_map, write_curves, write_fitted,
+};
 use pbrdf::model::{Pbrdf, Quality};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tr::tr;
 
 /// Something that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportKind {
     Plot(PaneId),
+    /// The plots on screen in one figure.
+    Sheet(SheetForm),
+    /// Fits side by side.
+    Results,
     /// The model along every measured θi.
     Curves,
     /// The measurement with the fit beside it.
@@ -29,6 +37,30 @@ pub enum ExportKind {
     /// The picture as numbers or colours.
     Picture,
     Session,
+}
+
+/// How plots stand in one figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SheetForm {
+    /// Two, one above the other.
+    Column,
+    /// Two side by side.
+    Row,
+    /// Four.
+    Square,
+}
+
+impl SheetForm {
+    pub const ALL: [Self; 3] = [Self::Column, Self::Row, Self::Square];
+
+    /// Rows and columns.
+    pub fn shape(self) -> (usize, usize) {
+        match self {
+            Self::Column => (2, 1),
+            Self::Row => (1, 2),
+            Self::Square => (2, 2),
+        }
+    }
 }
 
 /// Writes it into that file; the error is a sentence.
@@ -42,6 +74,8 @@ impl ExportKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Plot(_) => "The plot",
+            Self::Sheet(_) => "The figure",
+            Self::Results => "The table of results",
             Self::Curves => "The table of curves",
             Self::Fitted => "The table of the fit",
             Self::Report => "The report",
@@ -53,7 +87,8 @@ impl ExportKind {
     /// Endings of its files, the usual one first.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
-            Self::Plot(_) => &["svg", "png"],
+            Self::Plot(_) | Self::Sheet(_) => &["svg", "png"],
+            Self::Results => &["csv", "md", "tex"],
             Self::Curves | Self::Fitted => &["csv"],
             Self::Report => &["html", "md"],
             Self::Picture => &["exr", "png", "csv"],
@@ -67,6 +102,8 @@ impl ExportKind {
         let stem = name.trim_end_matches(".csv");
         let what = match self {
             Self::Plot(pane) => format!("-{}", pane.key()),
+            Self::Sheet(_) => "-figure".to_owned(),
+            Self::Results => "-results".to_owned(),
             Self::Curves => "-curves".to_owned(),
             Self::Fitted => "-fitted".to_owned(),
             Self::Report => "-report".to_owned(),
@@ -87,7 +124,8 @@ impl ExportKind {
     /// Refuses a path that ends like another kind of file; the error is a sentence.
     pub fn check(self, path: &Path) -> Result<(), String> {
         let fits = match self {
-            Self::Plot(_) => export::picture_kind(path).map(drop),
+            Self::Plot(_) | Self::Sheet(_) => export::picture_kind(path).map(drop),
+            Self::Results => export::table_format(path).map(drop),
             Self::Curves | Self::Fitted => export::expect_ending(path, "csv"),
             Self::Report => export::report_kind(path).map(drop),
             Self::Picture => stokes_file_kind(path).map(drop),
@@ -103,7 +141,9 @@ impl ExportKind {
     /// There is nothing to write; the error is a sentence.
     pub fn snapshot(self, work: &Workspace, figure: Option<Figure>) -> Result<Write, String> {
         match self {
-            Self::Plot(_) => {
+            // The table is that of a pane.
+            Self::Results => results(None),
+            Self::Plot(_) | Self::Sheet(_) => {
                 let figure = figure.ok_or_else(|| tr!("There is no plot to export."))?;
                 Ok(Box::new(move |path| {
                     let kind = export::picture_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
@@ -119,8 +159,9 @@ impl ExportKind {
             Self::Fitted => {
                 let fit = work.shown_fit().ok_or_else(|| translated(NO_FIT))?;
                 let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (fit_options, measurement) = (*fit.problem.options(), work.active().measurement.clone());
-                Ok(written(move |out| write_fitted(&measurement, &surface, fit_options.dolp_only, out)))
+                let (dolp_only, measurement) = (fit.problem.options().dolp_only, fit.measurement().measurement);
+                let comments = comments(fit);
+                Ok(written(move |out| write_fitted(&measurement, &surface, dolp_only, &comments, out)))
             }
             Self::Report => report(work),
             Self::Picture => picture(work),
@@ -146,24 +187,35 @@ fn surface(work: &Workspace) -> Result<Pbrdf, String> {
     Pbrdf::new(work.surface().model, work.surface().parameters).map_err(|error| tr!("There are no curves: {}.", error.localized()))
 }
 
+/// A table of results that writes itself; its form is that of the file's ending.
+///
+/// # Errors
+/// There is none; a sentence.
+pub fn results(table: Option<ResultTable>) -> Result<Write, String> {
+    let table = table.ok_or_else(|| translated(NO_FIT))?;
+    Ok(Box::new(move |path| {
+        let format = export::table_format(path).map_err(|reason| tr!("{}.", reason.localized()))?;
+        let text = table.text(format, &WindowWording);
+        write_file(path, |out| out.write_all(text.as_bytes())).map_err(|error| failure(path, &error))
+    }))
+}
+
+/// What a table of a fit says of it.
+fn comments(fit: &FitEntry) -> Vec<(String, String)> {
+    let model = fit.preset().map_or("own terms", |preset| preset.key);
+    fit_comments(model, fit.report.objective, fit.report.estimates.iter().map(|estimate| (estimate.parameter.key(), estimate)))
+}
+
+/// The report of the shown fit; of a joint one, that of all its measurements.
 fn report(work: &Workspace) -> Result<Write, String> {
     let fit = work.shown_fit().cloned().ok_or_else(|| translated(NO_FIT))?;
-    let (report, problem) = (fit.report.clone(), fit.problem.clone());
-    let (measurement, document) = (work.active().measurement.clone(), work.active());
-    let source = DataSource { name: document.name.clone(), sha256: document.sha256.clone() };
+    let mut parts: Vec<Arc<FitEntry>> = work.fit_history().parts(fit.id).cloned().collect();
+    parts.sort_by_key(|part| part.joint.as_ref().map(|joint| joint.set));
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
-        let (program, date) = (export::program(), export::now());
-        let fit = FitDocument {
-            measurement: &measurement,
-            source: &source,
-            problem: &problem,
-            report: &report,
-            program: &program,
-            date: &date,
-            words: &WindowWording,
-        };
-        export::write_report(path, kind, &fit.document()).map_err(|error| failure(path, &error))
+        let whole = fit.joint.as_ref().filter(|joint| joint.of.result.sets.len() == parts.len());
+        let document = whole.map_or_else(|| single_report(&fit), |joint| joint_report(&joint.of, &parts));
+        export::write_report(path, kind, &document).map_err(|error| failure(path, &error))
     }))
 }
 
@@ -188,6 +240,34 @@ fn picture(work: &Workspace) -> Result<Write, String> {
         };
         write_file(path, body).map_err(|error| failure(path, &error))
     }))
+}
+
+fn data_source(fit: &FitEntry) -> DataSource {
+    DataSource { name: fit.document.clone(), sha256: fit.sha256.clone() }
+}
+
+fn single_report(fit: &FitEntry) -> ReportDocument {
+    let (program, date) = (export::program(), export::now());
+    let document = FitDocument {
+        measurement: &fit.measurement().measurement,
+        source: &data_source(fit),
+        problem: &fit.problem,
+        report: &fit.report,
+        program: &program,
+        date: &date,
+        words: &WindowWording,
+    };
+    document.document()
+}
+
+fn joint_report(of: &JointEntry, parts: &[Arc<FitEntry>]) -> ReportDocument {
+    let (program, date) = (export::program(), export::now());
+    let origins: Vec<_> = parts.iter().map(|part| (part.measurement().measurement, data_source(part))).collect();
+    let sources = parts.iter().zip(&origins);
+    let sources = sources.map(|(part, origin)| JointSource { name: &part.document, measurement: &origin.0, source: &origin.1 });
+    let sources: Vec<JointSource<'_>> = sources.collect();
+    let (problem, report) = (&of.problem, &of.result);
+    JointDocument { sources: &sources, problem, report, program: &program, date: &date, words: &WindowWording }.document()
 }
 
 /// A plot as an image for the clipboard.

@@ -180,11 +180,12 @@ impl FitJobs {
     /// The job does not start; a sentence.
     pub fn compare(
         &mut self,
-        number: u64,
+        document: &OpenMeasurement,
         problems: Vec<(&'static Preset, Result<Problem, ProblemError>)>,
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {
+        let (number, about) = (document.number, document.clone());
         let job = move |context: &JobContext<&'static str>| {
             let models: Vec<Model> = problems.iter().map(|(preset, _)| preset.model).collect();
             let mut fits: Vec<(usize, ModelFit)> = Vec::new();
@@ -197,10 +198,11 @@ impl FitJobs {
                 let begun = Instant::now();
                 let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
                 let fitted = |problem: &Problem| {
-                    let before = fits.iter().filter_map(|(_, fit)| fit.result.as_deref().ok());
-                    let problem = with_special_cases(problem, before);
-                    let linear = fit(&problem, starts, seed, observer);
-                    Box::new(whole_intervals(&problem, linear.clone(), observer).unwrap_or(linear))
+                    let before = fits.iter().filter_map(|(_, fit)| fit.report());
+                    let searched = with_special_cases(problem, before);
+                    let linear = fit(&searched, starts, seed, observer);
+                    let report = whole_intervals(&searched, linear.clone(), observer).unwrap_or(linear);
+                    Arc::new(FitEntry::new(about.clone(), Arc::new(problem.clone()), report))
                 };
                 let result = problem.as_ref().map(fitted).map_err(Clone::clone);
                 fits.push((index, ModelFit { preset, result }));

@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::Availability;
+use crate::app::storage::export::SheetForm;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
 use crate::app::views::action::{Action, ListAction};
@@ -53,7 +54,8 @@ fn every_command_can_be_carried_out() {
         }
         wait(&mut harness);
         let notice = explorer(&mut harness).toasts.take();
-        assert_eq!(notice.is_some(), command == Action::CopyTable, "{command:?}: {notice:?}");
+        let says_so = matches!(command, Action::CopyTable | Action::CopyResults(_));
+        assert_eq!(notice.is_some(), says_so, "{command:?}: {notice:?}");
     }
 }
 
@@ -159,7 +161,7 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
         harness.run();
     };
     open(&mut harness, "export");
-    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 3 + plots().count());
+    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 4 + SheetForm::ALL.len() + plots().count());
     harness.key_press(Key::Escape);
     harness.run();
     open(&mut harness, "");

@@ -115,6 +115,8 @@ const SAME: &[&str] = &[
     "Mueller",
     "Marquardt",
     "Markdown",
+    "LaTeX",
+    "booktabs",
     "Levenberg",
     "HTML",
 ];
@@ -126,7 +128,13 @@ pub(crate) fn is_english(text: &str) -> bool {
     // One that is cut before its year begins with initials, or stands in a bracket that does not
     // close.
     let is_cut = text.ends_with('…') && (text.as_bytes().get(1) == Some(&b'.') || text.contains('（'));
-    if PRESETS.iter().any(|preset| preset.key == text) {
+    // Models go by their keys beside the name of a measurement.
+    let is_key = |text: &str| PRESETS.iter().any(|preset| preset.key == text);
+    let text = match text.rsplit_once(" · ").or_else(|| text.rsplit_once(", ")) {
+        Some((name, key)) if is_key(key) => name,
+        _ => text,
+    };
+    if is_key(text) {
         return false;
     }
     let rest = SAME.iter().fold(text.to_owned(), |rest, same| rest.replace(same, ""));
@@ -210,7 +218,7 @@ fn what_unfolds_is_in_chinese() {
     let mut harness = chinese();
     let mut english = Vec::new();
     order(&mut harness, Action::CompareModels);
-    for folded in ["选项", "这些数据能确定什么", "相关系数", "剖面与自助法", "拟合历史（1）"] {
+    for folded in ["选项", "这些数据能确定什么", "相关系数", "剖面与自助法", "拟合历史（11）"] {
         click(&mut harness, folded);
         wait(&mut harness);
         english.extend(left(&harness, folded));

@@ -32,6 +32,7 @@ mod picture;
 mod places;
 mod planning;
 mod reports;
+mod results;
 mod scans;
 mod sessions;
 mod sharing;

@@ -78,7 +78,7 @@ fn bounds_hold_while_refitting_and_comparing() {
     let explorer = explorer(&mut harness);
     assert!(!explorer.work.model_comparison().is_empty());
     for rung in explorer.work.model_comparison() {
-        let k = rung.result.as_ref().expect("a fit").parameters.k;
+        let k = rung.report().expect("a fit").parameters.k;
         assert!((2.0..=2.5).contains(&k), "{}: {k}", rung.preset.key);
     }
 }
@@ -145,7 +145,7 @@ fn a_click_in_the_history_returns_to_a_fit() {
     harness.get_by_label("History of fits (2)").click();
     // The list unfolds, while the intervals of the fit are being found.
     harness.run_steps(30);
-    harness.get_by_label("1. cauchy").click_accesskit();
+    harness.get_by_label("1. 45# steel (simulated) · cauchy").click_accesskit();
     harness.run();
     let explorer = explorer(&mut harness);
     assert_eq!(explorer.work.surface().parameters, first);

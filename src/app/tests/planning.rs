@@ -93,7 +93,7 @@ fn models_stand_beside_each_other_and_one_is_taken_over() {
     let preset = Preset::from_key("minnaert").expect("a preset");
     let rung = explorer.work.model_comparison().iter().find(|rung| rung.preset.key == "minnaert").expect("a rung");
     assert_eq!(explorer.work.surface().model, preset.model);
-    assert_eq!(explorer.work.surface().parameters, rung.result.as_ref().expect("a fit").parameters);
+    assert_eq!(explorer.work.surface().parameters, rung.report().expect("a fit").parameters);
 }
 
 #[test]

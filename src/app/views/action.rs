@@ -8,6 +8,7 @@ use crate::app::work::edit::Switch;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
 use crate::app::work::sharing::Sharing;
+use crate::report::TableFormat;
 use pbrdf::model::Parameter;
 use std::path::PathBuf;
 
@@ -43,6 +44,8 @@ pub enum Action {
     CopyPlot(PaneId),
     /// The measurement to the clipboard, as text.
     CopyTable,
+    /// The table of results to the clipboard, as text of that form.
+    CopyResults(TableFormat),
     List(ListAction),
     /// Load the bundled example of that number.
     OpenExample(usize),

@@ -3,9 +3,11 @@
 use crate::app::views::curves::{directions, drawn, drawn_brdf};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
+use crate::app::work::workspace::Workspace;
 use pbrdf::fit::FitResult;
 use pbrdf::model::{DolpFormula, Pbrdf};
 use pbrdf::optics::Facet;
+use tr::tr;
 
 /// What a band depends on: the fit by its number in the session, the document, whether the
 /// backscatter side is drawn, whether the BRDF is multiplied by cos θr. None where there is no
@@ -19,6 +21,13 @@ pub type Band = Vec<[f64; 3]>;
 pub fn band_key(fit: Option<&FitEntry>, document: &OpenMeasurement, backscatter: bool, times_cosine: bool, shown: bool) -> BandKey {
     let fit = fit.filter(|fit| shown && fit.number == document.number)?;
     Some((fit.id, document.plotted, backscatter, times_cosine))
+}
+
+/// What the band of a series is called in a figure: as its curve, while that is the fitted one.
+pub fn band_name(work: &Workspace, series: &str) -> String {
+    let surface = work.surface();
+    let is_fitted = work.shown_fit().is_some_and(|fit| (fit.report.model, fit.report.parameters) == (surface.model, surface.parameters));
+    if is_fitted { series.to_owned() } else { tr!("± 1 standard error of the last fit") }
 }
 
 /// Around the fitted DoLP along each series.

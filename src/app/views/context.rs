@@ -8,6 +8,7 @@ use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::settings::ViewOptions;
 use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
+use crate::report::ResultTable;
 use egui::{Key, Response, Ui};
 use std::any::Any;
 
@@ -66,6 +67,11 @@ pub trait View: Any {
 
     /// What it shows, for files and the clipboard.
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
+        None
+    }
+
+    /// Its table of results, the same way.
+    fn table(&self, _cx: &Cx<'_>) -> Option<ResultTable> {
         None
     }
 

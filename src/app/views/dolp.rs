@@ -7,7 +7,7 @@ use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, R
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::companions::{CompanionId, Look};
-use crate::app::views::confidence_band::{Band, BandKey, band_key, dolp_bands};
+use crate::app::views::confidence_band::{Band, BandKey, band_key, band_name, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
@@ -113,7 +113,7 @@ impl DolpView {
             let of_series = |along: &Memo<Option<SurfaceKey>, Vec<Polyline>>| along.get().and_then(|curves| curves.get(i)).cloned();
             self.push_limit(&mut series, curves, &names, color, cx.work.settings());
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)).filter(|_| self.shows(Line::Band)) {
-                series.push(Series::band(&marks.name, band.clone()).colored(color));
+                series.push(Series::band(band_name(cx.work, &marks.name), band.clone()).colored(color));
             }
             if let Some(curve) = of_series(&self.overlay).filter(|_| self.shows(Line::Other)) {
                 series.push(Series::stroke(&names.other, curve, 1.2, Dash::Sparse).colored(color));

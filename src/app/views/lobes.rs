@@ -7,7 +7,7 @@ use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Range, nice
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::companions::{Companion, CompanionId, Companions};
-use crate::app::views::confidence_band::{Band, BandKey, band_key, brdf_bands};
+use crate::app::views::confidence_band::{Band, BandKey, band_key, band_name, brdf_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
@@ -112,7 +112,7 @@ impl LobesView {
         for (i, (curves, marks)) in all.filter(|(_, (_, marks))| !marks.brdf.is_empty() && self.shows(Line::Series(marks.index))) {
             let color = marks.ink;
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)) {
-                series.push(Series::band(&marks.name, band.clone()).colored(color));
+                series.push(Series::band(band_name(cx.work, &marks.name), band.clone()).colored(color));
             }
             series.push(Series::line(&marks.name, curves.total.clone()).colored(color));
             series.extend(marks.brdf.series(&marks.name, color, marker));

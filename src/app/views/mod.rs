@@ -31,6 +31,7 @@ mod polar_lobes;
 mod report;
 mod residuals;
 mod residuals_against_angle;
+mod results;
 mod series_choice;
 mod stability;
 
@@ -80,6 +81,11 @@ impl Views {
     /// The figure of a pane, for files and the clipboard.
     pub fn figure(&self, pane: PaneId, cx: &Cx<'_>) -> Option<crate::figure::Figure> {
         self.all[pane as usize].figure(cx)
+    }
+
+    /// The table of a pane, for files and the clipboard.
+    pub fn table(&self, pane: PaneId, cx: &Cx<'_>) -> Option<crate::report::ResultTable> {
+        self.all[pane as usize].table(cx)
     }
 
     /// Whether a pane on screen shows the curves and points that panes share.

@@ -13,8 +13,9 @@ use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::explain;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::workspace::Workspace;
-use egui::{Button, CollapsingHeader, Grid, Label, Response, RichText, Role, ScrollArea, TextWrapMode, Ui, Widget, WidgetInfo};
-use pbrdf::fit::{DistributionComparison, Estimate, FitResult};
+use crate::report::bracketed;
+use egui::{Button, CollapsingHeader, Grid, Response, RichText, Role, ScrollArea, TextWrapMode, Ui, Widget, WidgetInfo};
+use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
 
@@ -77,52 +78,45 @@ pub fn running_model_ui(key: Option<&str>, ui: &mut Ui) {
 /// Between columns.
 const SPACING: [f32; 2] = [9.0, 4.0];
 
-/// Width of the names, in points: with it the numbers beside them fit into a pane of a small
-/// window.
-const NAME: f32 = 200.0;
+/// The names have what the pane has beside the numbers up to n and k, between these widths in points.
+const NAMES: std::ops::RangeInclusive<f32> = 120.0..=330.0;
+/// Width of the columns from the pins to k, in points.
+const NUMBERS: f32 = 430.0;
 
-fn narrow_ui(ui: &mut Ui, name: impl Widget) -> Response {
+fn narrow_ui(ui: &mut Ui, width: f32, name: impl Widget) -> Response {
     ui.scope(|ui| {
-        ui.set_max_width(NAME);
+        ui.set_max_width(width);
         ui.add(name)
     })
     .inner
 }
 
+/// One line a model: how well it fits, its parameters as `2.049(23)`, and what the fit cost.
 fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>, ui: &mut Ui) {
-    let (comparison, current, document) = (work.model_comparison(), work.surface().model, work.active());
-    let best = comparison.iter().filter_map(|rung| rung.result.as_ref().ok()?.statistics.aicc).fold(f64::INFINITY, f64::min);
-    ui.weak(tr!("A click on a model takes its terms and values to the sliders."));
+    let (comparison, document) = (work.model_comparison(), work.active());
+    let best = comparison.iter().filter_map(|row| row.report()?.statistics.aicc).fold(f64::INFINITY, f64::min);
+    let current = work.preset().map(|preset| preset.key);
+    let width = (ui.clip_rect().width() - NUMBERS).clamp(*NAMES.start(), *NAMES.end());
+    ui.weak(tr!("A click on a model takes its terms and values to the sliders, and shows its fit."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
-        ui.strong(tr!("model"));
-        ui.label("");
-        ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
-        for (heading, help) in [
-            ("χ²/dof", "Where standard deviations are used as weights"),
-            ("ΔAICc", "Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"),
-            ("starts", "How many reached the best minimum, of how many"),
-            ("evaluations", "Of the residuals, all starts together"),
-            ("time / ms", "All starts together"),
-        ] {
-            ui.strong(translated(heading)).on_hover_text(translated(help));
-        }
-        ui.end_row();
-        for (index, rung) in comparison.iter().enumerate() {
-            let is_current = rung.result.as_ref().is_ok_and(|report| report.model == current);
-            let is_best = rung.result.as_ref().is_ok_and(|report| report.statistics.aicc == Some(best));
-            let name = translated(rung.preset.name);
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        headings_ui(ui);
+        for (index, row) in comparison.iter().enumerate() {
+            let is_current = current == Some(row.preset.key) && row.report().is_some_and(|report| report.model == work.surface().model);
+            let is_best = row.report().is_some_and(|report| report.statistics.aicc == Some(best));
+            let name = translated(row.preset.name);
             let text = RichText::new(if is_best { format!("★ {name}") } else { name.clone() });
             let text = if is_best { text.strong() } else { text };
-            let citation = translated(rung.preset.citation);
+            let citation = translated(row.preset.citation);
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
             let button = Button::selectable(is_current, text).truncate();
-            if narrow_ui(ui, button).on_hover_text(format!("{name}\n{help}")).clicked() {
+            if narrow_ui(ui, width, button).on_hover_text(format!("{name}\n{help}")).clicked() {
                 edits.push(Edit::UseModelFit(index));
             }
-            match &rung.result {
-                Ok(report) => {
+            match &row.result {
+                Ok(fit) => {
                     pin_ui(&name, index, actions, ui);
-                    quality_ui(report, best, ui);
+                    numbers_ui(&fit.report, best, ui);
                 }
                 Err(error) => {
                     ui.label("");
@@ -133,8 +127,26 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
             ui.end_row();
         }
     });
-    ui.add_space(6.0);
-    parameters_ui(comparison, ui);
+}
+
+fn headings_ui(ui: &mut Ui) {
+    ui.strong(tr!("model"));
+    ui.label("");
+    ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
+    ui.strong("ΔAICc")
+        .on_hover_text(tr!("Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"));
+    for parameter in Parameter::ALL {
+        ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
+    }
+    for (heading, help) in [
+        ("χ²/dof", "Where standard deviations are used as weights"),
+        ("starts", "How many reached the best minimum, of how many"),
+        ("evaluations", "Of the residuals, all starts together"),
+        ("time / ms", "All starts together"),
+    ] {
+        ui.strong(translated(heading)).on_hover_text(translated(help));
+    }
+    ui.end_row();
 }
 
 /// A button that pins the surface of a row.
@@ -146,51 +158,30 @@ fn pin_ui(name: &str, index: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
     }
 }
 
-fn quality_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
+fn numbers_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.statistics.chi2.filter(|_| report.statistics.dof > 0).map(|chi2| chi2 / report.statistics.dof as f64);
-    ui.monospace(number(report.objective, |value| format!("{value:.4e}"))).on_hover_text(report.stop_reason.localized());
-    ui.monospace(number(reduced, |value| format!("{value:.3}")));
-    ui.monospace(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
-    ui.monospace(tr!("{} of {}", report.course.hits_of_best(), report.course.starts()));
-    ui.monospace(report.course.evaluations.to_string());
-    ui.monospace(format!("{:.1}", report.course.elapsed_ms));
+    ui.label(number(report.objective, |value| format!("{value:.3e}"))).on_hover_text(report.stop_reason.localized());
+    ui.label(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
+    for parameter in Parameter::ALL {
+        match report.estimate(parameter) {
+            Some(estimate) => estimate_ui(estimate, ui),
+            None => _ = ui.label(""),
+        }
+    }
+    ui.label(number(reduced, |value| format!("{value:.3}")));
+    ui.label(tr!("{} of {}", report.course.hits_of_best(), report.course.starts()));
+    ui.label(report.course.evaluations.to_string());
+    ui.label(format!("{:.1}", report.course.elapsed_ms));
 }
 
-/// The parameters of each model, with what is known of each under its value: side by side they
-/// would be wider than most screens.
-fn parameters_ui(comparison: &[ModelFit], ui: &mut Ui) {
-    Grid::new("parameters of models").striped(true).spacing(SPACING).show(ui, |ui| {
-        ui.strong(translated("model"));
-        for parameter in Parameter::ALL {
-            ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
-        }
-        ui.end_row();
-        for rung in comparison {
-            let Ok(report) = &rung.result else { continue };
-            narrow_ui(ui, Label::new(translated(rung.preset.name)).truncate());
-            for parameter in Parameter::ALL {
-                match report.estimates.iter().find(|estimate| estimate.parameter == parameter) {
-                    Some(estimate) => estimate_ui(estimate, ui),
-                    None => _ = ui.label(""),
-                }
-            }
-            ui.end_row();
-        }
-    });
-}
-
-/// Letters of parameters: nine columns fit into a narrow pane.
-const LETTERS: f32 = 11.0;
-
+/// A value with its uncertainty in brackets; faint where the data do not determine it.
 fn estimate_ui(estimate: &Estimate, ui: &mut Ui) {
-    ui.vertical(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        ui.label(RichText::new(estimate.value_text()).size(LETTERS));
-        ui.label(RichText::new(uncertainty_text(estimate)).size(LETTERS)).on_hover_text(uncertainty_help(estimate));
-    });
+    let text = RichText::new(bracketed(estimate));
+    let is_known = matches!(estimate.status(), EstimateStatus::Determined(_) | EstimateStatus::Within(_));
+    let text = if is_known { text } else { text.weak() };
+    ui.label(text).on_hover_text(format!("{}\n{}", uncertainty_text(estimate), uncertainty_help(estimate)));
 }
 
 fn starts_ui(comparison: &[ModelFit], ui: &mut Ui) {
@@ -199,7 +190,7 @@ fn starts_ui(comparison: &[ModelFit], ui: &mut Ui) {
         glossary::minima_headings_ui(ui);
         ui.end_row();
         for rung in comparison {
-            let minima = rung.result.as_ref().map_or(&[][..], |report| &report.course.minima);
+            let minima = rung.report().map_or(&[][..], |report| &report.course.minima);
             for (i, minimum) in minima.iter().take(MOST_MINIMA).enumerate() {
                 ui.label(if i == 0 { translated(rung.preset.name) } else { String::new() });
                 ui.monospace(format!("{:.6e}", minimum.objective));
@@ -216,7 +207,7 @@ const MOST_MINIMA: usize = 6;
 
 /// Gauss against Cauchy, in words.
 fn verdicts(comparison: &[ModelFit]) -> Vec<String> {
-    let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.result.as_ref().ok();
+    let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.report();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
         let contest = DistributionComparison::new(report(gauss)?, report(cauchy)?)?;
         Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), contest.localized()))

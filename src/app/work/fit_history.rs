@@ -3,7 +3,7 @@
 use crate::app::work::open_measurement::{Mask, OpenMeasurement};
 use pbrdf::fit::{FitResult, JointProblem, JointResult, Minimum, Problem};
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{ParameterSet, Parameters};
+use pbrdf::model::{ParameterSet, Parameters, Preset};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -87,6 +87,11 @@ impl FitEntry {
         about.into_iter().enumerate().map(entry).collect()
     }
 
+    /// The preset that was fitted, if its terms are those of one.
+    pub fn preset(&self) -> Option<&'static Preset> {
+        Preset::of_fit(self.report.model, self.problem.options().dolp_only)
+    }
+
     /// Whether both are of one joint fit.
     fn is_joined_with(&self, other: &Self) -> bool {
         self.joint.as_ref().zip(other.joint.as_ref()).is_some_and(|(one, other)| Arc::ptr_eq(&one.of, &other.of))
@@ -108,7 +113,7 @@ impl FitEntry {
 }
 
 /// Fits that are kept.
-const MOST_FITS: usize = 20;
+const MOST_FITS: usize = 60;
 
 /// Residuals of all kept fits together: each fit holds on to its data.
 const MOST_RESIDUALS: usize = 500_000;
@@ -132,6 +137,23 @@ impl FitHistory {
             self.fits.retain(|fit| Some(fit.id) != oldest);
         }
         fit
+    }
+
+    /// Makes fits of the file with that hash and name, whose measurement is open no more, fits of the
+    /// measurement that was opened from it again; the newest with the same mask is given back.
+    pub fn reattach(&mut self, opened: &OpenMeasurement, is_open: impl Fn(u64) -> bool) -> Option<Arc<FitEntry>> {
+        let sha256 = opened.sha256.as_ref()?;
+        let is_same = |fit: &FitEntry| {
+            fit.sha256.as_ref() == Some(sha256) && fit.document == opened.name && fit.data.rows.len() == opened.measurement.rows.len()
+        };
+        for fit in self.fits.iter_mut().filter(|fit| is_same(fit) && !is_open(fit.number)) {
+            let has_mask = fit.mask == *opened.mask();
+            let fit = Arc::make_mut(fit);
+            fit.number = opened.number;
+            // A fit with another mask is of no generation of its measurement.
+            fit.generation = if has_mask { opened.generation } else { 0 };
+        }
+        self.fits.iter().find(|fit| fit.number == opened.number && fit.generation == opened.generation).cloned()
     }
 
     /// Puts a report in the place of that of a kept fit, and gives the fit back.

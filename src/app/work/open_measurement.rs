@@ -221,8 +221,7 @@ impl OpenMeasurement {
 
     /// Its name as the window shows it: that of an example in the language of the window.
     pub fn title(&self) -> String {
-        let is_example = EXAMPLES.iter().any(|example| example.name == self.name);
-        if is_example { translated(&self.name) } else { self.name.clone() }
+        title_of(&self.name)
     }
 
     /// What its metadata say about it, for a line under the plots.
@@ -241,6 +240,12 @@ impl OpenMeasurement {
         parts.push(if self.mask.is_empty() { tr!("{} rows", rows) } else { tr!("{0} rows, {1} masked", rows, self.mask.len()) });
         parts.join(" · ")
     }
+}
+
+/// The name of a measurement as the window shows it: that of an example in the language of the window.
+pub fn title_of(name: &str) -> String {
+    let is_example = EXAMPLES.iter().any(|example| example.name == name);
+    if is_example { translated(name) } else { name.to_owned() }
 }
 
 /// The rows that are masked, in ascending order.

@@ -17,6 +17,7 @@ macro_rules! with_panes {
             Data data Lower,
             Planner planner Lower,
             Models models Lower,
+            Results results Lower,
             Metals metals Lower,
             Hemisphere hemisphere Upper,
             Mueller mueller Upper,

@@ -234,7 +234,7 @@ impl Workspace {
             Edit::SetProfile(profile) => self.active_results().diagnostics.profile = profile,
             Edit::SetReplicates(replicates) => self.active_results().diagnostics.replicates = replicates,
             Edit::SetBootstrap(scatter) => self.active_results().diagnostics.scatter = scatter,
-            Edit::SetModelComparison { number, fits } => self.results.of_mut(number).model_comparison = fits,
+            Edit::SetModelComparison { number, fits } => self.set_model_comparison(number, fits),
             Edit::SetLayout(layout) => self.layout = layout,
             Edit::SetSessionFile(file) => self.session_file = file,
             Edit::Undo => self.restore(History::undo),
@@ -247,12 +247,7 @@ impl Workspace {
             Edit::UseFit => self.use_shown_fit(|fit| fit.report.parameters, true),
             Edit::UseValuesBeforeFit => self.use_shown_fit(|fit| fit.before, false),
             Edit::ReturnToFit(index) => self.return_to_fit(index),
-            Edit::UseModelFit(index) => {
-                if let Some(ModelFit { result: Ok(report), .. }) = self.model_comparison().get(index) {
-                    let (parameters, model) = (report.parameters, report.model);
-                    self.take_values(parameters, model);
-                }
-            }
+            Edit::UseModelFit(index) => self.use_model_fit(index),
         }
     }
 

@@ -11,6 +11,7 @@ use crate::app::shell::file_dialogs::request_for;
 use crate::app::shell::theme;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
+use crate::app::text::messages::WindowWording;
 use crate::app::views::action::Action;
 use crate::app::views::table_text;
 use crate::app::work::edit::Edit;
@@ -18,6 +19,7 @@ use crate::app::work::layout::Layout;
 use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
+use crate::report::TableFormat;
 use egui::ViewportCommand;
 use pbrdf::model::{FINISHES, PRESETS, Parameters};
 use pbrdf::selftest::Setting;
@@ -36,6 +38,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Export(kind, path) => export(app, kind, path)?,
         Action::CopyPlot(pane) => ctx.copy_image(export::image(app.figure(pane))?),
         Action::CopyTable => copy_table(app, ctx),
+        Action::CopyResults(format) => copy_results(app, ctx, format)?,
         Action::SaveNew(path) => write_new(app, ctx, path.clone(), Action::SaveMeasurement(path))?,
         Action::ExportNew(kind, path) => {
             kind.check(&path)?;
@@ -136,13 +139,25 @@ fn write_new(app: &mut App, ctx: &egui::Context, path: PathBuf, command: Action)
 
 fn export(app: &mut App, kind: ExportKind, path: PathBuf) -> Result<(), String> {
     kind.check(&path)?;
-    let figure = if let ExportKind::Plot(pane) = kind { app.figure(pane) } else { None };
-    let write = kind.snapshot(&app.work, figure)?;
+    let figure = match kind {
+        ExportKind::Plot(pane) => app.figure(pane),
+        ExportKind::Sheet(form) => app.sheet(form),
+        _ => None,
+    };
+    let write = if kind == ExportKind::Results { export::results(app.results())? } else { kind.snapshot(&app.work, figure)? };
     app.jobs.files.export(kind, app.work.revision(), path, write)
 }
 
 fn open_example(app: &mut App, index: usize) -> Result<(), String> {
     EXAMPLES.get(index).map_or(Ok(()), |example| app.jobs.files.open_text(example.name.to_owned(), example.text))
+}
+
+/// The table of results to the clipboard.
+fn copy_results(app: &mut App, ctx: &egui::Context, format: TableFormat) -> Result<(), String> {
+    let table = app.results().ok_or_else(|| tr!("There is no fit yet."))?;
+    ctx.copy_text(table.text(format, &WindowWording));
+    app.toasts.info(tr!("The table of results is copied."));
+    Ok(())
 }
 
 /// The table of the pane Data to the clipboard.

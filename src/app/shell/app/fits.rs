@@ -148,7 +148,7 @@ pub fn compare_models(app: &mut App) -> Result<(), String> {
     let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
     let number = app.work.active().number;
     app.work.apply(Edit::SetModelComparison { number, fits: Vec::new() });
-    app.jobs.fits.compare(number, problems, starts, seed)
+    app.jobs.fits.compare(app.work.active(), problems, starts, seed)
 }
 
 pub fn start_profile(app: &mut App, parameter: Parameter) -> Result<(), String> {

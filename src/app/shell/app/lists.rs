@@ -78,8 +78,8 @@ fn pin_fit(app: &mut App) {
 
 /// A row of the comparison of models.
 fn pin_model_fit(app: &mut App, index: usize) {
-    if let Some(ModelFit { preset, result: Ok(report) }) = app.work.model_comparison().get(index) {
-        let (model, parameters) = (report.model, report.parameters);
+    if let Some(ModelFit { preset, result: Ok(fit) }) = app.work.model_comparison().get(index) {
+        let (model, parameters) = (fit.report.model, fit.report.parameters);
         app.work.apply(Edit::Pin { name: translated(preset.name), model, parameters });
     }
 }

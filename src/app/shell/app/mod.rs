@@ -21,6 +21,7 @@ use crate::app::shell::lessons::Lessons;
 use crate::app::shell::persistence::Persistence;
 use crate::app::shell::theme;
 use crate::app::shell::toasts::Toasts;
+use crate::app::storage::export::SheetForm;
 use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
 use crate::app::tasks::jobs::Jobs;
 use crate::app::text::i18n;
@@ -34,6 +35,7 @@ use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::WindowSettings;
 use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
+use crate::report::ResultTable;
 use pbrdf::model::ParameterSet;
 
 /// The window.
@@ -116,6 +118,20 @@ impl App {
     pub fn figure(&mut self, pane: PaneId) -> Option<Figure> {
         let (cx, views, _) = self.split();
         views.figure(pane, &cx)
+    }
+
+    /// The plots on screen as one figure; none where there are fewer than two.
+    pub fn sheet(&mut self, form: SheetForm) -> Option<Figure> {
+        let panes = self.dock.on_screen();
+        let (rows, columns) = form.shape();
+        let figures: Vec<Figure> = panes.into_iter().filter_map(|pane| self.figure(pane)).take(rows * columns).collect();
+        (figures.len() > 1).then(|| Figure::sheet("", figures, columns))
+    }
+
+    /// The table of results as it is shown.
+    pub fn results(&mut self) -> Option<ResultTable> {
+        let (cx, views, _) = self.split();
+        views.table(PaneId::Results, &cx)
     }
 
     /// Carries out what views and panels asked for, and takes over where the panes lie.

@@ -23,6 +23,7 @@ impl Localized for EndingError {
             Endings::Picture => tr!(".svg or .png"),
             Endings::Report => tr!(".html or .md"),
             Endings::Stokes => tr!(".png, .exr or .csv"),
+            Endings::Table => tr!(".csv, .md or .tex"),
             Endings::Only(ending) => format!(".{ending}"),
         };
         tr!("{0}: expected a name that ends in {1}", self.path.display(), expected)

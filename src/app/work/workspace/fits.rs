@@ -3,15 +3,24 @@
 use super::Workspace;
 use super::results::Results;
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{FitResult, JointResult};
-use pbrdf::model::{Model, Parameters};
+use pbrdf::model::{Model, Parameters, Preset};
 use std::sync::Arc;
 
 impl Workspace {
     pub(super) fn active_results(&mut self) -> &mut Results {
         let number = self.active().number;
         self.results.of_mut(number)
+    }
+
+    /// The preset that the sliders show: that of the shown fit while they stand at it, since several
+    /// presets have the same terms.
+    pub fn preset(&self) -> Option<&'static Preset> {
+        let surface = self.surface();
+        let stands_there = |fit: &&Arc<FitEntry>| (fit.report.model, fit.report.parameters) == (surface.model, surface.parameters);
+        self.shown_fit().filter(stands_there).map_or_else(|| Preset::of(surface.model), |fit| fit.preset())
     }
 
     /// Shows a fit of its measurement; profile and bootstrap of another one are dropped.
@@ -104,6 +113,25 @@ impl Workspace {
                 }
             }
         }
+    }
+
+    /// The fits of a comparison join the history, the first row as the newest; none is shown.
+    pub(super) fn set_model_comparison(&mut self, number: u64, mut fits: Vec<ModelFit>) {
+        let name = self.measurements.get(number).map(|open| open.name.clone());
+        for fit in fits.iter_mut().rev().filter_map(|row| row.result.as_mut().ok()) {
+            let entry = FitEntry::clone(fit);
+            let document = name.clone().unwrap_or_else(|| entry.document.clone());
+            *fit = self.fit_history.push(FitEntry { document, ..entry });
+        }
+        self.results.of_mut(number).model_comparison = fits;
+    }
+
+    /// Shows the fit of a row of the comparison, and takes its values.
+    pub(super) fn use_model_fit(&mut self, index: usize) {
+        let Some(Ok(fit)) = self.model_comparison().get(index).map(|row| row.result.as_ref()) else { return };
+        let fit = fit.clone();
+        self.take_values(fit.report.parameters, fit.report.model);
+        self.show_fit(fit);
     }
 
     pub(super) fn set_fit_report(&mut self, id: usize, report: FitResult) {

@@ -22,6 +22,10 @@ impl Workspace {
         let was_single = self.measurements.measured().count() == 1;
         self.measurements.add(opened);
         self.share_as_stated(was_single, before);
+        let Self { measurements, fit_history, .. } = self;
+        if let Some(fit) = fit_history.reattach(measurements.active(), |number| measurements.get(number).is_some()) {
+            self.show_fit(fit);
+        }
         self.moved_at = 0;
     }
 
