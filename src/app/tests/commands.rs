@@ -161,7 +161,7 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
         harness.run();
     };
     open(&mut harness, "export");
-    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 4 + SheetForm::ALL.len() + plots().count());
+    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 5 + SheetForm::ALL.len() + plots().count());
     harness.key_press(Key::Escape);
     harness.run();
     open(&mut harness, "");

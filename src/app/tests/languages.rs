@@ -105,6 +105,7 @@ const SAME: &[&str] = &[
     "metadata",
     "txt",
     "pbsdf",
+    "exr",
     "json",
     "dat",
     "csv",
