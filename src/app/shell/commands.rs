@@ -336,25 +336,8 @@ fn sharings(app: &App) -> impl Iterator<Item = Command> {
     })
 }
 
-/// Every command that there is at the moment.
-pub fn items(app: &App) -> Vec<Command> {
-    let fixed = ENTRIES.iter().map(|entry| Command {
-        action: entry.action.clone(),
-        menu: entry.menu,
-        text: translated(entry.text).into(),
-        tooltip: translated(entry.tooltip).into(),
-        shortcut: entry.shortcut,
-        status: (entry.status)(app),
-    });
-    let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
-        item(
-            Action::OpenExample(i),
-            Menu::Example,
-            translated(example.name).into(),
-            tr!("A bundled measurement, simulated").into(),
-            Availability::Possible,
-        )
-    });
+/// The files that were opened last, the work of before, and the way to forget the files.
+fn recent_files(app: &App) -> impl Iterator<Item = Command> {
     let recent = app.window.recent.iter().map(|path| {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         item(
@@ -377,6 +360,28 @@ pub fn items(app: &App) -> Vec<Command> {
         tr!("Empty this list; the files stay").into(),
         only_if(!app.window.recent.is_empty()),
     );
+    recent.chain(kept).chain([forget])
+}
+
+/// Every command that there is at the moment.
+pub fn items(app: &App) -> Vec<Command> {
+    let fixed = ENTRIES.iter().map(|entry| Command {
+        action: entry.action.clone(),
+        menu: entry.menu,
+        text: translated(entry.text).into(),
+        tooltip: translated(entry.tooltip).into(),
+        shortcut: entry.shortcut,
+        status: (entry.status)(app),
+    });
+    let examples = EXAMPLES.iter().enumerate().map(|(i, example)| {
+        item(
+            Action::OpenExample(i),
+            Menu::Example,
+            translated(example.name).into(),
+            tr!("A bundled measurement, simulated").into(),
+            Availability::Possible,
+        )
+    });
     let code = i18n::current().code();
     let lessons = app.lessons.all.iter().enumerate().map(|(i, lesson)| {
         let [text, about] = [&lesson.title, &lesson.about].map(|wording| wording.in_language(code).to_owned());
@@ -413,9 +418,7 @@ pub fn items(app: &App) -> Vec<Command> {
         .chain(sharings(app))
         .chain(examples)
         .chain(lessons)
-        .chain(recent)
-        .chain(kept)
-        .chain([forget])
+        .chain(recent_files(app))
         .chain(panes)
         .chain(models)
         .chain(finishes())

@@ -106,6 +106,7 @@ const SAME: &[&str] = &[
     "txt",
     "pbsdf",
     "exr",
+    "png",
     "json",
     "dat",
     "csv",

@@ -8,7 +8,7 @@ use crate::app::text::messages::WindowWording;
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::open_measurement::title_of;
+use crate::app::work::open_measurement::{OpenMeasurement, title_of};
 use crate::app::work::workspace::Workspace;
 use crate::report::{ResultCells, ResultColumn, ResultTable, TableFormat};
 use egui::{Button, Grid, RichText, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
@@ -41,6 +41,9 @@ enum SortRow {
 /// What the table depends on: each fit by its number and whether its intervals are known, its title; the
 /// order; the language.
 type Key = (Vec<(usize, Option<bool>, String)>, Option<(SortRow, bool)>, Language);
+
+/// A fit that becomes a column, with its title.
+type TitledFit<'a> = (ColumnId, &'a Arc<FitEntry>, String);
 
 /// What the pane keeps.
 #[derive(Default)]
@@ -83,7 +86,7 @@ fn newest_fits(work: &Workspace) -> Vec<(ColumnId, &Arc<FitEntry>)> {
 /// The title of a column: its model, and its measurement where there are several.
 fn title(fit: &FitEntry, is_single: bool, work: &Workspace) -> String {
     let model = fit.preset().map_or_else(|| tr!("own terms"), |preset| preset.key.to_owned());
-    let name = work.measurements().get(fit.number).map_or_else(|| title_of(&fit.document), |open| open.title());
+    let name = work.measurements().get(fit.number).map_or_else(|| title_of(&fit.document), OpenMeasurement::title);
     if is_single { model } else { format!("{name}, {model}") }
 }
 
@@ -125,7 +128,7 @@ impl Shown {
 
 impl ResultsView {
     /// The columns that are shown, and what the table depends on.
-    fn columns<'a>(&self, work: &'a Workspace) -> (Key, Vec<(ColumnId, &'a Arc<FitEntry>, String)>) {
+    fn columns<'a>(&self, work: &'a Workspace) -> (Key, Vec<TitledFit<'a>>) {
         let fits: Vec<_> = newest_fits(work).into_iter().filter(|(id, _)| !self.hidden.contains(id)).collect();
         let is_single = fits.iter().all(|((number, _), _)| *number == fits[0].0.0);
         let columns: Vec<_> = fits.into_iter().map(|(id, fit)| (id, fit, title(fit, is_single, work))).collect();
@@ -133,8 +136,8 @@ impl ResultsView {
         ((key, self.sorted, i18n::current()), columns)
     }
 
-    fn made(&self, columns: Vec<(ColumnId, &Arc<FitEntry>, String)>) -> Shown {
-        let column = |(id, fit, title): (ColumnId, &Arc<FitEntry>, String)| {
+    fn made(&self, columns: Vec<TitledFit<'_>>) -> Shown {
+        let column = |(id, fit, title): TitledFit<'_>| {
             let rows = fit.data.rows.len() - fit.mask.len();
             let column = match &fit.joint {
                 Some(part) => ResultColumn::of_set(title, &part.of.result, part.set, rows),
