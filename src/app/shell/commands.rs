@@ -191,7 +191,7 @@ static ENTRIES: &[Entry] = &[
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |app| only_if(app.work.shown_fit().is_some())),
     row(Action::ChooseExport(ExportKind::Picture), Menu::Export, "Picture as numbers…",
-        "What the pane Picture shows: Stokes vectors as .exr or .csv, colours as .png", None, always),
+        "What the pane Picture shows: Stokes vectors as EXR or CSV, colours as PNG", None, always),
     row(Action::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |app| only_if(app.jobs.files.reading_fraction().is_some())),
     row(Action::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Action::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),

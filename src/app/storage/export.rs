@@ -225,7 +225,7 @@ const PICTURE_SIZE: usize = 512;
 /// The picture of the sliders, one half of it of the companion where there is one.
 fn picture(work: &Workspace) -> Result<Write, String> {
     surface(work)?;
-    let (key, options) = (SceneKey::of(work), work.settings().picture);
+    let (key, options) = (SceneKey::of(work), work.settings().maps.picture);
     Ok(Box::new(move |path| {
         let kind = stokes_file_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let (lamp, has_sky) = (key.lamp, key.sky.is_some());

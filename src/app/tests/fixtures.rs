@@ -169,8 +169,8 @@ fn settings_view(settings: &Settings, surface: &Surface) -> Value {
         "wavelength_nm": settings.metal_selection.wavelength_nm,
         "metal_source": settings.metal_selection.source,
         "follow": settings.metal_selection.follow,
-        "landscape": [settings.landscape.across.key(), settings.landscape.up.key()],
-        "landscape_contours": settings.landscape.contours,
+        "landscape": [settings.maps.landscape.across.key(), settings.maps.landscape.up.key()],
+        "landscape_contours": settings.maps.landscape.contours,
     })
 }
 

@@ -68,6 +68,7 @@ const SAME: &[&str] = &[
     "BRDF",
     "Beckmann",
     "CSV",
+    "EXR",
     "Close",
     "Ctrl",
     "Escape",

@@ -45,7 +45,7 @@ pub struct ShownValues {
 impl SceneKey {
     /// Of the work as it is.
     pub fn of(work: &Workspace) -> Self {
-        let (options, surface) = (work.settings().picture, work.surface());
+        let (options, surface) = (work.settings().maps.picture, work.surface());
         let companion = match options.companion {
             PictureCompanion::Nothing => None,
             PictureCompanion::OtherDistribution => surface.of_equal_median(),
@@ -119,9 +119,10 @@ impl Scene {
                 let end = if end > 0.0 { end } else { 1.0 };
                 ShownValues { values, range: (-end, end), colors: ColorMap::Diverging }
             }
-            _ => {
-                let image = self.joined();
-                ShownValues { values: quantity.values(&image, analyser), range: quantity.range(&image), colors: quantity.colors() }
+            other => {
+                let joined = other.as_ref().map(|_| self.joined());
+                let image = joined.as_ref().unwrap_or(&self.image);
+                ShownValues { values: quantity.values(image, analyser), range: quantity.range(image), colors: quantity.colors() }
             }
         }
     }

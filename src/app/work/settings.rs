@@ -127,6 +127,14 @@ impl Default for LandscapeAxes {
     }
 }
 
+/// What the panes with maps of colours show, each under a key of its own among the settings.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MapSettings {
+    pub landscape: LandscapeAxes,
+    pub picture: PictureOptions,
+}
+
 /// Which tabulated metal is looked at, and at which wavelength.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -196,8 +204,8 @@ pub struct Settings {
     pub view_options: ViewOptions,
     #[serde(rename = "tabulated")]
     pub metal_selection: MetalSelection,
-    pub landscape: LandscapeAxes,
-    pub picture: PictureOptions,
+    #[serde(flatten)]
+    pub maps: MapSettings,
 }
 
 impl Default for Settings {
@@ -217,8 +225,7 @@ impl Default for Settings {
             refit_live: false,
             view_options: ViewOptions::default(),
             metal_selection: MetalSelection::default(),
-            landscape: LandscapeAxes::default(),
-            picture: PictureOptions::default(),
+            maps: MapSettings::default(),
         }
     }
 }
@@ -253,7 +260,7 @@ impl Settings {
         Geometry::new(self.theta_i, 0.0, self.dphi).map_err(SettingsError::Angles)?;
         let others = [
             ("plan", self.design.is_sound()),
-            ("picture", self.picture.is_sound()),
+            ("picture", self.maps.picture.is_sound()),
             ("tabulated.wavelength_nm", is_positive(self.metal_selection.wavelength_nm)),
             ("choices.loss_scale", self.fit_options.loss_scale.is_none_or(is_positive)),
         ];

@@ -205,8 +205,8 @@ impl Workspace {
             Edit::SetStarts(starts) => self.settings.starts = starts,
             Edit::SetSeed(seed) => self.settings.seed = seed,
             Edit::SetViewOptions(options) => self.settings.view_options = options,
-            Edit::SetPictureOptions(options) => self.settings.picture = options,
-            Edit::SetLandscapeAxes(axes) => self.settings.landscape = axes,
+            Edit::SetPictureOptions(options) => self.settings.maps.picture = options,
+            Edit::SetLandscapeAxes(axes) => self.settings.maps.landscape = axes,
             Edit::SetMetalSelection(selection) => self.settings.metal_selection = selection,
             Edit::SetDesign(design) => self.settings.design = design,
             Edit::Mask { rows, masked } => {

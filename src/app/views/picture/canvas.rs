@@ -1,7 +1,7 @@
 //! The picture on the screen, what lies on it, and what the pointer does there.
 
 use crate::app::plots::{BAR_ROOM, PlotAxis, color_bar, theme};
-use crate::app::views::picture::made::{Made, texts};
+use crate::app::views::picture::painted::{PaintedScene, texts};
 use egui::{Pos2, Rect, Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
 use pbrdf::model::Lamp;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use tr::tr;
 
 /// The picture in a texture.
 #[derive(Default)]
-pub struct Canvas {
+pub struct PictureCanvas {
     texture: Option<TextureHandle>,
     /// What it shows.
     uploaded: Option<Arc<egui::ColorImage>>,
@@ -17,7 +17,7 @@ pub struct Canvas {
 
 /// A measured direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
+pub struct MeasuredMark {
     /// x and y.
     pub at: [f64; 2],
     /// Whether it is seen under the present lamp.
@@ -56,9 +56,9 @@ fn highlight(lamp: &Lamp) -> [f64; 2] {
     [sin * cos_a, sin * sin_a]
 }
 
-impl Canvas {
+impl PictureCanvas {
     /// Paints the picture and tells what the pointer did.
-    pub fn ui(&mut self, made: &Made, marks: &[Mark], chosen: Option<[f64; 2]>, height: f32, ui: &mut Ui) -> Touched {
+    pub fn ui(&mut self, made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64; 2]>, height: f32, ui: &mut Ui) -> Touched {
         if self.uploaded.as_ref().is_none_or(|uploaded| !Arc::ptr_eq(uploaded, &made.pixels)) {
             let image = egui::ImageData::Color(made.pixels.clone());
             match &mut self.texture {
@@ -95,7 +95,7 @@ impl Canvas {
 }
 
 /// The highlight, measured directions, what was clicked, and the line between two halves.
-fn paint_marks(made: &Made, marks: &[Mark], chosen: Option<[f64; 2]>, rect: Rect, ui: &Ui) {
+fn paint_marks(made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64; 2]>, rect: Rect, ui: &Ui) {
     #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
     let place = |[x, y]: [f64; 2]| rect.center() + 0.5 * rect.width() * vec2(x as f32, -y as f32);
     let (painter, dark) = (ui.painter(), ui.visuals().dark_mode);

@@ -1,6 +1,6 @@
 //! The rows above the picture: what is seen, under which light, through which analyser, beside which surface.
 
-use crate::app::views::picture::made::texts;
+use crate::app::views::picture::painted::texts;
 use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
 use crate::app::work::surface::PinnedSurface;
 use crate::report::PictureQuantity;

@@ -5,7 +5,7 @@
 
 mod canvas;
 mod controls;
-mod made;
+mod painted;
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
@@ -18,9 +18,9 @@ use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::picture_scene::SceneKey;
 use crate::figure::Figure;
 use crate::report::PictureQuantity;
-use canvas::{Canvas, Mark};
+use canvas::{MeasuredMark, PictureCanvas};
 use egui::Ui;
-use made::{Made, MadeKey};
+use painted::{PaintedKey, PaintedScene};
 use pbrdf::model::{Lamp, Shape};
 use pbrdf::optics::{Geometry, Stokes};
 use tr::tr;
@@ -37,12 +37,12 @@ pub static SPEC: PaneSpec = PaneSpec {
 /// What the pane keeps.
 #[derive(Default)]
 pub struct PictureView {
-    job: AsyncMemo<MadeKey, Option<Made>>,
-    canvas: Canvas,
+    job: AsyncMemo<PaintedKey, Option<PaintedScene>>,
+    canvas: PictureCanvas,
     /// The analyser turns by itself: how far it has turned from its setting, degrees.
     turned: Option<f64>,
     /// Measured directions by the measurement, where the lamp is and the shape.
-    measured: Memo<(u64, Option<Lamp>, Shape), Vec<Mark>>,
+    measured: Memo<(u64, Option<Lamp>, Shape), Vec<MeasuredMark>>,
     /// What was clicked: x and y.
     chosen: Option<[f64; 2]>,
 }
@@ -53,25 +53,25 @@ const TURN: f64 = 30.0;
 const SEEN: f64 = 1.0;
 
 /// Measured directions on the sphere, each under a lamp at the azimuth of the present one.
-fn measured(document: &OpenMeasurement, lamp: Option<Lamp>, shape: Shape) -> Vec<Mark> {
+fn measured(document: &OpenMeasurement, lamp: Option<Lamp>, shape: Shape) -> Vec<MeasuredMark> {
     let Some(lamp) = lamp.filter(|_| shape == Shape::Sphere) else { return Vec::new() };
     let geometries = document.measurement.rows.iter().map(|row| row.geometry);
     let mark = |geometry: Geometry| {
         let (own, [x, y, _]) = Lamp::facing(geometry, lamp.azimuth().0)?;
-        Some(Mark { at: [x, y], seen: (own.polar().0 - lamp.polar().0).abs() < SEEN })
+        Some(MeasuredMark { at: [x, y], seen: (own.polar().0 - lamp.polar().0).abs() < SEEN })
     };
     geometries.filter_map(mark).take(MOST_POINTS).collect()
 }
 
 impl PictureView {
     /// The newest picture.
-    fn made(&self) -> Option<&Made> {
+    fn made(&self) -> Option<&PaintedScene> {
         self.job.get()?.as_ref()
     }
 
     /// The options with the analyser where it has turned to.
     fn options(&self, cx: &Cx<'_>) -> PictureOptions {
-        let set = cx.work.settings().picture;
+        let set = cx.work.settings().maps.picture;
         PictureOptions { analyser: (set.analyser + self.turned.unwrap_or(0.0)).rem_euclid(180.0), ..set }
     }
 
@@ -154,7 +154,7 @@ fn stokes_text(stokes: Stokes, options: &PictureOptions) -> String {
 impl View for PictureView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let options = self.options(cx);
-        let key = MadeKey { scene: SceneKey::of(cx.work), options, held: cx.interacting };
+        let key = PaintedKey { scene: SceneKey::of(cx.work), options, held: cx.interacting };
         // Values that are not numbers differ from themselves: a job would follow a job for ever.
         if key != key {
             self.job = AsyncMemo::default();
@@ -162,13 +162,13 @@ impl View for PictureView {
         }
         let before = self.made().map(|made| (made.scene.clone(), made.held_range(&key)));
         let own = key.clone();
-        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| Made::new(own, before, stopped));
+        self.job.refresh(&cx.jobs.spawner, &key, move |stopped| PaintedScene::new(own, before, stopped));
         let lamp = SceneKey::of(cx.work).lamp;
         self.measured.refresh((cx.work.active().generation, lamp, options.shape), |_| measured(cx.work.active(), lamp, options.shape));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let mut set = cx.work.settings().picture;
+        let mut set = cx.work.settings().maps.picture;
         controls::content_ui(&mut set, ui);
         controls::light_ui(&mut set, ui);
         controls::analyser_ui(&mut set, &mut self.turned, ui);
@@ -200,7 +200,7 @@ impl View for PictureView {
         if let Some(lesson) = self.lesson() {
             ui.add(egui::Label::new(egui::RichText::new(&lesson).weak()).truncate()).on_hover_text(lesson);
         }
-        if set != cx.work.settings().picture {
+        if set != cx.work.settings().maps.picture {
             cx.edits.push(Edit::SetPictureOptions(set));
         }
     }

@@ -7,17 +7,19 @@ use crate::app::work::picture_scene::{Scene, SceneKey};
 use crate::figure::{Axis, ColorMap, Figure};
 use crate::report::{PictureQuantity, picture_figure, picture_map};
 use egui::ColorImage;
-use pbrdf::model::{Pbrdf, Quality};
+use pbrdf::model::{Diffuse, Model, Pbrdf, Quality};
 use pbrdf::optics::{Facet, Geometry};
 use std::sync::Arc;
 use tr::tr;
 
 /// Pixels along an edge.
-pub const SIZE: usize = 512;
+const SIZE: usize = 512;
+/// The same of Hyde's model, which takes an integral for every angle of incidence.
+const SLOW_SIZE: usize = 128;
 
 /// All that the job depends on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MadeKey {
+pub struct PaintedKey {
     pub scene: SceneKey,
     pub options: PictureOptions,
     /// Whether a button of the mouse is down: the ends of the colours then grow and do not shrink.
@@ -25,8 +27,8 @@ pub struct MadeKey {
 }
 
 /// A picture with its colours.
-pub struct Made {
-    pub key: MadeKey,
+pub struct PaintedScene {
+    pub key: PaintedKey,
     pub scene: Arc<Scene>,
     pub values: Vec<f64>,
     pub scale: ColorScale,
@@ -35,26 +37,27 @@ pub struct Made {
     pub fresnel_limit: Option<f64>,
 }
 
-impl Made {
+impl PaintedScene {
     /// After the picture before and the ends of its colours, as far as they are still of use.
-    pub fn new(key: MadeKey, before: Option<(Arc<Scene>, Option<Range>)>, stopped: Stopped<'_>) -> Option<Self> {
+    pub fn new(key: PaintedKey, before: Option<(Arc<Scene>, Option<Range>)>, stopped: Stopped<'_>) -> Option<Self> {
         let (before, held) = before.map_or((None, None), |(scene, range)| (Some(scene), range));
         let scene = match before {
             Some(scene) if scene.key == key.scene => scene,
-            before => Arc::new(Scene::new(key.scene.clone(), SIZE, Quality::Fast, before.as_deref(), stopped)?),
+            before => Arc::new(Scene::new(key.scene.clone(), size(&key.scene), Quality::Fast, before.as_deref(), stopped)?),
         };
         let shown = scene.shown(&key.options);
         let (low, high) = shown.range;
         let range = held.map_or(Range { low, high }, |held| Range { low: held.low.min(low), high: held.high.max(high) });
         let scale = ColorScale { map: shown.colors, range };
         let table = scale.table();
-        let pixels = Arc::new(ColorImage::new([SIZE, SIZE], shown.values.iter().map(|value| table.color(*value)).collect()));
+        let size = scene.image.size;
+        let pixels = Arc::new(ColorImage::new([size, size], shown.values.iter().map(|value| table.color(*value)).collect()));
         let fresnel_limit = fresnel_limit(&key.scene);
         Some(Self { key, scene, values: shown.values, scale, pixels, fresnel_limit })
     }
 
     /// The ends of the colours, where they are to be kept for that picture.
-    pub fn held_range(&self, next: &MadeKey) -> Option<Range> {
+    pub fn held_range(&self, next: &PaintedKey) -> Option<Range> {
         let same = next.options.quantity == self.key.options.quantity && self.is_difference() == is_difference(next);
         (next.held && same).then_some(self.scale.range)
     }
@@ -74,8 +77,14 @@ impl Made {
     /// The picture as a figure.
     pub fn figure(&self, title: String) -> Figure {
         let map: ColorMap = self.scale.map;
-        picture_figure(title, picture_map(&self.values, SIZE, self.axis(), map))
+        picture_figure(title, picture_map(&self.values, self.scene.image.size, self.axis(), map))
     }
+}
+
+fn size(key: &SceneKey) -> usize {
+    let is_slow = |model: Model| model.specular && model.diffuse == Diffuse::Hyde;
+    let companion = key.companion.is_some_and(|(model, _)| is_slow(model));
+    if is_slow(key.surface.0) || companion { SLOW_SIZE } else { SIZE }
 }
 
 /// DoLP_s under a lamp: β is half its angle from the camera.
@@ -85,7 +94,7 @@ fn fresnel_limit(key: &SceneKey) -> Option<f64> {
     Some(Pbrdf::new(key.surface.0, key.surface.1).ok()?.fresnel_limit(&facet))
 }
 
-fn is_difference(key: &MadeKey) -> bool {
+fn is_difference(key: &PaintedKey) -> bool {
     key.options.difference && key.scene.companion.is_some()
 }
 
