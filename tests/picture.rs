@@ -1,5 +1,6 @@
 //! The command `picture` by process: its files against each other and against `evaluate`.
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of pixels, and the numbers of an .exr")]
 #![cfg(feature = "cli")]
 
 mod common;
@@ -29,15 +30,15 @@ fn every_row_is_what_evaluate_says_turned_into_the_cameras_frame() {
         }
         let evaluated = numbers(&answer(&["evaluate", &folder.file("in.csv", table), "--mueller"]));
         for (row, evaluated) in rows.iter().zip(&evaluated) {
-            let cos_i = row[2].to_radians().cos();
+            let cos_i = libm::cos(row[2].to_radians());
             let (m00, m10, m20) = (evaluated[5], evaluated[9], evaluated[13]);
             assert!((row[5] - m00 * cos_i).abs() <= 1e-12 * row[5].max(1e-3), "{shape} {row:?} {m00}");
-            let polarised = m10.hypot(m20) * cos_i;
-            assert!((row[6].hypot(row[7]) - polarised).abs() <= 1e-12 * row[5].max(1e-3), "{shape} {row:?}");
+            let polarised = libm::hypot(m10, m20) * cos_i;
+            assert!((libm::hypot(row[6], row[7]) - polarised).abs() <= 1e-12 * row[5].max(1e-3), "{shape} {row:?}");
             assert_eq!(row[8], 0.0);
             if shape == "sphere" {
                 // The normal of a sphere of radius 1 is its own place.
-                let (sin, cos) = (2.0 * row[1].atan2(row[0])).sin_cos();
+                let (sin, cos) = libm::sincos(2.0 * libm::atan2(row[1], row[0]));
                 let (s1, s2) = (-(m10 * cos - m20 * sin) * cos_i, -(m10 * sin + m20 * cos) * cos_i);
                 assert!((row[6] - s1).abs() <= 1e-12 && (row[7] - s2).abs() <= 1e-12, "{row:?} {s1} {s2}");
             }

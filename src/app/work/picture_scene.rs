@@ -56,7 +56,8 @@ impl SceneKey {
             lamp: options.lamp.then(|| Lamp::new(options.polar, options.azimuth).ok()).flatten(),
             sky: options.sky.then_some(options.sky_radiance),
             surface: (surface.model, surface.parameters),
-            companion,
+            // A slope without bounds is no surface to stand beside it.
+            companion: companion.filter(|(model, parameters)| Pbrdf::new(*model, *parameters).is_ok()),
         }
     }
 }

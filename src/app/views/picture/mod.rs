@@ -21,7 +21,7 @@ use crate::report::PictureQuantity;
 use canvas::{MeasuredMark, PictureCanvas};
 use egui::Ui;
 use painted::{PaintedKey, PaintedScene};
-use pbrdf::model::{Lamp, Shape};
+use pbrdf::model::{Lamp, Pbrdf, Shape};
 use pbrdf::optics::{Geometry, Stokes};
 use tr::tr;
 
@@ -115,7 +115,7 @@ impl PictureView {
             (Some(_), None) => {
                 let limit = made.fresnel_limit?;
                 Some(tr!(
-                    "A lamp alone: every pixel has the same half vector, so the angle of polarisation and the Fresnel limit {0} are the same everywhere; what varies is the depolarised share.",
+                    "One half vector in every pixel: the angle of polarisation and {0} are uniform; what varies is the depolarised share.",
                     format!("DoLP_s = {limit:.3}")
                 ))
             }
@@ -156,7 +156,8 @@ impl View for PictureView {
         let options = self.options(cx);
         let key = PaintedKey { scene: SceneKey::of(cx.work), options, held: cx.interacting };
         // Values that are not numbers differ from themselves: a job would follow a job for ever.
-        if key != key {
+        let (model, parameters) = key.scene.surface;
+        if Pbrdf::new(model, parameters).is_err() {
             self.job = AsyncMemo::default();
             return;
         }

@@ -114,7 +114,7 @@ pub fn texts(quantity: PictureQuantity) -> [String; 2] {
 fn axis(quantity: PictureQuantity) -> Axis {
     let label = match quantity {
         PictureQuantity::S0 => tr!("radiance S0"),
-        PictureQuantity::Aop => tr!("angle of polarisation"),
+        PictureQuantity::Aop => tr!("Angle"),
         PictureQuantity::Analyser => tr!("radiance"),
         PictureQuantity::Dolp | PictureQuantity::S1 | PictureQuantity::S2 => return quantity.axis(),
     };
