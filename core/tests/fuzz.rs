@@ -14,6 +14,7 @@
 mod damage;
 
 use damage::{fuzz, texts};
+use pbrdf::measurement::foreign::{LabTable, TableOptions};
 use pbrdf::measurement::formats::{ImportOptions, Opened, open};
 use pbrdf::measurement::{
     Ellipsometry, Mapping, Measurement, Tensor, TensorGrid, TensorResolution, grid_geometries, is_woollam, unwatched, write_tensor,
@@ -114,6 +115,63 @@ fn opened_files() {
         }
         true
     });
+}
+
+/// Tables of other laboratories, as text.
+#[test]
+fn foreign_tables() {
+    let samples = [
+        "Probe;Stahl\n\nEinfall (Grad);Ausfall (Grad);DoLP in %;Fehler\n30;20;12,5;0,1\n30;-20;;0,1\n40;25;13,5;\nMittel;;7;\n",
+        "sample,lambda (nm),theta_i,theta_r,S0,S1,S2\nA,450,30,20,1,0.1,0.01\nA,550,30,20,1,0.2,0.01\nB,450,40,20,2,0.1,0\n",
+    ];
+    fuzz("foreign", &texts(&samples), |bytes| read_foreign(bytes.to_vec(), &TableOptions::default()));
+}
+
+/// Reads as the window and `import --auto` do: the guess, and the table.
+fn read_foreign(bytes: Vec<u8>, options: &TableOptions) -> bool {
+    let Ok(table) = LabTable::open(bytes, options, &mut unwatched) else { return false };
+    let _ = table.first_rows(20);
+    if table.guess(options).is_err() {
+        return false;
+    }
+    let Ok(imported) = table.read(options, &mut unwatched) else { return false };
+    // A set whose values are all left out is written beside others only.
+    let has_values = |measurement: &&Measurement| measurement.rows.iter().any(|row| row.dolp.is_some() || row.brdf.is_some());
+    imported.measurements.iter().filter(has_values).for_each(assert_reads_back);
+    true
+}
+
+/// Workbooks: bytes of an old one, and parts of a new one, which are packed again after the damage.
+#[cfg(feature = "workbooks")]
+#[test]
+fn workbooks() {
+    use std::io::{Cursor, Read as _, Write as _};
+    let file = |name: &str| {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/workbooks").join(name);
+        std::fs::read(path).expect("a file of the repository")
+    };
+    let options = TableOptions { sheet: Some("data".to_owned()), ..TableOptions::default() };
+    fuzz("xls", &[file("steel.xls")], |bytes| read_foreign(bytes.to_vec(), &options));
+    for (name, part) in [("steel.xlsx", "xl/worksheets/sheet2.xml"), ("steel.xlsx", "xl/workbook.xml"), ("steel.ods", "content.xml")] {
+        let mut archive = zip::ZipArchive::new(Cursor::new(file(name))).expect("an archive");
+        let mut parts: Vec<(String, Vec<u8>)> = Vec::new();
+        for index in 0..archive.len() {
+            let mut entry = archive.by_index(index).expect("an entry");
+            let mut bytes = Vec::new();
+            entry.read_to_end(&mut bytes).expect("memory takes everything");
+            parts.push((entry.name().expect("a name").into_owned(), bytes));
+        }
+        let sample = parts.iter().find(|(name, _)| name == part).expect("the part").1.clone();
+        fuzz(part.rsplit('/').next().unwrap_or(part), &[sample], |damaged| {
+            let mut writer = zip::ZipWriter::new(Cursor::new(Vec::new()));
+            let stored = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+            for (name, bytes) in &parts {
+                writer.start_file(name, stored).expect("memory takes everything");
+                writer.write_all(if name == part { damaged } else { bytes }).expect("memory takes everything");
+            }
+            read_foreign(writer.finish().expect("memory takes everything").into_inner(), &options)
+        });
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@
 //! column. Alternatives are scored: a clear winner is taken, a tie is a [`Doubt`].
 
 mod assembly;
+#[cfg(feature = "workbooks")]
+mod contained;
 mod dialect;
 mod dialect_guess;
 mod doubt;
@@ -13,6 +15,10 @@ mod heading;
 mod heading_meaning;
 mod layout;
 mod number;
+#[cfg(feature = "workbooks")]
+mod old_workbook;
+#[cfg(feature = "workbooks")]
+mod open_document;
 mod options;
 mod other_format;
 mod plan;
