@@ -61,6 +61,24 @@ fn evaluate_writes_nothing_before_all_rows_are_right() {
 }
 
 #[test]
+fn simulate_goes_out_of_the_plane_in_one_file() {
+    let folder = Folder::new();
+    let simulate = |name: &str, dphi: &str| {
+        let path = folder.path(name);
+        let angles = ["--theta-i", "30,40", "--theta-r", "20,50", "--dphi", dphi, "-o"];
+        let words = ["simulate", "--set", "n=1.5,k=4"].into_iter().chain(angles);
+        answer(&words.chain([path.to_str().expect("a path")]).collect::<Vec<_>>());
+        let measurement = pbrdf::measurement::Measurement::read(std::fs::File::open(path).expect("a file")).expect("a measurement");
+        measurement.rows.iter().map(|row| (row.geometry, row.dolp.expect("DoLP").value)).collect::<Vec<_>>()
+    };
+    let all = simulate("all.csv", "90,135:180:45");
+    let [side, aslant, forward] = ["90", "135", "180"].map(|dphi| simulate("one.csv", dphi));
+    // The planes of one angle of incidence stand together.
+    assert_eq!(all, [&side[..2], &aslant[..2], &forward[..2], &side[2..], &aslant[2..], &forward[2..]].concat());
+    assert!(side[0].1 != forward[0].1);
+}
+
+#[test]
 fn simulate_gives_the_same_bytes_and_says_what_it_is() {
     let folder = Folder::new();
     let arguments = |path: &Path| -> Vec<String> {
@@ -334,6 +352,33 @@ fn interrupted(arguments: &[&str], signal: &str) -> (Option<i32>, Value) {
     stderr.read_to_string(&mut line).expect("its rest");
     let output = program.wait_with_output().expect("its end");
     (output.status.code(), serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {line}")))
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_ends_the_wait_for_standard_input() {
+    use std::io::Write as _;
+    let mut program = Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"))
+        .args(["fit", "-"])
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the program was built beside this test");
+    let mut stdin = program.stdin.take().expect("a pipe");
+    // More than a pipe holds: when all is written, the program is reading, and no end comes.
+    stdin.write_all("theta_i,theta_r,dolp\n".repeat(1 << 14).as_bytes()).expect("a reader");
+    let status = Command::new("kill").args(["-INT", &program.id().to_string()]).status().expect("kill");
+    assert!(status.success());
+    let ended = (0..600).find_map(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        program.try_wait().expect("a process")
+    });
+    if ended.is_none() {
+        program.kill().expect("a running process");
+    }
+    assert_eq!(ended.expect("it goes on waiting").code(), Some(130));
+    drop(stdin);
 }
 
 #[cfg(unix)]

@@ -279,9 +279,9 @@ pub struct AngleArguments {
     /// Angles of view in degrees, the same way; negative is the backscatter side.
     #[arg(long, allow_hyphen_values = true, value_parser = values::grid)]
     pub theta_r: Grid,
-    /// Relative azimuth in degrees; 180 is the forward side.
-    #[arg(long, default_value_t = 180.0, allow_hyphen_values = true, value_parser = values::number)]
-    pub dphi: f64,
+    /// Relative azimuths in degrees, the same way; 180 is the forward side.
+    #[arg(long, default_value = "180", allow_hyphen_values = true, value_parser = values::grid)]
+    pub dphi: Grid,
 }
 
 /// `import`.

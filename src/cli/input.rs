@@ -16,7 +16,7 @@ use std::path::Path;
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     if is_standard_input(path) {
-        let read = std::io::stdin().lock().read_to_end(&mut bytes);
+        let read = interrupt::waiting(|| std::io::stdin().lock().read_to_end(&mut bytes));
         return read.map(|_| bytes).map_err(|error| Failure::input(path, format!("it cannot be read: {error}")));
     }
     let mut file = open_file(path).map_err(|reason| Failure::input(path, reason))?;

@@ -5,7 +5,7 @@ use crate::cli::failure::Failure;
 use crate::cli::import_command::quoted;
 use crate::cli::output::{self, Progress};
 use crate::cli::{interrupt, values};
-use pbrdf::measurement::{Columns, Simulation};
+use pbrdf::measurement::{Columns, Simulation, grid_geometries};
 use pbrdf::model::{Parameters, Pbrdf};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -42,16 +42,20 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
         noise: arguments.noise,
         brdf_noise: arguments.brdf_noise,
         seed: arguments.seed,
-        ..simulation(&arguments.surface, &arguments.angles, arguments.columns)?
+        ..simulation(&arguments.surface, arguments.columns)?
     };
-    let rows = values::row_count(&[&arguments.angles.theta_i, &arguments.angles.theta_r]).map_err(Failure::usage)?;
+    let AngleArguments { theta_i, theta_r, dphi } = &arguments.angles;
+    let rows = values::row_count(&[theta_i, dphi, theta_r]).map_err(Failure::usage)?;
+    // Series after series: the planes of one angle of incidence stand together.
+    let planes = theta_i.0.iter().flat_map(|&theta_i| dphi.0.iter().map(move |&dphi| (theta_i, dphi)));
+    let geometries = planes.map(|(theta_i, dphi)| grid_geometries(&[theta_i], &theta_r.0, dphi)).collect::<Result<Vec<_>, _>>();
+    let geometries = geometries.map_err(|error| Failure::usage(format!("{error}.")))?.concat();
     let mut progress = Progress::new("simulating");
     let mut watch = |done: f64| {
         progress.tell_fraction(done);
         if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let simulated = simulation.run_with(&mut watch).map_err(|error| Failure::usage(format!("{error}.")))?;
-    let mut measurement = simulated.ok_or_else(Failure::interrupted)?;
+    let mut measurement = simulation.run_at(&geometries, &mut watch).ok_or_else(Failure::interrupted)?;
     drop(progress);
     let command = command_without_output(std::env::args().skip(1));
     measurement.metadata.insert(1, ("command".to_owned(), command));
@@ -61,14 +65,14 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A simulation without noise.
-pub fn simulation(surface: &SurfaceArguments, angles: &AngleArguments, columns: Columns) -> Result<Simulation, Failure> {
+/// A simulation without noise, and without angles.
+fn simulation(surface: &SurfaceArguments, columns: Columns) -> Result<Simulation, Failure> {
     Ok(Simulation {
         model_name: surface.model.key.to_owned(),
         surface: self::surface(surface, columns)?,
-        theta_i: angles.theta_i.0.clone(),
-        theta_r: angles.theta_r.0.clone(),
-        dphi: angles.dphi,
+        theta_i: Vec::new(),
+        theta_r: Vec::new(),
+        dphi: 180.0,
         columns,
         noise: 0.0,
         brdf_noise: 0.0,

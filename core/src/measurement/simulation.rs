@@ -89,17 +89,21 @@ impl Simulation {
     /// # Errors
     /// An angle is outside its range.
     pub fn run_with(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Option<Measurement>, GeometryError> {
-        let geometries = self.geometries()?;
+        Ok(self.run_at(&self.geometries()?, watch))
+    }
+
+    /// The same at other geometries than its own, in their order.
+    pub fn run_at(&self, geometries: &[Geometry], watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Option<Measurement> {
         let mut deviates = Deviates::new(self.seed);
         let mut rows = Vec::with_capacity(geometries.len());
         for block in geometries.chunks(BLOCK) {
             #[expect(clippy::cast_precision_loss, reason = "a fraction for a progress line")]
             if watch(rows.len() as f64 / geometries.len() as f64).is_break() {
-                return Ok(None);
+                return None;
             }
             self.simulate(block, &mut deviates, &mut rows);
         }
-        Ok(Some(Measurement { rows, metadata: self.metadata(), ..Measurement::default() }))
+        Some(Measurement { rows, metadata: self.metadata(), ..Measurement::default() })
     }
 
     /// Adds the rows of those geometries.

@@ -58,6 +58,8 @@ pub enum PathPurpose {
     Open,
     /// The same of one file or several.
     OpenSeveral,
+    /// The folder exists and is read.
+    OpenFolder,
     /// The file is written; the dialog suggests a name and asks before an existing file is
     /// replaced.
     Save { suggested_name: String },
@@ -91,6 +93,7 @@ pub fn show_file_dialog(dialog: FileDialog) -> Result<Vec<PathBuf>, DialogUnavai
     let paths: Vec<PathBuf> = match purpose {
         PathPurpose::Open => dialog.pick_file().into_iter().collect(),
         PathPurpose::OpenSeveral => dialog.pick_files().unwrap_or_default(),
+        PathPurpose::OpenFolder => dialog.pick_folder().into_iter().collect(),
         PathPurpose::Save { suggested_name } => dialog.set_file_name(suggested_name).save_file().into_iter().collect(),
     };
     if paths.is_empty() && DIALOG_FAILED.get() { Err(DialogUnavailable) } else { Ok(paths) }

@@ -169,6 +169,7 @@ const fn row(
 #[rustfmt::skip]
 static ENTRIES: &[Entry] = &[
     row(Action::ChooseMeasurement, Menu::File, "Open measurements…", "Tables of DoLP or BRDF against angles, beside those that are open", ctrl(Key::O), always),
+    row(Action::ChooseFolder, Menu::File, "Open a folder…", "Every measurement of a folder as a series, beside those that are open", None, always),
     row(Action::ChooseSave, Menu::File, "Save measurement as…", "The table of the active measurement with its masks, as CSV", None, always),
     row(Action::ChooseSession, Menu::File, "Open session…", "Sliders, data, masks, fits and layout as they were saved", ctrl_shift(Key::O),
         always),

@@ -11,6 +11,7 @@ use tr::tr;
 pub fn request_for(document: &OpenMeasurement, command: &Action) -> Option<FileRequest> {
     match command {
         Action::ChooseMeasurement => Some(FileRequest::Open),
+        Action::ChooseFolder => Some(FileRequest::OpenFolder),
         Action::ChooseSession => Some(FileRequest::OpenSession),
         Action::ChooseSave => Some(FileRequest::Save(document.file_name())),
         Action::ChooseExport(kind) => Some(FileRequest::Export(*kind, kind.file_name(document))),
@@ -25,7 +26,7 @@ pub fn command_for(request: &FileRequest, mut paths: Vec<PathBuf>) -> Option<Act
     }
     let path = paths.pop()?;
     Some(match request {
-        FileRequest::Open => Action::OpenMeasurements(vec![path]),
+        FileRequest::Open | FileRequest::OpenFolder => Action::OpenMeasurements(vec![path]),
         FileRequest::OpenSession => Action::OpenSession(path),
         FileRequest::Save(_) => Action::SaveMeasurement(path),
         FileRequest::Export(kind, _) => {
@@ -39,7 +40,9 @@ pub fn command_for(request: &FileRequest, mut paths: Vec<PathBuf>) -> Option<Act
 /// What is missing where no dialog opens, and where the user can type a path instead.
 pub fn unavailable_text(request: &FileRequest) -> String {
     let instead = match request {
-        FileRequest::Open | FileRequest::OpenSession => tr!("Type the path in the menu File, under “Type a path to open”."),
+        FileRequest::Open | FileRequest::OpenFolder | FileRequest::OpenSession => {
+            tr!("Type the path in the menu File, under “Type a path to open”.")
+        }
         FileRequest::Save(_) | FileRequest::Export(ExportKind::Session, _) => {
             tr!("Type the path in the menu File, under “Save to a path”.")
         }

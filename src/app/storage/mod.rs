@@ -3,6 +3,7 @@
 mod earlier_keys;
 pub mod export;
 pub mod fit_record;
+pub mod folder;
 pub mod import;
 pub mod kept_work;
 pub mod saved_entry;

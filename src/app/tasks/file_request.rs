@@ -11,6 +11,8 @@ use tr::tr;
 pub enum FileRequest {
     /// The measurements to open.
     Open,
+    /// The folder whose measurements to open.
+    OpenFolder,
     /// Where to save the measurement, with a suggested name.
     Save(String),
     /// The session to open.
@@ -38,6 +40,9 @@ fn dialog(request: FileRequest) -> FileDialog {
             purpose: PathPurpose::OpenSeveral,
             filters: vec![filter(tr!("Measurements"), extensions()), filter(tr!("All files"), vec!["*"])],
         },
+        FileRequest::OpenFolder => {
+            FileDialog { title: tr!("Open a folder of measurements"), purpose: PathPurpose::OpenFolder, filters: Vec::new() }
+        }
         FileRequest::OpenSession => {
             FileDialog { title: tr!("Open session"), purpose: PathPurpose::Open, filters: vec![filter(tr!("Sessions"), vec!["json"])] }
         }

@@ -22,7 +22,7 @@ fn asker() {
         Ok(path) => Ok(vec![path.into()]),
         Err(_) => return,
     };
-    for question in [FileRequest::Open, FileRequest::Save("a.csv".to_owned()), FileRequest::OpenSession] {
+    for question in [FileRequest::Open, FileRequest::Save("a.csv".to_owned()), FileRequest::OpenSession, FileRequest::OpenFolder] {
         assert_eq!(ask_user(question), expected);
     }
 }

@@ -34,6 +34,29 @@ fn file(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
 }
 
 #[test]
+fn a_folder_opens_as_a_series_in_the_order_of_its_numbers() {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    for (name, text) in
+        [("1000 nm.csv", "theta_i,theta_r,dolp\n35,20,0.5\n"), ("450 nm.csv", "theta_i,theta_r,dolp\n35,20,0.4\n"), ("notes.md", "x")]
+    {
+        file(&folder, name, text);
+    }
+    let mut harness = harness();
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![folder.path().to_owned()]));
+    wait(&mut harness);
+    let names = |harness: &mut egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| -> Vec<String> {
+        explorer(harness).work.measurements().iter().map(|open| open.name.clone()).collect()
+    };
+    assert_eq!(names(&mut harness), ["450 nm.csv", "1000 nm.csv"]);
+    let empty = tempfile::tempdir().expect("a folder");
+    explorer(&mut harness).actions.push(Action::OpenMeasurements(vec![empty.path().to_owned()]));
+    wait(&mut harness);
+    let said = explorer(&mut harness).toasts.take().expect("a sentence");
+    assert!(said.contains("no measurement in this folder"), "{said}");
+    assert_eq!(names(&mut harness).len(), 2);
+}
+
+#[test]
 fn a_dropped_file_is_opened() {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = file(&folder, "mine.csv", "theta_i,theta_r,brdf\n35,20,0.5\n35,-20,0.25\n");
@@ -56,7 +79,8 @@ fn a_bad_file_says_why_and_leaves_what_was_there() {
     let rows = explorer(&mut harness).work.active().measurement.rows.clone();
     for (command, expected) in [
         (Action::OpenMeasurements(vec![path]), "line 3, column 3 (dolp)"),
-        (Action::OpenMeasurements(vec![folder.path().to_owned()]), "directory"),
+        // All that there is in the folder.
+        (Action::OpenMeasurements(vec![folder.path().to_owned()]), "line 3, column 3 (dolp)"),
         (Action::OpenMeasurements(vec![folder.path().join("none.csv")]), "no such file"),
     ] {
         explorer(&mut harness).actions.push(command);

@@ -5,7 +5,7 @@ use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::{HemisphereQuantity, Reference};
+use crate::app::work::settings::{Compared, HemisphereQuantity};
 use crate::app::work::surface::Surface;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -45,7 +45,7 @@ fn the_map_shows_how_the_sliders_differ_from_a_pinned_surface() {
     let name = explorer(&mut harness).work.pinned()[1].name.clone();
     harness.get_by_label(&format!("less {name}")).click();
     wait(&mut harness);
-    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Reference::Pin(1)));
+    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Compared::Pin(1)));
     let rect = harness.get_by_role_and_label(Role::Image, "Map of all directions of view: DoLP").rect();
     let line = reading(&mut harness, rect.center() + egui::vec2(30.0, 10.0)).expect("a place on the disc");
     let (place, value) = line.split_once(": difference in DoLP = ").expect("a difference");
@@ -64,7 +64,7 @@ fn the_map_shows_how_the_sliders_differ_from_a_pinned_surface() {
     assert!(figure.svg().contains(&format!("DoLP less that of {name}")));
     // The place of the surface moves up, and with the surface the comparison is gone.
     edit(&mut harness, Edit::Unpin(0));
-    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Reference::Pin(0)));
+    assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, Some(Compared::Pin(0)));
     edit(&mut harness, Edit::Unpin(0));
     assert_eq!(explorer(&mut harness).work.settings().view_options.hemisphere_less, None);
 }

@@ -18,7 +18,9 @@ use std::path::PathBuf;
 pub enum Action {
     /// Ask the desktop for files.
     ChooseMeasurement,
-    /// Read these files, measurements and sessions.
+    /// Ask the desktop for a folder of measurements.
+    ChooseFolder,
+    /// Read these files, measurements and sessions, and the measurements of these folders.
     OpenMeasurements(Vec<PathBuf>),
     /// Ask the desktop where to save.
     ChooseSave,

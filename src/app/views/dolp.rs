@@ -224,8 +224,10 @@ impl View for DolpView {
 impl DolpView {
     fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32) {
         let Some(marks) = cx.derived.marks.get() else { return };
-        let own_is_drawn = cx.derived.curves.get().is_some_and(|curves| curves.own_is_series.is_none());
-        let entries = self.key_entries(marks, own_is_drawn, cx, ui.visuals().dark_mode);
+        // The curve of a measured series is that of the sliders where both have one θi.
+        let series = cx.derived.curves.get().and_then(|curves| marks.series.get(curves.own_is_series?));
+        let own_ink = series.map_or(FOREGROUND, |series| series.ink);
+        let entries = self.key_entries(marks, own_ink, cx, ui.visuals().dark_mode);
         let top = ui.cursor().top();
         switching_key_line_ui(&entries, &mut self.hidden, ui);
         let height = height - (ui.cursor().top() - top);
@@ -245,18 +247,17 @@ impl DolpView {
 
     /// What the lines mean. The entries do not depend on where the sliders stand, so that the plot
     /// keeps its height while one moves.
-    fn key_entries(&self, marks: &MarkSet, own_is_drawn: bool, cx: &Cx<'_>, dark: bool) -> Vec<(Line, KeyEntry)> {
+    fn key_entries(&self, marks: &MarkSet, own_ink: Rgb, cx: &Cx<'_>, dark: bool) -> Vec<(Line, KeyEntry)> {
         let (work, companions) = (cx.work, &cx.derived.companions);
         let (names, settings, is_fitted) = (Names::new(work), work.settings(), work.shown_fit().is_some());
-        let (ink, quiet) = (theme::foreground(dark), theme::muted(dark));
+        let (own_ink, quiet) = (theme::on_screen(own_ink, dark), theme::muted(dark));
         let curve = (LineStyle::Solid, 2.0);
         let series = marks.series.iter();
         let series = series.map(|marks| (Line::Series(marks.index), marks.name.clone(), theme::on_screen(marks.ink, dark), curve));
         let band = (Line::Band, tr!("± 1 standard error"), quiet.gamma_multiply(0.5), (LineStyle::Solid, BAND));
         let is_overlaid = self.overlay.get().is_some_and(|overlay| !overlay.is_empty());
         let others = [
-            // Faint while a measured series has its angle.
-            (true, (Line::Own, names.own, if own_is_drawn { ink } else { ink.gamma_multiply(0.35) }, curve)),
+            (true, (Line::Own, names.own, own_ink, curve)),
             (settings.show_limit, (Line::Limit, names.limit, quiet, (LineStyle::dashed_dense(), 1.0))),
             (is_fitted && settings.show_band, band),
             (is_overlaid, (Line::Other, names.other, quiet, (LineStyle::dotted_loose(), 2.0))),

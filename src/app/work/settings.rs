@@ -3,13 +3,14 @@
 
 use crate::app::text::i18n::Language;
 use crate::app::work::design::DesignSettings;
-use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::settings_error::SettingsError;
 use pbrdf::fit::{FitOptions, Starts};
 use pbrdf::model::Parameter;
 use pbrdf::optics::{Geometry, Metal};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 /// Light or dark.
@@ -65,13 +66,13 @@ impl HemisphereQuantity {
 /// What a map is compared to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Reference {
+pub enum Compared {
     LastFit,
     /// The pinned surface at that place.
     Pin(usize),
 }
 
-impl Reference {
+impl Compared {
     /// Where it is after the pinned surface at that place is removed.
     pub fn without(self, removed: usize) -> Option<Self> {
         match self {
@@ -103,7 +104,7 @@ pub struct ViewOptions {
     pub convergence_by_time: bool,
     pub hemisphere: HemisphereQuantity,
     /// The surface whose map is taken off that of the sliders.
-    pub hemisphere_less: Option<Reference>,
+    pub hemisphere_less: Option<Compared>,
 }
 
 /// Which two parameters the landscape is drawn over, and what lies on it.
@@ -231,11 +232,13 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What the first measurement that is opened decides: where to look.
+    /// What the first measurement that is opened decides: where to look, which is where one looks already
+    /// or the nearest measured place.
     pub fn adapt_to(&mut self, opened: &OpenMeasurement) {
-        if let Some(first) = opened.series.first() {
-            self.theta_i = first.theta_i;
-            self.dphi = first.plane;
+        let away = |series: &&IncidenceSeries| (series.plane != self.dphi, (series.theta_i - self.theta_i).abs());
+        let nearest = opened.series.iter().min_by(|one, other| away(one).partial_cmp(&away(other)).unwrap_or(Ordering::Equal));
+        if let Some(nearest) = nearest {
+            (self.theta_i, self.dphi) = (nearest.theta_i, nearest.plane);
         }
         self.adapt_beside_others(opened);
     }

@@ -29,7 +29,7 @@ use tr::tr;
 /// Carries out an action; the error is a sentence.
 pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(), String> {
     match action {
-        Action::ChooseMeasurement | Action::ChooseSession | Action::ChooseSave | Action::ChooseExport(_) => {
+        Action::ChooseMeasurement | Action::ChooseFolder | Action::ChooseSession | Action::ChooseSave | Action::ChooseExport(_) => {
             request_for(app.work.active(), &action).map_or(Ok(()), |request| app.jobs.files.ask(request))?;
         }
         Action::OpenMeasurements(paths) => open_files(app, paths)?,

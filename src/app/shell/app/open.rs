@@ -7,6 +7,7 @@ use crate::app::shell::app::title::mark_saved;
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::lessons::{Lessons, own_folder};
 use crate::app::storage::export::ExportKind;
+use crate::app::storage::folder::measurements_in;
 use crate::app::storage::import::{Loaded, Origin};
 use crate::app::tasks::files::LoadedFile;
 use crate::app::text::localized::Localized;
@@ -38,8 +39,13 @@ pub fn begin(app: &mut App) {
     app.persistence.saved_settings = Some((app.work.revision(), app.window.clone()));
 }
 
-/// Reads files: a session first, then the measurements, beside what is open by then.
+/// Reads files, and those of folders: a session first, then the measurements, beside what is open by
+/// then.
 pub fn open_files(app: &mut App, paths: Vec<PathBuf>) -> Result<(), String> {
+    let paths: Vec<PathBuf> = paths.into_iter().flat_map(|path| if path.is_dir() { files_of(app, &path) } else { vec![path] }).collect();
+    if paths.is_empty() {
+        return Ok(());
+    }
     let (sessions, mut measurements): (Vec<PathBuf>, Vec<PathBuf>) =
         paths.into_iter().partition(|path| ExportKind::Session.check(path).is_ok());
     if let Some(session) = sessions.into_iter().next() {
@@ -48,6 +54,22 @@ pub fn open_files(app: &mut App, paths: Vec<PathBuf>) -> Result<(), String> {
     app.jobs.files.waiting.append(&mut measurements);
     open_waiting(app);
     Ok(())
+}
+
+/// The measurements of a folder; where there are none, a sentence says so.
+fn files_of(app: &mut App, folder: &Path) -> Vec<PathBuf> {
+    match measurements_in(folder) {
+        Ok(files) => {
+            if files.is_empty() {
+                app.toasts.load_error(tr!("{}: there is no measurement in this folder.", folder.display()));
+            }
+            files
+        }
+        Err(error) => {
+            app.toasts.load_error(tr!("{0}: {1}.", folder.display(), tr!("the folder cannot be read: {}", error.localized())));
+            Vec::new()
+        }
+    }
 }
 
 /// Reads the files that wait, once nothing else is being read.
@@ -76,7 +98,13 @@ pub fn open(app: &mut App, opened: OpenMeasurement) {
         let note = ImportNote::IgnoredColumns { names: opened.measurement.ignored_columns.clone() };
         app.toasts.error(format!("{}: {note}.", opened.name));
     }
+    let place = |app: &App| (app.work.settings().theta_i, app.work.settings().dphi);
+    let before = place(app);
     app.work.apply(Edit::Open(Box::new(opened)));
+    let (theta_i, dphi) = place(app);
+    if (theta_i, dphi) != before {
+        app.toasts.info(tr!("Lobes are now seen at θi = {0}°, Δφ = {1}°, where something was measured.", theta_i, dphi));
+    }
     app.views = Views::default();
 }
 

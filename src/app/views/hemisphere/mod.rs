@@ -15,7 +15,7 @@ use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
 use crate::app::work::open_measurement::OpenMeasurement;
-use crate::app::work::settings::{HemisphereQuantity, Reference};
+use crate::app::work::settings::{Compared, HemisphereQuantity};
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Axis, Dash, Figure, Panel, Point, Series, Symbol};
 use egui::{ComboBox, Key, Role, Ui, WidgetInfo};
@@ -49,16 +49,16 @@ pub struct HemisphereView {
 type FigureKey = (MapKey, HemisphereQuantity, Option<String>, Option<Range>, u64, Language);
 
 /// The surface of a reference and its name.
-fn surface_of(reference: Reference, work: &Workspace) -> Option<(String, (Parameters, Model))> {
+fn surface_of(reference: Compared, work: &Workspace) -> Option<(String, (Parameters, Model))> {
     match reference {
-        Reference::LastFit => work.shown_fit().map(|fit| (tr!("last fit"), (fit.report.parameters, fit.report.model))),
-        Reference::Pin(place) => work.pinned().get(place).map(|pin| (pin.name.clone(), (pin.parameters, pin.model))),
+        Compared::LastFit => work.shown_fit().map(|fit| (tr!("last fit"), (fit.report.parameters, fit.report.model))),
+        Compared::Pin(place) => work.pinned().get(place).map(|pin| (pin.name.clone(), (pin.parameters, pin.model))),
     }
 }
 
 /// What a map can be compared to.
-fn references(work: &Workspace) -> Vec<(Option<Reference>, String)> {
-    let all = [Reference::LastFit].into_iter().chain((0..work.pinned().len()).map(Reference::Pin));
+fn references(work: &Workspace) -> Vec<(Option<Compared>, String)> {
+    let all = [Compared::LastFit].into_iter().chain((0..work.pinned().len()).map(Compared::Pin));
     let named = all.filter_map(|reference| {
         let (name, _) = surface_of(reference, work)?;
         Some((Some(reference), tr!("less {}", name)))
@@ -191,7 +191,7 @@ impl HemisphereView {
 }
 
 /// The choice of what the map is compared to.
-fn reference_ui(chosen: &mut Option<Reference>, references: &[(Option<Reference>, String)], ui: &mut Ui) {
+fn reference_ui(chosen: &mut Option<Compared>, references: &[(Option<Compared>, String)], ui: &mut Ui) {
     let current = references.iter().find(|(reference, _)| reference == chosen).or(references.first());
     let text = current.map_or_else(String::new, |(_, text)| text.clone());
     let combo = ComboBox::from_id_salt("hemisphere less").selected_text(text.clone()).truncate().show_ui(ui, |ui| {
