@@ -1,6 +1,6 @@
 //! A series of a figure on the screen, made ready once in the coordinates of the plot.
 
-use crate::app::plots::error_bars::{ErrorBar, ErrorBars};
+use crate::app::plots::markers::{ErrorBar, Markers, RADIUS};
 use crate::app::plots::plot_axis::{PlotAxis, coordinate};
 use crate::app::plots::polyline::{curve, split_at_gaps};
 use crate::app::plots::theme;
@@ -37,8 +37,6 @@ enum PlotShape {
 
 /// Points of the screen for a point of paper.
 const ZOOM: f64 = 1.6;
-/// Radius of a point.
-const RADIUS: f32 = 3.0;
 /// Width of the rim of points on a map.
 const RIM: f32 = 1.0;
 /// Opacity of a band and of an area: curves and points stay readable through several.
@@ -122,18 +120,13 @@ impl PlotItem {
         match &self.shape {
             PlotShape::Line { pieces, style, width } => curve(plot, pieces, name, color, *style, *width),
             PlotShape::Points { points, bars, symbol } => {
-                if !bars.is_empty() {
-                    plot.add(ErrorBars::new(name.to_owned(), bars, color));
-                }
-                let (shape, filled) = marker(*symbol);
-                let of = |name: &str, color: Color32, radius: f32| {
-                    Points::new(name, PlotPoints::Borrowed(points)).color(color).radius(radius).shape(shape).filled(filled)
-                };
                 if on_map {
                     // A rim, so that points are seen on every colour.
-                    plot.points(of("", Color32::BLACK, RADIUS + RIM).allow_hover(false));
+                    let (shape, filled) = marker(*symbol);
+                    let rim = Points::new("", PlotPoints::Borrowed(points)).color(Color32::BLACK).radius(RADIUS + RIM);
+                    plot.points(rim.shape(shape).filled(filled).allow_hover(false));
                 }
-                plot.points(of(name, color, RADIUS));
+                plot.add(Markers::new(name.to_owned(), points, bars, *symbol, color));
             }
             PlotShape::Band(pieces) => {
                 for [x, low, high] in pieces {

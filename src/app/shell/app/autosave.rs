@@ -134,7 +134,7 @@ fn rest(app: &App) -> Duration {
 }
 
 pub fn autosave_when_rested(app: &mut App, ctx: &egui::Context) {
-    let Some((path, revision)) = due(app) else {
+    let Some((path, revision)) = due(app).filter(|_| !app.interacting) else {
         app.persistence.autosave_dirty_since = None;
         return;
     };
@@ -172,7 +172,7 @@ fn is_changed(app: &App) -> bool {
 }
 
 pub fn save_when_rested(app: &mut App, ctx: &egui::Context) {
-    if !is_changed(app) {
+    if app.interacting || !is_changed(app) {
         app.persistence.settings_dirty_since = None;
         return;
     }
