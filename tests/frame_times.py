@@ -4,7 +4,7 @@
     tests/frame_times.py target/release/pbrdf-explorer [MEASUREMENTS POINTS PINS [PANE ...]]
 
 Opens that many simulated measurements of so many points with so many pinned surfaces in a window of 1280 x 800 under a
-virtual display, drags the slider of k for seven seconds, and prints median and 99th percentile of the last five. Without
+virtual display, drags a slider (which, it says) for seven seconds, and prints median and 99th percentile of the last five. Without
 numbers: three measurements of 27 points and ten of 500, with two pins each. PANE brings further panes to the screen, beside
 DoLP and lobes. Needs Xvfb, xdotool and scrot. GALLIUM_NOOP=1 in the environment leaves out Mesa's software rasteriser.
 """
@@ -21,7 +21,7 @@ MODEL = {"distribution": "cauchy", "specular": True, "masking": True, "diffuse":
 TRUTH = {"n": 2.07, "k": 2.9, "sigma": 0.35, "ks": 1.0, "kd": 0.12, "kv": 0.2, "q": 2.2, "c": -0.4, "sigma_v": 0.6}
 # Angles of incidence and of view of so many points.
 GRIDS = {27: ("30,40,50", "20:60:5"), 500: ("10:82:8", "0:85.75:1.75")}
-# Where the slider of k lies, by the number of measurements in the list over it, with two pins in theirs.
+# Where a slider lies, by the number of measurements in the list over it, with two pins in theirs.
 SLIDERS = {3: (100, 400), 10: (100, 470)}
 SECONDS = 7.0
 

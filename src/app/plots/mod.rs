@@ -4,6 +4,7 @@ mod axes;
 pub mod axis;
 mod color_scale;
 pub mod contours;
+mod curve_line;
 mod figure_plot;
 mod key_line;
 mod map_image;

@@ -91,12 +91,12 @@ impl HemisphereQuantity {
     }
 
     /// The axis of the colours of a difference.
-    fn axis_of_difference(self, name: &str) -> Axis {
+    fn axis_of_difference(self) -> Axis {
         match self {
-            Self::Dolp => Axis::linear(tr!("DoLP less that of {}", name), ""),
-            Self::Angle => Axis::linear(tr!("angle of polarisation less that of {}", name), "°"),
-            Self::Brdf => Axis::log(tr!("BRDF over that of {}", name), ""),
-            Self::SpecularShare => Axis::linear(tr!("specular share less that of {}", name), ""),
+            Self::Dolp => Axis::linear("Δ DoLP", ""),
+            Self::Angle => Axis::linear(tr!("turn"), "°"),
+            Self::Brdf => Axis::log(tr!("BRDF ratio"), ""),
+            Self::SpecularShare => Axis::linear(tr!("Δ share"), ""),
         }
     }
 
@@ -158,7 +158,7 @@ impl HemisphereView {
     /// tell them.
     fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), less: Option<&str>, title: String) -> Figure {
         let theta_i = made.theta_i;
-        let axis = less.filter(|_| made.is_difference()).map_or_else(|| quantity.axis(), |name| quantity.axis_of_difference(name));
+        let axis = if made.is_difference() { quantity.axis_of_difference() } else { quantity.axis() };
         let mut series = vec![Series::heat_map(made.heat_map(quantity, range, axis))];
         let ring = |theta_r: f64| (0..=120).map(|i| place(theta_r, 3.0 * f64::from(i))).collect();
         // White lines vanish in the white of what is the same.
@@ -179,7 +179,10 @@ impl HemisphereView {
         series.push(mark(tr!("mirror direction"), vec![place(theta_i, 180.0)], Symbol::Cross));
         let axis = |label| Axis { ticks: Some(ticks(&[-90, -60, -30, 0, 30, 60, 90])), ..Axis::linear(label, "°").between(-90.0, 90.0) };
         let panel = Panel {
-            title: tr!("θi = {}°; radius θr, Δφ = 180° to the right, 270° upwards", theta_i),
+            title: match less.filter(|_| made.is_difference()) {
+                Some(name) => tr!("θi = {0}°, less {1}; radius θr, Δφ = 180° to the right, 270° upwards", theta_i, name),
+                None => tr!("θi = {}°; radius θr, Δφ = 180° to the right, 270° upwards", theta_i),
+            },
             x: axis("−θr cos Δφ"),
             y: axis("−θr sin Δφ"),
             series,
