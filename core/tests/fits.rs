@@ -231,7 +231,7 @@ fn the_jacobian_of_every_kind_of_residual_is_its_derivative() {
         for brdf_residuals in [BrdfResiduals::Absolute, BrdfResiduals::Relative, BrdfResiduals::Log] {
             for loss in [Loss::Squared, Loss::Huber, Loss::SoftL1] {
                 for formula in [DolpFormula::Consistent, DolpFormula::AsPrinted] {
-                    let choices = FitOptions { weights, brdf_residuals, loss, loss_scale: Some(0.05), dolp_only: false };
+                    let choices = FitOptions { weights, brdf_residuals, loss, loss_scale: Some(0.05), ..FitOptions::default() };
                     all.push((Model::full(Cauchy).with_dolp_formula(formula), choices));
                 }
             }

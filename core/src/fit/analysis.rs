@@ -11,6 +11,7 @@ use crate::fit::objective::Problem;
 use crate::fit::options::Weights;
 use crate::fit::result::{Correlations, Course, FitResult, Minimum, Statistics};
 use crate::fit::stop_reason::StopReason;
+use crate::model::Parameter;
 use nalgebra::DVector;
 
 /// Cosine between the residuals and a parameter's column of the Jacobian above which the data press the parameter against its
@@ -143,9 +144,13 @@ pub fn analyse(problem: &Problem, search: MultistartResult, elapsed_ms: f64) -> 
 
 /// Of all parameters of the model.
 fn estimates(problem: &Problem, analysis: &Analysis<Problem>) -> Vec<Estimate> {
-    let estimate = |parameter| {
+    let of = |parameter: Parameter| {
         let unknown = problem.free().iter().position(|&free| free == parameter);
         unknown.map_or_else(|| Estimate::fixed(parameter, problem.start()[parameter]), |unknown| analysis.estimate(problem, unknown))
+    };
+    let estimate = |parameter| {
+        let tie = problem.ties().iter().find(|tie| tie.parameter == parameter);
+        tie.map_or_else(|| of(parameter), |tie| tie.estimate(&of(tie.to)))
     };
     problem.model().parameters().iter().map(estimate).collect()
 }

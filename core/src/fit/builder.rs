@@ -6,10 +6,11 @@ use crate::fit::intervals::profile::with_intervals;
 use crate::fit::multistart::search::Starts;
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
-use crate::fit::options::{FitOptions, Intervals, Loss, Weights};
+use crate::fit::options::{FitOptions, FitRange, Intervals, Loss, Weights};
 use crate::fit::problem_error::ProblemError;
 use crate::fit::result::FitResult;
 use crate::fit::solve::fit;
+use crate::fit::ties::Tie;
 use crate::measurement::Measurement;
 use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use std::ops::RangeInclusive;
@@ -69,6 +70,7 @@ pub struct Fit<'a> {
     fixed: ParameterSet,
     freed: ParameterSet,
     bounds: Vec<(Parameter, f64, f64)>,
+    ties: Vec<Tie>,
     options: FitOptions,
     starts: Starts,
     further_starts: Vec<Parameters>,
@@ -88,6 +90,7 @@ impl<'a> Fit<'a> {
             fixed: ParameterSet::EMPTY,
             freed: ParameterSet::EMPTY,
             bounds: Vec::new(),
+            ties: Vec::new(),
             options: FitOptions::default(),
             starts: Starts::Automatic,
             further_starts: Vec::new(),
@@ -127,6 +130,31 @@ impl<'a> Fit<'a> {
     pub fn bound(mut self, parameter: Parameter, range: RangeInclusive<f64>) -> Self {
         self.bounds.push((parameter, *range.start(), *range.end()));
         self
+    }
+
+    /// Ties a parameter to another one times a factor: it is no unknown of the fit.
+    ///
+    /// ```
+    /// # use pbrdf::Parameter::{Kd, Kv};
+    /// # use pbrdf::{Fit, Measurement, Model};
+    /// # let data = Measurement::read("theta_i,theta_r,dolp\n30,40,0.127\n".as_bytes())?;
+    /// let fit = Fit::new(&data, Model::CAUCHY).tie(Kv, 2.0, Kd);
+    /// assert_eq!(fit.clone().tie(Kd, 0.5, Kv).problem().unwrap_err().to_string(), "kd → kv → kd is a circle");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn tie(mut self, parameter: Parameter, factor: f64, to: Parameter) -> Self {
+        self.ties.push(Tie { parameter, factor, to });
+        self
+    }
+
+    /// Fits the rows with those angles alone; by default all that are not masked.
+    pub fn range(self, range: FitRange) -> Self {
+        Self { options: FitOptions { range: Some(range), ..self.options }, ..self }
+    }
+
+    /// What its parameters are tied to.
+    pub(crate) fn ties(&self) -> &[Tie] {
+        &self.ties
     }
 
     /// Weights the residuals; by default the scale of Eq. (18) alone does.
@@ -195,6 +223,7 @@ impl<'a> Fit<'a> {
         }
         start.validate(self.model.parameters())?;
         let problem = Problem::new(self.measurement, self.model, start, free, bounds, self.options)?;
+        let problem = if self.ties.is_empty() { problem } else { problem.with_ties(&self.ties)? };
         Ok(problem.with_further_starts(self.further_starts.clone()))
     }
 

@@ -5,8 +5,9 @@
 use crate::fit::bounds::Bounds;
 use crate::fit::loss::robust_scale;
 use crate::fit::observations::{Datum, Kind, Observations};
-use crate::fit::options::{BrdfResiduals, FitOptions, Loss, Weights};
+use crate::fit::options::{FitOptions, Loss};
 use crate::fit::problem_error::ProblemError;
+use crate::fit::ties::{Tie, apply_ties};
 use crate::measurement::Measurement;
 use crate::model::batch::surface_row::{MeasuredDolp, dolp_misfits};
 use crate::model::{DolpFormula, GeometrySet, Model, Parameter, ParameterSet, Parameters, Pbrdf, PerParameter, Radiances};
@@ -31,6 +32,10 @@ pub struct Problem {
     loss_scales: [f64; 2],
     /// What residuals of DoLP and BRDF are multiplied by in the end: 1, or one over their own standard deviations.
     block_weights: [f64; 2],
+    /// What the squares of all residuals are multiplied by, among other measurements; 1 alone.
+    emphasis: f64,
+    /// Each to a parameter that is tied to none.
+    ties: Arc<[Tie]>,
 }
 
 /// Where the Jacobian of a problem stands in a larger one.
@@ -97,6 +102,8 @@ impl Problem {
             loss_scales: observations.scales().map(|scale| options.loss_scale.unwrap_or(1.0) * scale),
             block_weights: [1.0; 2],
             observations: Arc::new(observations),
+            emphasis: 1.0,
+            ties: Arc::default(),
         })
     }
 
@@ -121,9 +128,36 @@ impl Problem {
         Some(Self { observations, free: free.iter().collect(), ..problems.first()?.clone() })
     }
 
+    /// The same problem with each of its squared residuals multiplied by that number, which is above 0.
+    pub(crate) fn emphasised(&self, emphasis: f64) -> Self {
+        let observations = Arc::new(self.observations.emphasised(emphasis / self.emphasis));
+        Self { emphasis, observations, ..self.clone() }
+    }
+
+    /// What its squared residuals are multiplied by.
+    pub(crate) fn emphasis(&self) -> f64 {
+        self.emphasis
+    }
+
+    /// The same problem with those ties, which its start obeys and whose parameters are not free.
+    pub(crate) fn tied_by(&self, ties: Vec<Tie>) -> Self {
+        Self { ties: ties.into(), ..self.clone() }
+    }
+
+    /// The ties, each to a parameter that is tied to none.
+    #[must_use]
+    pub fn ties(&self) -> &[Tie] {
+        &self.ties
+    }
+
+    /// The surface of those parameters, tied ones as their ties have them; none where they are no surface.
+    fn surface(&self, parameters: &Parameters) -> Option<Pbrdf> {
+        Pbrdf::new(self.model, apply_ties(&self.ties, *parameters)).ok()
+    }
+
     /// Σ (X − Xm)² of DoLP and of BRDF; none where the parameters are no surface.
     pub(crate) fn misfit_sums(&self, parameters: &Parameters) -> Option<[f64; 2]> {
-        let surface = Pbrdf::new(self.model, *parameters).ok()?;
+        let surface = self.surface(parameters)?;
         with_columns(|columns| {
             self.predict(&surface, &mut columns.radiances);
             Some(self.observations.misfit_sums(&columns.radiances))
@@ -304,7 +338,7 @@ impl Problem {
 
     /// The same into a part of a longer column.
     pub(crate) fn write_residuals(&self, parameters: &Parameters, out: &mut [f64]) -> bool {
-        let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
+        let Some(surface) = self.surface(parameters) else { return false };
         with_columns(|columns| {
             self.predict(&surface, &mut columns.radiances);
             let mut finite = true;
@@ -321,7 +355,7 @@ impl Problem {
 
     /// The predicted DoLP or BRDF of each residual; none where the parameters are no surface or a value is not finite.
     pub(crate) fn predictions(&self, parameters: &Parameters) -> Option<Vec<f64>> {
-        let surface = Pbrdf::new(self.model, *parameters).ok()?;
+        let surface = self.surface(parameters)?;
         with_columns(|Columns { radiances, .. }| {
             self.predict(&surface, radiances);
             let value = |datum: &Datum| if datum.kind == Kind::Dolp { radiances.dolp[datum.point] } else { radiances.brdf[datum.point] };
@@ -352,7 +386,7 @@ impl Problem {
 
     /// The same into some rows and columns of a larger matrix.
     pub(crate) fn write_jacobian(&self, parameters: &Parameters, place: &JacobianPlace<'_>, out: &mut DMatrix<f64>) -> bool {
-        let Ok(surface) = Pbrdf::new(self.model, *parameters) else { return false };
+        let Some(surface) = self.surface(parameters) else { return false };
         with_columns(|columns| {
             let mut finite = true;
             for (block, is_measured) in [self.observations.has_dolp(), self.observations.has_brdf()].into_iter().enumerate() {
@@ -378,13 +412,19 @@ impl Problem {
         let value = if block == 0 { &mut radiances.dolp } else { &mut radiances.brdf };
         value.resize(batch.len(), 0.0);
         for parameter in Parameter::ALL {
-            slopes[parameter].resize(if self.free.contains(&parameter) { batch.len() } else { 0 }, 0.0);
+            let is_tied = self.ties.iter().any(|tie| tie.parameter == parameter && self.free.contains(&tie.to));
+            slopes[parameter].resize(if is_tied || self.free.contains(&parameter) { batch.len() } else { 0 }, 0.0);
         }
         let by = PerParameter(slopes.0.each_mut().map(Vec::as_mut_slice));
         if block == 0 {
             batch.dolp_gradient_columns(surface, value, by);
         } else {
             batch.brdf_gradient_columns(surface, value, by);
+        }
+        for tie in self.ties.iter().filter(|tie| self.free.contains(&tie.to)) {
+            let along = std::mem::take(&mut slopes[tie.parameter]);
+            slopes[tie.to].iter_mut().zip(&along).for_each(|(slope, along)| *slope += tie.factor * along);
+            slopes[tie.parameter] = along;
         }
         let members = || self.observations.data().iter().enumerate().filter(|(_, datum)| datum.kind.block() == block);
         let factor = |(_, datum): (usize, &Datum)| {
@@ -425,7 +465,7 @@ impl Problem {
     /// surface.
     pub(crate) fn sums_of_squares_along(&self, parameters: &Parameters, along: Parameter, values: &[f64]) -> Vec<f64> {
         let fast = || {
-            let is_plain = !self.observations.has_brdf() && self.options.loss == Loss::Squared && !self.is_empty();
+            let is_plain = self.ties.is_empty() && !self.observations.has_brdf() && self.options.loss == Loss::Squared && !self.is_empty();
             if !is_plain {
                 return None;
             }
@@ -447,51 +487,13 @@ impl Problem {
         sums
     }
 
-    /// Whether the sum of squares is ΔE of Eq. (18).
-    #[must_use]
-    pub fn minimises_delta_e(&self) -> bool {
-        let absolute = !self.predicts_brdf() || self.options.brdf_residuals == BrdfResiduals::Absolute;
-        let is_plain = self.options.weights == Weights::None && self.options.loss == Loss::Squared;
-        absolute && is_plain && self.block_weights == [1.0; 2]
-    }
-
-    /// ΔE of Eq. (18), given the sum of squares: the same number wherever that is what is minimised.
-    #[must_use]
-    pub fn objective(&self, sum_of_squares: f64, parameters: &Parameters) -> f64 {
-        if self.minimises_delta_e() { sum_of_squares } else { self.delta_e(parameters).unwrap_or(sum_of_squares) }
-    }
-
     /// ΔE of Eq. (18) at those parameters: of DoLP if measured, else of BRDF; with both, the sum.
     #[must_use]
     pub fn delta_e(&self, parameters: &Parameters) -> Option<f64> {
-        let surface = Pbrdf::new(self.model, *parameters).ok()?;
+        let surface = self.surface(parameters)?;
         with_columns(|columns| {
             self.predict(&surface, &mut columns.radiances);
             self.observations.delta_e(&columns.radiances)
         })
-    }
-
-    /// Residual sum of squares in the unit of the data: that of [`Self::sum_of_squares`], not divided by Σ Xm² of Eq. (18) or by the
-    /// number of residuals where one quantity alone is fitted without weights. None without data and where it is not finite.
-    #[must_use]
-    pub fn rss(&self, parameters: &Parameters) -> Option<f64> {
-        self.sum_of_squares(parameters).map(|sum| sum * self.rss_scale())
-    }
-
-    /// What the sum of squares is multiplied by to give [`Self::rss`].
-    pub(crate) fn rss_scale(&self) -> f64 {
-        match (self.options.weights, self.observations.has_dolp(), self.observations.has_brdf()) {
-            (Weights::None, true, false) => self.observations.square_sum(0).unwrap_or(1.0),
-            (Weights::None, false, true) => {
-                if self.options.brdf_residuals == BrdfResiduals::Absolute {
-                    self.observations.square_sum(1).unwrap_or(1.0)
-                } else {
-                    #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-                    let count = self.len() as f64;
-                    count.max(1.0)
-                }
-            }
-            _ => 1.0,
-        }
     }
 }

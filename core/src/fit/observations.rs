@@ -6,7 +6,7 @@
 //! With stated standard deviations the residual is (X − Xm)/σ and the sum of squares is χ².
 
 use crate::fit::options::{BrdfResiduals, FitOptions, Weights};
-use crate::measurement::{Measurement, Quantity};
+use crate::measurement::{Measurement, Quantity, Row};
 use crate::model::{Batch, Radiances};
 use std::sync::Arc;
 
@@ -91,9 +91,10 @@ pub(crate) fn delta_e(sums: [f64; 2], wholes: [Option<f64>; 2]) -> Option<f64> {
 }
 
 impl Observations {
-    /// Of the rows that are not masked.
+    /// Of the rows that are not masked and lie in the range of the options.
     pub(crate) fn new(measurement: &Measurement, options: &FitOptions) -> Result<Self, UnstatedSigma> {
-        let rows = || measurement.rows.iter().enumerate().filter(|(_, row)| !row.masked);
+        let is_fitted = |row: &Row| !row.masked && options.range.is_none_or(|range| range.contains(row.geometry));
+        let rows = || measurement.rows.iter().enumerate().filter(|(_, row)| is_fitted(row));
         let mut observations = Self {
             data: Vec::new(),
             batch: Arc::new(Batch::new(rows().map(|(_, row)| row.geometry))),
@@ -190,6 +191,13 @@ impl Observations {
         let change = scale / self.scales[block];
         self.data.iter_mut().filter(|datum| datum.kind.block() == block).for_each(|datum| datum.weight *= change);
         self.scales[block] = scale;
+    }
+
+    /// The same with each squared residual multiplied by that number.
+    pub(crate) fn emphasised(&self, by: f64) -> Self {
+        let mut emphasised = self.clone();
+        emphasised.data.iter_mut().for_each(|datum| datum.weight *= by.sqrt());
+        emphasised
     }
 
     /// The measured values, those of one geometry side by side.

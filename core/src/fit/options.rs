@@ -1,5 +1,7 @@
 //! The choices of a fit: what a residual is, what divides it, how it counts.
 
+use crate::measurement::plane_of;
+use crate::optics::Geometry;
 use serde::{Deserialize, Serialize};
 
 /// What divides a residual.
@@ -53,6 +55,32 @@ pub enum Intervals {
     None,
 }
 
+/// The angles that are fitted; rows outside are left out, as masked ones are.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FitRange {
+    /// From and to, degrees, both included.
+    pub theta_i: [f64; 2],
+    /// From and to, degrees, both included; negative on the backscatter side.
+    pub theta_r: [f64; 2],
+}
+
+impl Default for FitRange {
+    /// All angles.
+    fn default() -> Self {
+        Self { theta_i: [0.0, 90.0], theta_r: [-90.0, 90.0] }
+    }
+}
+
+impl FitRange {
+    /// Whether a geometry is fitted.
+    #[must_use]
+    pub fn contains(&self, geometry: Geometry) -> bool {
+        let (_, theta_r) = plane_of(geometry);
+        let is_within = |[from, to]: [f64; 2], angle: f64| (from..=to).contains(&angle);
+        is_within(self.theta_i, geometry.theta_i().0) && is_within(self.theta_r, theta_r)
+    }
+}
+
 /// The choices of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
@@ -68,4 +96,7 @@ pub struct FitOptions {
     pub loss_scale: Option<f64>,
     /// Leave measured BRDFs aside: the model does not predict them.
     pub dolp_only: bool,
+    /// The angles that are fitted; without, all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<FitRange>,
 }

@@ -1,6 +1,7 @@
 //! Why data, model and options make no problem.
 
 use crate::fit::observations::UnstatedSigma;
+use crate::fit::ties::TieError;
 use crate::model::Parameter;
 
 /// Why data, model and options make no problem.
@@ -29,6 +30,9 @@ pub enum ProblemError {
         /// Upper bound.
         high: f64,
     },
+    /// Parameters that cannot be tied.
+    #[error(transparent)]
+    Tie(#[from] TieError),
 }
 
 impl ProblemError {
@@ -38,7 +42,7 @@ impl ProblemError {
         match self {
             Self::MissingSigma { .. } => Some("state all standard deviations, or fit without weights"),
             Self::NothingToPredict => Some("choose a model with a BRDF, such as specular"),
-            Self::StartOutsideBounds { .. } => None,
+            Self::StartOutsideBounds { .. } | Self::Tie(_) => None,
         }
     }
 }

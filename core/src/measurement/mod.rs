@@ -44,6 +44,7 @@ pub use polarimeter::Polarimeter;
 pub use progress::{Progress, unwatched};
 pub use row::{Quantity, Row};
 pub use rusinkiewicz::rusinkiewicz;
+pub(crate) use series::plane_of;
 pub use series::{DataPoint, IncidenceSeries};
 pub(crate) use simulation::Deviates;
 pub use simulation::{Columns, Simulation, grid_geometries};

@@ -80,8 +80,8 @@ impl IncidenceSeries {
     }
 }
 
-/// Plane and signed θr of a geometry.
-fn plane_of(geometry: Geometry) -> (f64, f64) {
+/// Plane and signed θr of a geometry, degrees.
+pub(crate) fn plane_of(geometry: Geometry) -> (f64, f64) {
     let dphi = geometry.dphi().0.rem_euclid(360.0);
     let theta_r = geometry.theta_r().0;
     if dphi > 90.0 && dphi <= 270.0 { (dphi, theta_r) } else { ((dphi + 180.0).rem_euclid(360.0), -theta_r) }

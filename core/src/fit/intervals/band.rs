@@ -7,8 +7,10 @@
 
 use crate::fit::intervals::linear::Uncertainty;
 use crate::fit::objective::Problem;
+use crate::fit::ties::Tie;
 use crate::model::{Gradient, GradientRequest, Model, ParameterSet, Parameters, Pbrdf, PerParameter};
 use crate::optics::Facet;
+use std::sync::Arc;
 
 /// Standard errors of the curves of a fit at any geometry.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,13 +18,14 @@ pub struct PredictionBand {
     model: Model,
     parameters: Parameters,
     uncertainty: Uncertainty,
+    ties: Arc<[Tie]>,
 }
 
 impl PredictionBand {
     /// Around the curves of those parameters, given what the problem's data determine there.
     #[must_use]
     pub fn new(problem: &Problem, parameters: &Parameters, uncertainty: Uncertainty) -> Self {
-        Self { model: problem.model(), parameters: *parameters, uncertainty }
+        Self { model: problem.model(), parameters: *parameters, uncertainty, ties: problem.ties().into() }
     }
 
     /// What the data determine.
@@ -45,12 +48,23 @@ impl PredictionBand {
     }
 
     fn by(&self) -> ParameterSet {
-        self.uncertainty.analysed.iter().copied().collect()
+        let analysed: ParameterSet = self.uncertainty.analysed.iter().copied().collect();
+        let with_tied = |by: ParameterSet, tie: &Tie| if analysed.contains(tie.to) { by.with(tie.parameter) } else { by };
+        self.ties.iter().fold(analysed, with_tied)
+    }
+
+    /// Derivatives by the unknowns, which move what is tied to them.
+    fn by_unknowns(&self, mut by: PerParameter<f64>) -> PerParameter<f64> {
+        for tie in self.ties.iter() {
+            by[tie.to] += tie.factor * by[tie.parameter];
+        }
+        by
     }
 
     fn errors(&self, facets: &[Facet], wanted: GradientRequest, pick: impl Fn(&Gradient) -> PerParameter<f64>) -> Vec<Option<f64>> {
         let Ok(surface) = Pbrdf::new(self.model, self.parameters) else { return vec![None; facets.len()] };
-        let error = |facet| self.uncertainty.error_of_prediction(&pick(&surface.reflection_and_gradient(facet, wanted).1));
+        let error =
+            |facet| self.uncertainty.error_of_prediction(&self.by_unknowns(pick(&surface.reflection_and_gradient(facet, wanted).1)));
         facets.iter().map(error).collect()
     }
 }

@@ -217,6 +217,11 @@ pub fn set_intervals(problem: &Problem, result: &mut FitResult, intervals: &[[In
         let found = problem.free().iter().position(|&free| free == estimate.parameter).and_then(|j| intervals.get(j));
         set_interval(estimate, found.copied().unwrap_or([Interval::OPEN; 2]), weights, dof);
     }
+    for tie in problem.ties() {
+        let of = result.estimate(tie.to).copied().map(|of| tie.estimate(&of));
+        let tied = result.estimates.iter_mut().find(|estimate| estimate.parameter == tie.parameter);
+        tied.into_iter().zip(of).for_each(|(estimate, of)| *estimate = of);
+    }
 }
 
 /// Sets the intervals of one estimate.

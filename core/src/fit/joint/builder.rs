@@ -9,6 +9,7 @@ use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::{FitOptions, Intervals};
 use crate::fit::solve::solve;
+use crate::fit::ties::{Tie, resolve_ties};
 use crate::measurement::Measurement;
 use crate::model::{Model, Parameter, ParameterSet};
 use std::ops::RangeInclusive;
@@ -43,6 +44,14 @@ pub enum JointError {
         /// The measurement.
         set: String,
     },
+    /// The weight of a measurement is not above 0.
+    #[error("the weight of {set} is {weight}: expected a number above 0")]
+    Weight {
+        /// The measurement.
+        set: String,
+        /// Its weight.
+        weight: f64,
+    },
     /// One measurement cannot be fitted.
     #[error("{set}: {error}")]
     Fit {
@@ -61,7 +70,7 @@ impl JointError {
             Self::NameTwice(_) => Some("give each measurement a name of its own"),
             Self::SharedDiffers { .. } => Some("make it an own parameter"),
             Self::Fit { error, .. } => error.hint(),
-            Self::NoMeasurement | Self::UnknownName { .. } | Self::OwnOfNone(_) => None,
+            Self::NoMeasurement | Self::UnknownName { .. } | Self::OwnOfNone(_) | Self::Weight { .. } => None,
         }
     }
 }
@@ -90,6 +99,7 @@ pub struct JointFit<'a> {
     names: Vec<Arc<str>>,
     model: Model,
     own: ParameterSet,
+    weights: Vec<f64>,
     starts: Starts,
     seed: u64,
     intervals: Intervals,
@@ -106,7 +116,8 @@ impl<'a> JointFit<'a> {
             fits.push(Fit::new(measurement, model));
         }
         let (starts, intervals, observer) = (Starts::Automatic, Intervals::Profile, Observer::NONE);
-        Self { fits, names, model, own: ParameterSet::EMPTY, starts, seed: 1, intervals, observer }
+        let weights = vec![1.0; fits.len()];
+        Self { fits, names, model, own: ParameterSet::EMPTY, weights, starts, seed: 1, intervals, observer }
     }
 
     /// Names the measurements, in their order.
@@ -119,6 +130,18 @@ impl<'a> JointFit<'a> {
     /// Gives each measurement those parameters for itself.
     pub fn own(self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
         Self { own: parameters.into_iter().fold(self.own, ParameterSet::with), ..self }
+    }
+
+    /// Weighs the measurements, in their order: the squared residuals of each are multiplied by its weight over the mean weight of all rows.
+    /// By default all weigh the same.
+    pub fn weights(mut self, weights: impl IntoIterator<Item = f64>) -> Self {
+        self.weights.iter_mut().zip(weights).for_each(|(weight, given)| *weight = given);
+        self
+    }
+
+    /// Ties a parameter to another one of the same measurement, times a factor. It is each measurement's own if the other one is.
+    pub fn tie(self, parameter: Parameter, factor: f64, to: Parameter) -> Self {
+        self.each(|fit| fit.tie(parameter, factor, to))
     }
 
     /// Changes the fit of each measurement.
@@ -199,6 +222,11 @@ impl<'a> JointFit<'a> {
         if let Some(stranger) = self.own.without_all(self.model.parameters()).iter().next() {
             return Err(JointError::OwnOfNone(stranger));
         }
+        let is_weight = |weight: f64| weight > 0.0 && weight.is_finite();
+        if let Some((weight, name)) = self.weights.iter().zip(&self.names).find(|(weight, _)| !is_weight(**weight)) {
+            return Err(JointError::Weight { set: name.to_string(), weight: *weight });
+        }
+        let own = self.own_with_ties();
         let posed = |extra: ParameterSet| -> Result<Vec<Problem>, JointError> {
             let of = |(fit, name): (&Fit<'a>, &Arc<str>)| {
                 fit.problem_freeing(extra).map_err(|error| JointError::Fit { set: name.to_string(), error })
@@ -207,14 +235,22 @@ impl<'a> JointFit<'a> {
         };
         // What some data depend on is free for all that share it.
         let free = |problem: &Problem| problem.free().iter().copied().collect::<ParameterSet>();
-        let shared = posed(ParameterSet::EMPTY)?.iter().map(free).fold(ParameterSet::EMPTY, ParameterSet::union).without_all(self.own);
+        let shared = posed(ParameterSet::EMPTY)?.iter().map(free).fold(ParameterSet::EMPTY, ParameterSet::union).without_all(own);
         let problems = posed(shared)?;
         for (problem, name) in problems.iter().zip(&self.names) {
-            if let Some(parameter) = disagreement(&problems[0], problem, self.own) {
+            if let Some(parameter) = disagreement(&problems[0], problem, own) {
                 return Err(JointError::SharedDiffers { parameter, set: name.to_string() });
             }
         }
-        Ok(JointProblem::new(problems, &self.names, self.own))
+        Ok(JointProblem::new(problems, &self.names, own, &self.weights))
+    }
+
+    /// The own parameters: what is tied is own where what it is tied to is.
+    fn own_with_ties(&self) -> ParameterSet {
+        // A circle is refused where the problem of a measurement is made.
+        let ties = self.fits.iter().flat_map(|fit| resolve_ties(fit.ties()).unwrap_or_default());
+        let follow = |own: ParameterSet, tie: Tie| if own.contains(tie.to) { own.with(tie.parameter) } else { own.without(tie.parameter) };
+        ties.filter(|tie| self.model.parameters().contains(tie.parameter)).fold(self.own, follow)
     }
 
     /// Runs the fit.

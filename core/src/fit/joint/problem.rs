@@ -6,6 +6,7 @@ use crate::fit::loss::robust_scale;
 use crate::fit::objective::{JacobianPlace, Problem};
 use crate::fit::observations::delta_e;
 use crate::fit::options::{BrdfResiduals, FitOptions, Weights};
+use crate::fit::ties::apply_ties;
 use crate::model::{Model, Parameter, ParameterSet, Parameters};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -35,9 +36,16 @@ pub struct JointProblem {
 
 impl JointProblem {
     /// Of problems of the same model and options, one for each measurement, that agree in what is shared: the free parameters, their starts and
-    /// bounds.
-    pub(crate) fn new(mut parts: Vec<Problem>, names: &[Arc<str>], own: ParameterSet) -> Self {
+    /// bounds. The squared residuals of each count so many times as its weight says, which is above 0: for all weights alike nothing changes.
+    pub(crate) fn new(mut parts: Vec<Problem>, names: &[Arc<str>], own: ParameterSet, weights: &[f64]) -> Self {
         Problem::normalise_together(&mut parts);
+        #[expect(clippy::cast_precision_loss, reason = "numbers of residuals")]
+        let counts = || parts.iter().map(|part| part.len() as f64);
+        let mean = counts().zip(weights).map(|(count, weight)| count * weight).sum::<f64>() / counts().sum::<f64>().max(1.0);
+        let are_alike = weights.iter().all(|weight| *weight == weights[0]);
+        if !are_alike && mean > 0.0 {
+            parts = parts.iter().zip(weights).map(|(part, weight)| part.emphasised(weight / mean)).collect();
+        }
         Self::of_scaled(parts, names, own)
     }
 
@@ -231,7 +239,7 @@ impl JointProblem {
             for (&parameter, &place) in part.free().iter().zip(places) {
                 parameters[parameter] = parameter.domain().flush_to_zero(x[place]);
             }
-            parameters
+            apply_ties(part.ties(), parameters)
         };
         self.parts.iter().zip(&self.places).zip(&self.start).map(of_part).collect()
     }

@@ -76,7 +76,7 @@ impl JointResult {
     pub(crate) fn new(problem: &JointProblem, analysis: Analysis<JointProblem>, intervals: Option<&[[Interval; 2]]>) -> Self {
         let point = problem.parameters_of(&analysis.x);
         let (weights, dof) = (problem.options().weights, analysis.statistics.dof);
-        let estimate = |part: usize, parameter: Parameter| {
+        let of = |part: usize, parameter: Parameter| {
             let place = problem.parts()[part].free().iter().position(|&free| free == parameter);
             let Some(unknown) = place.map(|place| problem.places()[part][place]) else {
                 return Estimate::fixed(parameter, point[part][parameter]);
@@ -86,6 +86,10 @@ impl JointResult {
                 set_interval(&mut estimate, *intervals, weights, dof);
             }
             estimate
+        };
+        let estimate = |part: usize, parameter: Parameter| {
+            let tie = problem.parts()[part].ties().iter().find(|tie| tie.parameter == parameter);
+            tie.map_or_else(|| of(part, parameter), |tie| tie.estimate(&of(part, tie.to)))
         };
         let all = problem.model().parameters();
         let fitted = analysis.fitted(problem);

@@ -7,6 +7,7 @@
 
 use crate::fit::least_squares::LeastSquares;
 use crate::fit::objective::Problem;
+use crate::fit::ties::apply_ties;
 use crate::model::{Parameter, Parameters};
 use crate::optics::SlopeDistribution;
 use nalgebra::{DMatrix, DVector};
@@ -36,7 +37,7 @@ impl Problem {
         for (&parameter, value) in self.free().iter().zip(x.iter()) {
             parameters[parameter] = parameter.domain().flush_to_zero(*value);
         }
-        parameters
+        apply_ties(self.ties(), parameters)
     }
 
     /// Part of the bound of a weight above which the weight is followed by factors, and below which by steps: the height of the specular

@@ -41,7 +41,7 @@ impl Misfit {
     pub(crate) fn new(problem: &Problem) -> Self {
         let data = problem.observations().data();
         let counts = [0, 1].map(|block| data.iter().filter(|datum| datum.kind.block() == block).count());
-        let dolp = (counts[1] == 0).then(|| DolpData {
+        let dolp = (counts[1] == 0 && problem.ties().is_empty()).then(|| DolpData {
             batch: Batch::from_facets(data.iter().map(|datum| problem.geometries().facets()[datum.point]).collect()).single_threaded(),
             measured: data.iter().map(|datum| (datum.measured, datum.weight)).collect(),
             out: DolpGradients::default(),

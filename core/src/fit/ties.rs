@@ -1,0 +1,160 @@
+//! Ties: a parameter that is another one times a factor.
+
+use crate::fit::bounds::Bounds;
+use crate::fit::estimate::Estimate;
+use crate::fit::intervals::interval::Interval;
+use crate::fit::objective::Problem;
+use crate::fit::problem_error::ProblemError;
+use crate::model::{Parameter, ParameterSet, Parameters, PerParameter};
+use serde::{Deserialize, Serialize};
+
+/// A parameter that is another one times a factor; it is no unknown of the fit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tie {
+    /// What is tied.
+    pub parameter: Parameter,
+    /// What the other one is multiplied by.
+    pub factor: f64,
+    /// The other one.
+    pub to: Parameter,
+}
+
+/// Why parameters cannot be tied.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TieError {
+    /// Ties that lead back to where they began: the parameters in their order, the first one at the end again.
+    #[error("{} is a circle", arrows(.0))]
+    Circle(Vec<Parameter>),
+    /// A factor that is 0 or no number.
+    #[error("{} = {} × {}: expected a factor other than 0", .0.parameter.key(), .0.factor, .0.to.key())]
+    Factor(Tie),
+    /// No value of the other one puts the parameter inside its bounds.
+    #[error("{} = {} × {} lies outside its bounds whatever {} is within its own", .0.parameter.key(), .0.factor, .0.to.key(), .0.to.key())]
+    Outside(Tie),
+}
+
+/// The keys of parameters with arrows between them.
+fn arrows(parameters: &[Parameter]) -> String {
+    parameters.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(" → ")
+}
+
+/// The ties, each to a parameter that is tied to none; of two ties of one parameter the later counts, and a tie to what the model does not
+/// have holds the parameter.
+///
+/// # Errors
+///
+/// [`TieError::Circle`], and [`TieError::Factor`] where a factor is 0 or not finite.
+pub fn resolve_ties(ties: &[Tie]) -> Result<Vec<Tie>, TieError> {
+    let mut by_parameter: PerParameter<Option<Tie>> = PerParameter::default();
+    for tie in ties {
+        if tie.factor == 0.0 || !tie.factor.is_finite() {
+            return Err(TieError::Factor(*tie));
+        }
+        by_parameter[tie.parameter] = Some(*tie);
+    }
+    let to_root = |tie: Tie| {
+        let (mut whole, mut path) = (tie, vec![tie.parameter, tie.to]);
+        while let Some(next) = by_parameter[whole.to] {
+            let is_circle = path.contains(&next.to);
+            path.push(next.to);
+            if is_circle {
+                let first = path.iter().position(|&parameter| parameter == next.to).unwrap_or(0);
+                return Err(TieError::Circle(path.split_off(first)));
+            }
+            whole = Tie { factor: whole.factor * next.factor, to: next.to, ..whole };
+        }
+        if whole.to == whole.parameter { Err(TieError::Circle(path)) } else { Ok(whole) }
+    };
+    Parameter::ALL.into_iter().filter_map(|parameter| by_parameter[parameter]).map(to_root).collect()
+}
+
+/// The parameters as resolved ties have them.
+#[must_use]
+pub fn apply_ties(ties: &[Tie], mut parameters: Parameters) -> Parameters {
+    for tie in ties {
+        parameters[tie.parameter] = tie.parameter.domain().flush_to_zero(tie.factor * parameters[tie.to]);
+    }
+    parameters
+}
+
+impl Tie {
+    /// The estimate of the tied parameter, given that of the other.
+    pub(crate) fn estimate(&self, of: &Estimate) -> Estimate {
+        let scaled = |interval: Interval| {
+            let [low, high] = [interval.low, interval.high].map(|end| end.map(|end| self.factor * end));
+            if self.factor > 0.0 { Interval { low, high } } else { Interval { low: high, high: low } }
+        };
+        Estimate {
+            parameter: self.parameter,
+            start: self.factor * of.start,
+            value: self.factor * of.value,
+            std_error: of.std_error.map(|error| self.factor.abs() * error),
+            interval68: of.interval68.map(scaled),
+            interval95: of.interval95.map(scaled),
+            ..*of
+        }
+    }
+
+    /// The box of the other one with room for this one; none if there is no room.
+    fn narrowed(&self, bounds: &Bounds) -> Option<(f64, f64)> {
+        let [low, high] = [bounds.of(self.parameter).0, bounds.of(self.parameter).1].map(|bound| bound / self.factor);
+        let (low, high) = (low.min(high), low.max(high));
+        let (own_low, own_high) = bounds.of(self.to);
+        let (low, high) = (low.max(own_low), high.min(own_high));
+        (low < high).then_some((low, high))
+    }
+}
+
+impl Problem {
+    /// The same problem with tied parameters. What is tied is not free; what it is tied to stays where both are within their bounds.
+    ///
+    /// # Errors
+    ///
+    /// [`ProblemError::Tie`] where ties are a circle, a factor is 0, or bounds leave no room.
+    pub fn with_ties(&self, ties: &[Tie]) -> Result<Self, ProblemError> {
+        let ties: Vec<Tie> = resolve_ties(ties)?.into_iter().filter(|tie| self.model().parameters().contains(tie.parameter)).collect();
+        let mut free: ParameterSet = self.free().iter().copied().collect();
+        ties.iter().for_each(|tie| free = free.without(tie.parameter));
+        let (mut bounds, mut start) = (*self.bounds(), *self.start());
+        for tie in &ties {
+            if free.contains(tie.to) {
+                let (low, high) = tie.narrowed(&bounds).ok_or(TieError::Outside(*tie))?;
+                bounds.set(tie.to, low, high).map_err(|_| TieError::Outside(*tie))?;
+                start[tie.to] = bounds.clamp(tie.to, start[tie.to]);
+            } else if !tie.parameter.domain().contains(tie.factor * start[tie.to]) {
+                return Err(TieError::Outside(*tie).into());
+            }
+        }
+        Ok(self.with_free(free).with_bounds(bounds).with_start(apply_ties(&ties, start)).tied_by(ties))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Tie, TieError, resolve_ties};
+    use crate::model::Parameter::{K, Kd, Kv, N};
+
+    const fn tie(parameter: crate::model::Parameter, factor: f64, to: crate::model::Parameter) -> Tie {
+        Tie { parameter, factor, to }
+    }
+
+    #[test]
+    fn chains_of_ties_lead_to_one_parameter() {
+        let ties = resolve_ties(&[tie(Kv, 2.0, Kd), tie(Kd, 0.5, K), tie(Kv, 4.0, Kd)]).unwrap();
+        assert_eq!(ties, [tie(Kd, 0.5, K), tie(Kv, 2.0, K)], "the later tie of k_v counts");
+    }
+
+    #[test]
+    fn circles_and_factors_that_mean_nothing_are_refused() {
+        for (ties, text) in [
+            (vec![tie(N, 2.0, N)], "n → n is a circle"),
+            (vec![tie(N, 2.0, K), tie(K, 0.5, N)], "n → k → n is a circle"),
+            (vec![tie(Kv, 1.0, N), tie(N, 2.0, K), tie(K, 0.5, N)], "n → k → n is a circle"),
+        ] {
+            assert_eq!(resolve_ties(&ties).unwrap_err().to_string(), text);
+        }
+        assert_eq!(resolve_ties(&[tie(N, 0.0, K)]), Err(TieError::Factor(tie(N, 0.0, K))));
+        assert_eq!(resolve_ties(&[tie(N, f64::INFINITY, K)]).unwrap_err().to_string(), "n = inf × k: expected a factor other than 0");
+    }
+}
