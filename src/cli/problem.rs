@@ -112,6 +112,7 @@ pub fn described<'a>(mut fit: Fit<'a>, arguments: &ProblemArguments, dolp_only: 
         loss: arguments.loss,
         loss_scale: arguments.loss_scale,
         dolp_only,
+        range: None,
     });
     for &Targeted { parameter, value: (low, high), .. } in in_order(&arguments.bounds, is_meant) {
         fit = fit.bound(parameter, low..=high);

@@ -6,9 +6,10 @@ use crate::report::document::{DocumentPart, ReportDocument};
 use crate::report::fit_figures::FitFigures;
 use crate::report::language::ReportLanguage;
 use pbrdf::fit::{
-    BrdfResiduals, Correlations, Edge, Estimate, EstimateStatus, FitOptions, FitResult, Interval, Loss, Problem, UnknownName, Weights,
+    BrdfResiduals, Correlations, Edge, Estimate, EstimateStatus, FitOptions, FitRange, FitResult, Interval, Loss, Problem, Tie,
+    UnknownName, Weights,
 };
-use pbrdf::measurement::{IncidenceSeries, Measurement};
+use pbrdf::measurement::{IncidenceSeries, Measurement, Row};
 use pbrdf::model::{Audit, Check, Diffuse, DolpFormula, Finding, Model, Parameter, Pbrdf, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use pbrdf::rounding::{significant, trimmed};
@@ -114,7 +115,8 @@ impl FitDocument<'_> {
     }
 
     pub(super) fn used(&self) -> usize {
-        self.measurement.rows.iter().filter(|row| !row.masked).count()
+        let is_used = |row: &&Row| !row.masked && self.choices().range.is_none_or(|range| range.contains(row.geometry));
+        self.measurement.rows.iter().filter(is_used).count()
     }
 
     fn choices(&self) -> &FitOptions {
@@ -336,7 +338,7 @@ impl FitDocument<'_> {
     }
 
     fn choice_rows(&self) -> Vec<(&'static str, String)> {
-        let FitOptions { weights, brdf_residuals, loss, loss_scale, dolp_only } = self.choices();
+        let FitOptions { weights, brdf_residuals, loss, loss_scale, dolp_only, range } = self.choices();
         let weights = match weights {
             Weights::None => "none: all values of a quantity count alike",
             Weights::Sigma => "each residual divided by the stated standard deviation",
@@ -366,6 +368,17 @@ impl FitDocument<'_> {
             rows.push(("residuals of BRDF", brdf));
         }
         rows.extend([("loss", loss), ("reading of Eq. (17)", self.text(reading))]);
+        rows.extend(range.map(|FitRange { theta_i: [from, to], theta_r: [low, high] }| {
+            ("angles", format!("{from}° ≤ θi ≤ {to}°, {low}° ≤ θr ≤ {high}°"))
+        }));
+        let tie = |tie: &Tie| format!("{} = {} × {}", tie.parameter.symbol(), tie.factor, tie.to.symbol());
+        let ties: Vec<String> = self.problem.ties().iter().map(tie).collect();
+        if !ties.is_empty() {
+            rows.push(("ties", ties.join(", ")));
+        }
+        if self.problem.emphasis() != 1.0 {
+            rows.push(("weight among the measurements", significant(self.problem.emphasis(), 4)));
+        }
         rows
     }
 

@@ -150,7 +150,7 @@ fn estimates(problem: &Problem, analysis: &Analysis<Problem>) -> Vec<Estimate> {
     };
     let estimate = |parameter| {
         let tie = problem.ties().iter().find(|tie| tie.parameter == parameter);
-        tie.map_or_else(|| of(parameter), |tie| tie.estimate(&of(tie.to)))
+        tie.map_or_else(|| of(parameter), |tie| of(tie.to).of_tied(tie))
     };
     problem.model().parameters().iter().map(estimate).collect()
 }

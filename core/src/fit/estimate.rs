@@ -4,6 +4,7 @@ use crate::fit::fit_problem::UnknownName;
 use crate::fit::intervals::interval::Interval;
 use crate::fit::intervals::linear::UndeterminedDirection;
 use crate::fit::rounding::{significant, trimmed, with_error};
+use crate::fit::ties::Tie;
 use crate::model::Parameter;
 use serde::Serialize;
 use std::fmt;
@@ -68,6 +69,24 @@ impl Estimate {
     pub(crate) fn fixed(parameter: Parameter, value: f64) -> Self {
         let (std_error, at_bound, interval68, interval95) = (None, None, None, None);
         Self { parameter, start: value, value, free: false, std_error, at_bound, interval68, interval95, determined: false }
+    }
+
+    /// That of a parameter tied to this one.
+    pub(crate) fn of_tied(&self, tie: &Tie) -> Self {
+        let factor = tie.factor;
+        let scaled = |interval: Interval| {
+            let [low, high] = [interval.low, interval.high].map(|end| end.map(|end| factor * end));
+            if factor > 0.0 { Interval { low, high } } else { Interval { low: high, high: low } }
+        };
+        Self {
+            parameter: tie.parameter,
+            start: factor * self.start,
+            value: factor * self.value,
+            std_error: self.std_error.map(|error| factor.abs() * error),
+            interval68: self.interval68.map(scaled),
+            interval95: self.interval95.map(scaled),
+            ..*self
+        }
     }
 
     /// How well the data determine it.

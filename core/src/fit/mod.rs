@@ -59,6 +59,7 @@ mod single;
 mod solve;
 mod special_cases;
 mod stop_reason;
+mod tied_problem;
 mod ties;
 
 pub use analysis::analyse;

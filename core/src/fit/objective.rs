@@ -134,8 +134,9 @@ impl Problem {
         Self { emphasis, observations, ..self.clone() }
     }
 
-    /// What its squared residuals are multiplied by.
-    pub(crate) fn emphasis(&self) -> f64 {
+    /// What its squared residuals are multiplied by, among other measurements; 1 alone.
+    #[must_use]
+    pub fn emphasis(&self) -> f64 {
         self.emphasis
     }
 

@@ -1,11 +1,7 @@
 //! Ties: a parameter that is another one times a factor.
 
 use crate::fit::bounds::Bounds;
-use crate::fit::estimate::Estimate;
-use crate::fit::intervals::interval::Interval;
-use crate::fit::objective::Problem;
-use crate::fit::problem_error::ProblemError;
-use crate::model::{Parameter, ParameterSet, Parameters, PerParameter};
+use crate::model::{Parameter, Parameters, PerParameter};
 use serde::{Deserialize, Serialize};
 
 /// A parameter that is another one times a factor; it is no unknown of the fit.
@@ -79,54 +75,13 @@ pub fn apply_ties(ties: &[Tie], mut parameters: Parameters) -> Parameters {
 }
 
 impl Tie {
-    /// The estimate of the tied parameter, given that of the other.
-    pub(crate) fn estimate(&self, of: &Estimate) -> Estimate {
-        let scaled = |interval: Interval| {
-            let [low, high] = [interval.low, interval.high].map(|end| end.map(|end| self.factor * end));
-            if self.factor > 0.0 { Interval { low, high } } else { Interval { low: high, high: low } }
-        };
-        Estimate {
-            parameter: self.parameter,
-            start: self.factor * of.start,
-            value: self.factor * of.value,
-            std_error: of.std_error.map(|error| self.factor.abs() * error),
-            interval68: of.interval68.map(scaled),
-            interval95: of.interval95.map(scaled),
-            ..*of
-        }
-    }
-
     /// The box of the other one with room for this one; none if there is no room.
-    fn narrowed(&self, bounds: &Bounds) -> Option<(f64, f64)> {
+    pub(crate) fn narrowed(&self, bounds: &Bounds) -> Option<(f64, f64)> {
         let [low, high] = [bounds.of(self.parameter).0, bounds.of(self.parameter).1].map(|bound| bound / self.factor);
         let (low, high) = (low.min(high), low.max(high));
         let (own_low, own_high) = bounds.of(self.to);
         let (low, high) = (low.max(own_low), high.min(own_high));
         (low < high).then_some((low, high))
-    }
-}
-
-impl Problem {
-    /// The same problem with tied parameters. What is tied is not free; what it is tied to stays where both are within their bounds.
-    ///
-    /// # Errors
-    ///
-    /// [`ProblemError::Tie`] where ties are a circle, a factor is 0, or bounds leave no room.
-    pub fn with_ties(&self, ties: &[Tie]) -> Result<Self, ProblemError> {
-        let ties: Vec<Tie> = resolve_ties(ties)?.into_iter().filter(|tie| self.model().parameters().contains(tie.parameter)).collect();
-        let mut free: ParameterSet = self.free().iter().copied().collect();
-        ties.iter().for_each(|tie| free = free.without(tie.parameter));
-        let (mut bounds, mut start) = (*self.bounds(), *self.start());
-        for tie in &ties {
-            if free.contains(tie.to) {
-                let (low, high) = tie.narrowed(&bounds).ok_or(TieError::Outside(*tie))?;
-                bounds.set(tie.to, low, high).map_err(|_| TieError::Outside(*tie))?;
-                start[tie.to] = bounds.clamp(tie.to, start[tie.to]);
-            } else if !tie.parameter.domain().contains(tie.factor * start[tie.to]) {
-                return Err(TieError::Outside(*tie).into());
-            }
-        }
-        Ok(self.with_free(free).with_bounds(bounds).with_start(apply_ties(&ties, start)).tied_by(ties))
     }
 }
 

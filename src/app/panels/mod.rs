@@ -7,6 +7,7 @@ mod parameters;
 mod pinned_list;
 mod sharing;
 mod stepping;
+mod ties;
 mod tooltip_right;
 
 pub use fit::{delta_e_text, fit_ui};

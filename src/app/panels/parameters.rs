@@ -2,11 +2,12 @@
 
 use crate::app::panels::sharing::{shared_of, shared_ui, sharing_ui};
 use crate::app::panels::stepping::{SliderStep, step_with_arrows};
+use crate::app::panels::ties::tie_ui;
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::significant;
+use crate::app::text::numbers::{short, significant};
 use crate::app::views::Cx;
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::{Edit, Switch};
@@ -69,13 +70,15 @@ struct Sliders<'a> {
 struct Room {
     slider: f32,
     value: f32,
+    /// Of any column.
+    least: f32,
     has_words: bool,
 }
 
 impl Room {
-    const ALONE: Self = Self { slider: 100.0, value: 92.0, has_words: true };
+    const ALONE: Self = Self { slider: 100.0, value: 92.0, least: 40.0, has_words: true };
     /// With the switch between shared and own at the end of the row.
-    const BESIDE_SWITCH: Self = Self { slider: 80.0, value: 76.0, has_words: false };
+    const BESIDE_SWITCH: Self = Self { slider: 72.0, value: 84.0, least: 27.0, has_words: false };
 }
 
 /// The named models; whatever the switches below say, if they match none.
@@ -102,9 +105,9 @@ fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
 
 fn bounds_switch_ui(cx: &mut Cx<'_>, surface: &mut Surface, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        cx.switch_ui(Switch::Bounds, tr!("Bounds of fits"), ui).on_hover_right(
+        cx.switch_ui(Switch::Bounds, tr!("Bounds and ties"), ui).on_hover_right(
             ui,
-            tr!("Under each slider the box that fits stay in; without bounds of its own a parameter has its slider's range"),
+            tr!("Under each slider the box that fits stay in, and what the parameter is tied to; without bounds of its own it has its slider's range"),
         );
         if !surface.bounds.is_empty()
             && ui.button(tr!("Reset bounds")).on_hover_right(ui, tr!("All bounds back to the sliders' ranges")).clicked()
@@ -251,7 +254,7 @@ fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     let Sliders { surface, shared, show_bounds, refusals, ranges } = sliders;
     let room = if shared.is_some() { Room::BESIDE_SWITCH } else { Room::ALONE };
-    Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).show(ui, |ui| {
+    Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).min_col_width(room.least).show(ui, |ui| {
         ui.spacing_mut().slider_width = room.slider;
         for &parameter in parameters {
             slider_ui(surface, refusals, ranges[parameter].clone(), room, ui, parameter);
@@ -259,6 +262,8 @@ fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Pa
             ui.end_row();
             if *show_bounds {
                 bounds_ui(surface, refusals, room, ui, parameter);
+                ui.end_row();
+                tie_ui(surface, refusals, [room.slider, room.value], ui, parameter);
                 ui.end_row();
             }
         }
@@ -278,13 +283,15 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
     );
     let label = name_ui(ui, parameter.symbol(), &help);
 
+    let tie = surface.tie_of(parameter);
     let value = &mut surface.parameters[parameter];
     let before = *value;
     let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
     if parameter.is_logarithmic() {
         slider = slider.logarithmic(true).smallest_positive(1e-3);
     }
-    let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help.as_str());
+    let is_tied = tie.is_some();
+    let slider = ui.add_enabled(!is_tied, slider).labelled_by(label.id).on_hover_right(ui, help.as_str());
     let step = if parameter.is_logarithmic() { SliderStep::OfSize } else { SliderStep::over(&range) };
     step_with_arrows(ui, &slider, before, value, &range, step);
     if is_double_clicked(ui, &[&label, &slider]) {
@@ -317,10 +324,14 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
     };
     let unit = parameter.unit();
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    ui.add_sized(
-        [room.value, 20.0],
-        typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false).suffix(suffix),
-    )
+    let typed = typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false);
+    ui.scope(|ui| {
+        if is_tied {
+            ui.disable();
+        }
+        ui.add_sized([room.value, 20.0], typed.suffix(suffix))
+    })
+    .inner
     .labelled_by(label.id)
     .on_hover_right(
         ui,
@@ -339,6 +350,13 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
 
 /// Whether a fit leaves the parameter alone, and the way back to its default.
 fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut Ui, parameter: Parameter) {
+    if let Some(tie) = surface.tie_of(parameter) {
+        let text =
+            if tie.factor == 1.0 { format!("= {}", tie.to.symbol()) } else { format!("= {} {}", short(tie.factor), tie.to.symbol()) };
+        ui.weak(text).on_hover_right(ui, tr!("{} is tied: untie it under Bounds and ties", parameter.symbol()));
+        ui.label("");
+        return;
+    }
     let mut locked = surface.locked.contains(parameter);
     let lock = ui.checkbox(&mut locked, tr!("fixed")).on_hover_right(ui, tr!("{} stays as it is in a fit", parameter.symbol()));
     lock.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, locked, tr!("Fix {}", parameter.key())));

@@ -6,7 +6,7 @@ use crate::app::storage::session_error::SavedFitError;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::open_measurement::{Mask, MeasurementStyle, masked_rows};
 use crate::app::work::surface::{Surface, can_be_set};
-use pbrdf::fit::{Bounds, Course, FitOptions, FitResult, Observer, Problem, Starts, fit};
+use pbrdf::fit::{Bounds, Course, FitOptions, FitResult, Observer, Problem, Starts, Tie, fit};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,8 @@ pub struct SavedFit {
     start: Parameters,
     free: Vec<Parameter>,
     bounds: Vec<(Parameter, f64, f64)>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    ties: Vec<Tie>,
     #[serde(rename = "choices")]
     fit_options: FitOptions,
     /// The solution.
@@ -49,6 +51,8 @@ pub struct SavedMeasurement {
     /// Of an open one that is not active.
     pub surface: Option<Surface>,
     pub style: MeasurementStyle,
+    /// How often its squared residuals count in joint fits.
+    pub weight: f64,
     /// The series that plots show, if not those that they show at first.
     pub drawn: Option<Vec<usize>>,
     /// Which fit is shown while it is active, if it is not now.
@@ -63,7 +67,7 @@ impl SavedMeasurement {
     pub fn of(measurement: Arc<Measurement>) -> Self {
         let (name, style) = (String::new(), MeasurementStyle::default());
         let (drawn, shown_fit, is_placeholder) = (None, None, false);
-        Self { name, sha256: None, is_open: true, surface: None, style, drawn, shown_fit, is_placeholder, measurement }
+        Self { name, sha256: None, is_open: true, surface: None, style, weight: 1.0, drawn, shown_fit, is_placeholder, measurement }
     }
 }
 
@@ -95,6 +99,7 @@ impl SavedFit {
             start: *problem.start(),
             free: problem.free().to_vec(),
             bounds: bounds.collect(),
+            ties: problem.ties().to_vec(),
             fit_options: *problem.options(),
             parameters: fit.report.parameters,
             before: fit.before,
@@ -149,7 +154,8 @@ impl SavedFit {
         }
         let free: ParameterSet = self.free.iter().copied().collect();
         let problem = Problem::new(&self.masked(measurement), self.model, self.start, free, bounds, self.fit_options);
-        problem.map_err(SavedFitError::Problem)
+        let tied = |problem: Problem| if self.ties.is_empty() { Ok(problem) } else { problem.with_ties(&self.ties) };
+        problem.and_then(tied).map_err(SavedFitError::Problem)
     }
 
     /// The fit again. None where the data of the session are no longer such that there is one.

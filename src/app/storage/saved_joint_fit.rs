@@ -6,7 +6,7 @@ use crate::app::storage::session_error::SavedFitError;
 use crate::app::work::fit_history::{FitEntry, JointEntry};
 use crate::app::work::open_measurement::Mask;
 use crate::app::work::surface::can_be_set;
-use pbrdf::fit::{Fit, FitOptions, JointFit, JointProblem};
+use pbrdf::fit::{Fit, FitOptions, JointFit, JointProblem, Tie};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use serde::{Deserialize, Serialize};
@@ -34,11 +34,20 @@ struct SavedSet {
     start: Parameters,
     free: Vec<Parameter>,
     bounds: Vec<(Parameter, f64, f64)>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    ties: Vec<Tie>,
+    /// How often its squared residuals counted.
+    #[serde(default = "one")]
+    weight: f64,
     /// The sliders before it.
     before: Parameters,
     /// The rows that were masked, from 0.
     #[serde(serialize_with = "on_one_line")]
     masked: Vec<usize>,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// A joint fit of a session, made again.
@@ -65,6 +74,8 @@ impl SavedJointFit {
                 start: *problem.start(),
                 free: problem.free().to_vec(),
                 bounds: bounds.collect(),
+                ties: problem.ties().to_vec(),
+                weight: problem.emphasis(),
                 before: fit.before,
                 masked: fit.mask.to_vec(),
             }
@@ -107,11 +118,12 @@ impl SavedJointFit {
         let mut sets = self.sets.iter();
         let fit = JointFit::new(masked.iter().map(|measurement| &**measurement), self.model);
         let fit = fit.named(self.sets.iter().map(|set| set.name.as_str())).own(self.model.parameters().without_all(self.shared).iter());
-        let fit = fit.options(self.fit_options).each(|fit| {
+        let fit = fit.options(self.fit_options).weights(self.sets.iter().map(|set| set.weight)).each(|fit| {
             let Some(set) = sets.next() else { return fit };
             let free: ParameterSet = set.free.iter().copied().collect();
             let fit = self.model.parameters().without_all(free).iter().fold(fit.start_at(set.start), Fit::hold);
             let fit = free.iter().fold(fit, Fit::free);
+            let fit = set.ties.iter().fold(fit, |fit, tie| fit.tie(tie.parameter, tie.factor, tie.to));
             set.bounds.iter().fold(fit, |fit, &(parameter, low, high)| fit.bound(parameter, low..=high))
         });
         fit.problem().map_err(SavedFitError::Joint)

@@ -131,6 +131,9 @@ struct Table {
     surface: Option<Surface>,
     #[serde(default, skip_serializing_if = "is_default")]
     style: MeasurementStyle,
+    /// How often its squared residuals count in joint fits.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    weight: f64,
     /// The series that plots show, from 0, if not those that they show at first.
     #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "on_one_line")]
     drawn: Option<Vec<usize>>,
@@ -146,6 +149,15 @@ struct Table {
 
 fn yes() -> bool {
     true
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_one(weight: &f64) -> bool {
+    *weight == 1.0
 }
 
 /// A session.
@@ -217,9 +229,10 @@ impl Session {
         let (mut measurements, mut numbers) = (Vec::new(), Vec::new());
         for (index, open) in list.iter().enumerate().filter(|(_, open)| !open.measurement.rows.is_empty()) {
             let surface = (index != list.active_index()).then(|| open.surface.clone());
-            let OpenMeasurement { name, sha256, measurement, style, is_placeholder, .. } = open.clone();
+            let OpenMeasurement { name, sha256, measurement, style, weight, is_placeholder, .. } = open.clone();
             let drawn = (*open.drawn() != drawn_at_first(open.series.len())).then(|| open.drawn().to_vec());
-            let saved = SavedMeasurement { name, sha256, surface, style, drawn, is_placeholder, ..SavedMeasurement::of(measurement) };
+            let saved =
+                SavedMeasurement { name, sha256, surface, style, weight, drawn, is_placeholder, ..SavedMeasurement::of(measurement) };
             measurements.push(saved);
             numbers.push(open.number);
         }
@@ -265,7 +278,7 @@ impl Session {
             let opened = OpenMeasurement::new(saved.name, Arc::unwrap_or_clone(saved.measurement)).of_file(saved.sha256);
             let surface = saved.surface.unwrap_or_else(|| surface.clone());
             let mut opened = opened.with_surface(surface);
-            (opened.style, opened.is_placeholder) = (saved.style, saved.is_placeholder);
+            (opened.style, opened.weight, opened.is_placeholder) = (saved.style, saved.weight, saved.is_placeholder);
             if let Some(drawn) = saved.drawn {
                 opened.set_drawn(&drawn.into());
             }
@@ -292,9 +305,10 @@ impl Session {
             Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
         };
         let measurements = self.measurements.iter().map(|saved| -> io::Result<Table> {
-            let SavedMeasurement { name, sha256, is_open, surface, style, drawn, shown_fit, is_placeholder, measurement } = saved.clone();
+            let SavedMeasurement { name, sha256, is_open, surface, style, weight, drawn, shown_fit, is_placeholder, measurement } =
+                saved.clone();
             let (open, shown, placeholder, table) = (is_open, shown_fit, is_placeholder, table(&measurement)?);
-            Ok(Table { name, sha256, open, surface, style, drawn, shown, placeholder, table })
+            Ok(Table { name, sha256, open, surface, style, weight, drawn, shown, placeholder, table })
         });
         let lesson = self.lesson.as_ref().map(|lesson| -> io::Result<_> {
             Ok(LessonContents { title: lesson.title.clone(), step: lesson.step, work: Box::new(lesson.work.contents()?) })
@@ -348,9 +362,10 @@ impl Session {
         surface.validate().and_then(|()| settings.validate()).map_err(SessionError::Settings)?;
         let tables = measurement.into_iter().chain(measurements);
         let measurements = tables.map(|table| -> Result<SavedMeasurement, ReadError> {
-            let Table { name, sha256, open: is_open, surface, style, drawn, shown: shown_fit, placeholder: is_placeholder, table } = table;
+            let Table { name, sha256, open: is_open, surface, style, weight, drawn, shown: shown_fit, placeholder: is_placeholder, table } =
+                table;
             let measurement = Arc::new(Measurement::read(table.join("\n").as_bytes())?);
-            Ok(SavedMeasurement { name, sha256, is_open, surface, style, drawn, shown_fit, is_placeholder, measurement })
+            Ok(SavedMeasurement { name, sha256, is_open, surface, style, weight, drawn, shown_fit, is_placeholder, measurement })
         });
         let mut measurements = measurements.collect::<Result<Vec<_>, _>>().map_err(SessionError::Measurement)?;
         let mut others = measurements.iter().filter_map(|saved| saved.surface.as_ref());

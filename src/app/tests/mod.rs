@@ -39,6 +39,7 @@ mod sharing;
 mod sliders;
 mod snapshots;
 pub mod sources;
+mod ties;
 mod title;
 mod typed;
 

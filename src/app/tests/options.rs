@@ -29,7 +29,7 @@ fn choose(harness: &mut Harness<'static, Option<App>>, list: &str, entry: &str) 
 fn bounds_are_edited_under_the_slider_and_hold_in_a_fit() {
     let mut harness = harness();
     assert!(harness.query_by_label("Upper bound of n").is_none(), "the first look is without bounds");
-    harness.get_by_label("Bounds of fits").click();
+    harness.get_by_label("Bounds and ties").click();
     harness.run();
     harness.get_by_label("Upper bound of n").set_value_accesskit(1.5);
     harness.run();
@@ -48,7 +48,7 @@ fn bounds_are_edited_under_the_slider_and_hold_in_a_fit() {
 #[test]
 fn bounds_that_are_none_are_refused_with_a_sentence() {
     let mut harness = harness();
-    harness.get_by_label("Bounds of fits").click();
+    harness.get_by_label("Bounds and ties").click();
     harness.run();
     for (field, value, expected) in [
         ("Lower bound of k", 25.0, "lower one must be below"),

@@ -112,7 +112,7 @@ fn a_session_keeps_what_is_shared() {
 }
 
 /// Three simulated wavelengths of one sample, without noise.
-fn wavelengths() -> (Window, tempfile::TempDir) {
+pub fn wavelengths() -> (Window, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder");
     let text = |nm: u32, n: f64, k: f64| -> String {
         let surface = Parameters { n, k, sigma: 0.35, kd: 0.12, kv: 0.2, q: 2.2, c: -0.4, sigma_v: 0.6, ..Parameters::default() };
@@ -135,7 +135,7 @@ fn wavelengths() -> (Window, tempfile::TempDir) {
     (harness, folder)
 }
 
-fn shown(harness: &mut Window) -> FitEntry {
+pub fn shown(harness: &mut Window) -> FitEntry {
     FitEntry::clone(explorer(harness).work.shown_fit().expect("a fit"))
 }
 

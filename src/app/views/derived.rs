@@ -11,7 +11,9 @@ use crate::app::work::fit_setup::{fit_problem, is_joint, joint_problem};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
-use pbrdf::fit::{FitOptions, JointUnknown, Loss, Problem, Uncertainty, UndeterminedDirection, UnknownName, Weights, is_determined};
+use pbrdf::fit::{
+    FitOptions, FitRange, JointUnknown, Loss, Problem, Tie, Uncertainty, UndeterminedDirection, UnknownName, Weights, is_determined,
+};
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use std::collections::BTreeMap;
 
@@ -40,19 +42,20 @@ pub struct Derived {
 /// How far a surface is from its data.
 #[derive(Default)]
 struct Misfit {
-    problem: Memo<(u64, Model), Option<Problem>>,
-    delta_e: Memo<(Parameters, u64, Model), Option<f64>>,
+    problem: Memo<(u64, Model, Vec<Tie>, Option<FitRange>), Option<Problem>>,
+    delta_e: Memo<(Parameters, u64, Model, Option<FitRange>), Option<f64>>,
 }
 
 impl Misfit {
-    fn refresh(&mut self, open: &OpenMeasurement) {
+    fn refresh(&mut self, open: &OpenMeasurement, range: Option<FitRange>) {
         let Surface { parameters, model, .. } = open.surface;
-        // ΔE does not depend on the options of a fit.
-        self.problem.refresh((open.generation, model), |_| {
-            fit_problem(&open.surface, &open.measurement, model, ParameterSet::EMPTY, FitOptions::default()).ok()
+        // ΔE does not depend on other options of a fit.
+        let fit_options = FitOptions { range, ..FitOptions::default() };
+        self.problem.refresh((open.generation, model, open.surface.ties.clone(), range), |_| {
+            fit_problem(&open.surface, &open.measurement, model, ParameterSet::EMPTY, fit_options).ok()
         });
         let problem = self.problem.get().and_then(Option::as_ref);
-        self.delta_e.refresh((parameters, open.generation, model), |_| problem?.delta_e(&parameters));
+        self.delta_e.refresh((parameters, open.generation, model, range), |_| problem?.delta_e(&parameters));
     }
 }
 
@@ -80,7 +83,7 @@ impl Derived {
         self.active = document.number;
         self.misfits.retain(|number, _| work.measurements().get(*number).is_some());
         for open in work.measurements().iter() {
-            self.misfits.entry(open.number).or_default().refresh(open);
+            self.misfits.entry(open.number).or_default().refresh(open, work.settings().fit_options.range);
         }
         self.states_sigmas.refresh(document.generation, |_| document.measurement.states_sigmas());
     }

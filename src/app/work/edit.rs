@@ -79,6 +79,11 @@ pub enum Edit {
         number: u64,
         style: MeasurementStyle,
     },
+    /// How often the squared residuals of a measurement count in joint fits.
+    SetWeight {
+        number: u64,
+        weight: f64,
+    },
     /// The angles of incidence that plots show of a measurement.
     SetDrawnSeries {
         number: u64,

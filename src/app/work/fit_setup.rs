@@ -22,7 +22,8 @@ pub fn fit_problem(
     fit_options: FitOptions,
 ) -> Result<Problem, ProblemError> {
     let (start, bounds) = start_in_bounds(surface, free);
-    Problem::new(measurement, model, start, free, bounds, fit_options)
+    let problem = Problem::new(measurement, model, start, free, bounds, fit_options)?;
+    if surface.ties.is_empty() { Ok(problem) } else { problem.with_ties(&surface.ties) }
 }
 
 /// Whether a fit is one of all measurements together: there are several, and they share something of their model.
@@ -38,12 +39,13 @@ pub fn joint_problem(list: &MeasurementList, held: ParameterSet, fit_options: Fi
     let mut surfaces = list.measured();
     let fit = JointFit::new(list.measured().map(|open| &*open.measurement), model);
     let fit = fit.named(list.measured().map(OpenMeasurement::title)).own(model.parameters().without_all(shared).iter());
-    let fit = fit.options(fit_options).each(|fit| {
+    let fit = fit.options(fit_options).weights(list.measured().map(|open| open.weight)).each(|fit| {
         let Some(open) = surfaces.next() else { return fit };
         let is_active = open.number == list.active().number;
         let free = free_together(list, open).without_all(if is_active { held } else { held.intersection(shared) });
         let (start, bounds) = start_in_bounds(&open.surface, free);
         let fit = model.parameters().without_all(free).iter().fold(fit.start_at(start), Fit::hold);
+        let fit = open.surface.ties.iter().fold(fit, |fit, tie| fit.tie(tie.parameter, tie.factor, tie.to));
         free.iter().fold(fit, |fit, parameter| {
             let (low, high) = bounds.of(parameter);
             fit.free(parameter).bound(parameter, low..=high)
@@ -59,9 +61,9 @@ pub fn free_together(list: &MeasurementList, open: &OpenMeasurement) -> Paramete
     free(&open.surface, open.measurement.has_brdf()).without_all(list.shared()).union(shared)
 }
 
-/// The parameters that a fit would change: those that the data can speak of, less the locked ones.
+/// The parameters that a fit would change: those that the data can speak of, less the locked and the tied ones.
 pub fn free(surface: &Surface, has_brdf: bool) -> ParameterSet {
-    free_of_model(surface, has_brdf).without_all(surface.locked)
+    free_of_model(surface, has_brdf).without_all(surface.locked).without_all(surface.tied())
 }
 
 /// The same for planned angles: if they decide otherwise than the open measurement whether there is

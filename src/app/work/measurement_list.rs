@@ -227,15 +227,18 @@ impl MeasurementList {
         self.spread(self.active);
     }
 
-    /// Takes what is shared from one surface to all others: values, what fits may do with them, and the model.
+    /// Takes what is shared from one surface to all others: values, what fits may do with them, the model and the ties. What is tied follows.
     fn spread(&mut self, from: usize) {
+        self.all[from].surface.follow_ties();
         if self.shared.is_empty() {
             return;
         }
         let surface = self.all[from].surface.clone();
         for open in &mut self.all {
             open.surface.model = surface.model;
+            open.surface.ties.clone_from(&surface.ties);
             self.shared.iter().for_each(|parameter| open.surface.take(parameter, &surface));
+            open.surface.follow_ties();
         }
     }
 }

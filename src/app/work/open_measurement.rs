@@ -74,6 +74,8 @@ pub struct OpenMeasurement {
     pub plotted: u64,
     pub surface: Surface,
     pub style: MeasurementStyle,
+    /// How often its squared residuals count in joint fits.
+    pub weight: f64,
     /// Whether the program opened it by itself and nothing was done with it yet.
     pub is_placeholder: bool,
     mask: Mask,
@@ -116,7 +118,21 @@ impl OpenMeasurement {
         let (style, measurement) = (MeasurementStyle::default(), Arc::new(measurement));
         let (is_placeholder, drawn) = (false, drawn_at_first(series.len()));
         let (generation, plotted) = (number, number);
-        Self { name, sha256: None, measurement, series, number, generation, plotted, surface, style, is_placeholder, mask, drawn }
+        Self {
+            name,
+            sha256: None,
+            measurement,
+            series,
+            number,
+            generation,
+            plotted,
+            surface,
+            style,
+            weight: 1.0,
+            is_placeholder,
+            mask,
+            drawn,
+        }
     }
 
     /// No measurement: what the sliders move where nothing is open.

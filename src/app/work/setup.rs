@@ -25,6 +25,7 @@ struct MeasurementSetup {
     name: String,
     surface: Surface,
     style: MeasurementStyle,
+    weight: f64,
     mask: Mask,
     drawn: DrawnSeries,
 }
@@ -37,6 +38,7 @@ impl Setup {
             name: open.name.clone(),
             surface: open.surface.clone(),
             style: open.style,
+            weight: open.weight,
             mask: open.mask().clone(),
             drawn: open.drawn().clone(),
         };
@@ -63,6 +65,7 @@ impl Setup {
         for setup in self.measurements {
             if let Some(open) = measurements.get_mut(setup.number) {
                 (open.name, open.surface, open.style) = (setup.name, setup.surface, setup.style);
+                open.weight = setup.weight;
                 open.restore_mask(&setup.mask);
                 open.set_drawn(&setup.drawn);
             }

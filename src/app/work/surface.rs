@@ -1,7 +1,7 @@
 //! A surface: a model with its nine values, and what a fit may do with them.
 
 use crate::app::work::settings_error::SettingsError;
-use pbrdf::fit::{Bounds, BoundsError};
+use pbrdf::fit::{Bounds, BoundsError, Tie, TieError, apply_ties, resolve_ties};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
 use pbrdf::optics::SlopeDistribution;
@@ -17,6 +17,9 @@ pub struct Surface {
     pub locked: ParameterSet,
     /// Bounds of fits where they are not the slider's range: parameter, lower, upper.
     pub bounds: Vec<(Parameter, f64, f64)>,
+    /// Parameters that are another one times a factor.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ties: Vec<Tie>,
 }
 
 impl Default for Surface {
@@ -26,6 +29,7 @@ impl Default for Surface {
             model: Model::full(SlopeDistribution::Cauchy),
             locked: ParameterSet::EMPTY.with(Parameter::Ks),
             bounds: Vec::new(),
+            ties: Vec::new(),
         }
     }
 }
@@ -121,7 +125,37 @@ impl Surface {
     pub fn validate(&self) -> Result<(), SettingsError> {
         can_be_set(&self.parameters, ParameterSet::ALL).map_err(SettingsError::Parameters)?;
         let set = |&(parameter, low, high): &(Parameter, f64, f64)| Bounds::default().set(parameter, low, high);
-        self.bounds.iter().try_for_each(set).map_err(SettingsError::Bounds)
+        self.bounds.iter().try_for_each(set).map_err(SettingsError::Bounds)?;
+        resolve_ties(&self.ties).map(|_| ()).map_err(SettingsError::Ties)
+    }
+
+    /// What a parameter is tied to.
+    pub fn tie_of(&self, parameter: Parameter) -> Option<Tie> {
+        self.ties.iter().copied().find(|tie| tie.parameter == parameter)
+    }
+
+    /// The parameters that are tied to others.
+    pub fn tied(&self) -> ParameterSet {
+        self.ties.iter().map(|tie| tie.parameter).collect()
+    }
+
+    /// Ties a parameter, or unties it.
+    ///
+    /// # Errors
+    /// The tie leads back to the parameter, or its factor is 0; those of before stay.
+    pub fn set_tie(&mut self, parameter: Parameter, tie: Option<Tie>) -> Result<(), TieError> {
+        let others = self.ties.iter().copied().filter(|tie| tie.parameter != parameter);
+        let ties: Vec<Tie> = others.chain(tie).collect();
+        resolve_ties(&ties)?;
+        self.ties = ties;
+        self.follow_ties();
+        Ok(())
+    }
+
+    /// Moves tied parameters to where their ties have them.
+    pub fn follow_ties(&mut self) {
+        // Only sound ties are taken.
+        self.parameters = apply_ties(&resolve_ties(&self.ties).unwrap_or_default(), self.parameters);
     }
 
     /// Lower and upper bound of a parameter in fits.

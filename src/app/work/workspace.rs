@@ -221,6 +221,11 @@ impl Workspace {
             Edit::MoveMeasurement { number, by } => self.measurements.move_by(number, by),
             Edit::RenameMeasurement { number, name } => self.rename(number, name),
             Edit::SetMeasurementStyle { number, style } => self.set_style(number, style),
+            Edit::SetWeight { number, weight } => {
+                if let Some(open) = self.measurements.get_mut(number) {
+                    open.weight = weight;
+                }
+            }
             Edit::SetDrawnSeries { number, drawn } => {
                 if let Some(open) = self.measurements.get_mut(number) {
                     open.set_drawn(&drawn);

@@ -218,7 +218,7 @@ pub fn set_intervals(problem: &Problem, result: &mut FitResult, intervals: &[[In
         set_interval(estimate, found.copied().unwrap_or([Interval::OPEN; 2]), weights, dof);
     }
     for tie in problem.ties() {
-        let of = result.estimate(tie.to).copied().map(|of| tie.estimate(&of));
+        let of = result.estimate(tie.to).copied().map(|of| of.of_tied(tie));
         let tied = result.estimates.iter_mut().find(|estimate| estimate.parameter == tie.parameter);
         tied.into_iter().zip(of).for_each(|(estimate, of)| *estimate = of);
     }

@@ -89,7 +89,7 @@ impl JointResult {
         };
         let estimate = |part: usize, parameter: Parameter| {
             let tie = problem.parts()[part].ties().iter().find(|tie| tie.parameter == parameter);
-            tie.map_or_else(|| of(part, parameter), |tie| tie.estimate(&of(part, tie.to)))
+            tie.map_or_else(|| of(part, parameter), |tie| of(part, tie.to).of_tied(tie))
         };
         let all = problem.model().parameters();
         let fitted = analysis.fitted(problem);

@@ -4,10 +4,11 @@ use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::views::Cx;
 use crate::app::work::edit::Edit;
+use crate::app::work::fit_setup::is_joint;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
-use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Ui};
-use pbrdf::fit::{BrdfResiduals, FitOptions, Loss, Starts, Weights};
+use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Role, Ui, WidgetInfo};
+use pbrdf::fit::{BrdfResiduals, FitOptions, FitRange, Loss, Starts, Weights};
 use pbrdf::model::{DolpFormula, Parameter};
 use tr::tr;
 
@@ -38,6 +39,8 @@ pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
             loss_ui(&mut draft.fit_options, ui);
             eq17_ui(&mut draft.surface, has_brdf, ui);
             starts_ui(&mut draft, ui);
+            range_ui(&mut draft.fit_options, ui);
+            weights_ui(cx, ui);
         });
         if fit_options.weights == Weights::Sigma && !cx.derived.states_sigmas() {
             let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
@@ -136,6 +139,50 @@ fn eq17_ui(surface: &mut Surface, has_brdf: bool, ui: &mut Ui) {
 fn keep_ks_where_only_ratios_count(surface: &mut Surface, has_brdf: bool) {
     let only_ratios = surface.model.dolp_formula == DolpFormula::Consistent && !has_brdf;
     surface.locked = if only_ratios { surface.locked.with(Parameter::Ks) } else { surface.locked.without(Parameter::Ks) };
+}
+
+/// The part of the angles that is fitted.
+fn range_ui(fit_options: &mut FitOptions, ui: &mut Ui) {
+    let help = tr!("Rows outside are left out of the fit, as masked ones are; θr is negative on the backscatter side");
+    let mut is_part = fit_options.range.is_some();
+    ui.label(tr!("Angles")).on_hover_text(&help);
+    if ui.checkbox(&mut is_part, tr!("only a range")).on_hover_text(&help).changed() {
+        fit_options.range = is_part.then(FitRange::default);
+    }
+    ui.end_row();
+    let Some(range) = &mut fit_options.range else { return };
+    for (name, ends, least) in [("θi", &mut range.theta_i, 0.0), ("θr", &mut range.theta_r, -90.0)] {
+        ui.label(name);
+        ui.horizontal(|ui| {
+            let [from, to] = *ends;
+            for (end, bounds, said) in [(0, least..=to, tr!("{} from", name)), (1, from..=90.0, tr!("{} to", name))] {
+                let field = ui.add(DragValue::new(&mut ends[end]).range(bounds).speed(0.5).max_decimals(2).suffix("°"));
+                field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, &said));
+                if end == 0 {
+                    ui.label("–");
+                }
+            }
+        });
+        ui.end_row();
+    }
+}
+
+/// How often each measurement counts, where they are fitted together.
+fn weights_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let list = cx.work.measurements();
+    if !is_joint(list) {
+        return;
+    }
+    let help = tr!("How often its squared residuals count in a fit of several measurements");
+    for open in list.measured() {
+        let label = ui.add(Label::new(tr!("Weight of {}", open.title())).truncate()).on_hover_text(&help);
+        let mut weight = open.weight;
+        let field = DragValue::new(&mut weight).range(0.001..=1000.0).speed(0.01).max_decimals(4);
+        if ui.add(field).labelled_by(label.id).on_hover_text(&help).changed() {
+            cx.edits.push(Edit::SetWeight { number: open.number, weight });
+        }
+        ui.end_row();
+    }
 }
 
 fn starts_ui(draft: &mut Draft, ui: &mut Ui) {

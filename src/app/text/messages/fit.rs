@@ -2,9 +2,10 @@
 
 use crate::app::text::localized::Localized;
 use pbrdf::fit::{
-    BoundsError, DesignError, DistributionComparison, Evidence, FitError, JointError, ProblemError, StopReason, Undetermined,
+    BoundsError, DesignError, DistributionComparison, Evidence, FitError, JointError, ProblemError, StopReason, TieError, Undetermined,
     UndeterminedDirection, UndeterminedReason, UnknownName, Verdict, symbols,
 };
+use pbrdf::model::Parameter;
 use pbrdf::optics::SlopeDistribution;
 use tr::tr;
 
@@ -57,6 +58,28 @@ impl Localized for ProblemError {
             Self::StartOutsideBounds { parameter, value, low, high } => {
                 tr!("{0} = {1} is outside its bounds {2} … {3}", parameter.key(), value, low, high)
             }
+            Self::Tie(error) => error.localized(),
+        }
+    }
+}
+
+impl Localized for TieError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Circle(parameters) => {
+                let names: Vec<&str> = parameters.iter().copied().map(Parameter::symbol).collect();
+                tr!("{} is a circle", names.join(" → "))
+            }
+            Self::Factor(tie) => {
+                tr!("{0} = {1} × {2}: expected a factor other than 0", tie.parameter.symbol(), tie.factor, tie.to.symbol())
+            }
+            Self::Outside(tie) => tr!(
+                "{0} = {1} × {2} lies outside its bounds whatever {2} is within its own",
+                tie.parameter.symbol(),
+                tie.factor,
+                tie.to.symbol()
+            ),
+            other => other.to_string(),
         }
     }
 }
@@ -84,6 +107,7 @@ impl Localized for JointError {
             Self::SharedDiffers { parameter, set } => {
                 tr!("{0} is shared, and what is said of it for {1} differs from the others: make it an own parameter", parameter.key(), set)
             }
+            Self::Weight { set, weight } => tr!("the weight of {0} is {1}: expected a number above 0", set, weight),
             Self::Fit { set, error } => tr!("{0}: {1}", set, error.localized()),
             other => other.to_string(),
         }
