@@ -7,7 +7,7 @@ use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::text::numbers::{short, significant};
+use crate::app::text::numbers::significant;
 use crate::app::views::Cx;
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::{Edit, Switch};
@@ -352,7 +352,7 @@ fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeIncl
 fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut Ui, parameter: Parameter) {
     if let Some(tie) = surface.tie_of(parameter) {
         let text =
-            if tie.factor == 1.0 { format!("= {}", tie.to.symbol()) } else { format!("= {} {}", short(tie.factor), tie.to.symbol()) };
+            if tie.factor == 1.0 { format!("= {}", tie.to.symbol()) } else { format!("= {} {}", significant(tie.factor), tie.to.symbol()) };
         ui.weak(text).on_hover_right(ui, tr!("{} is tied: untie it under Bounds and ties", parameter.symbol()));
         ui.label("");
         return;

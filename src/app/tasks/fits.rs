@@ -13,8 +13,9 @@ use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{
-    Bootstrap, FitResult, Intervals, JointProblem, JointResult, JointUnknown, Observer, Problem, ProblemError, Profile, Starts, TracePoint,
-    bootstrap, fit, fit_jointly, profile, profile_jointly, special_cases_first, with_intervals, with_intervals_jointly, with_special_cases,
+    Bootstrap, BootstrapEstimate, FitResult, Intervals, JointProblem, JointResult, JointUnknown, Observer, Problem, ProblemError, Profile,
+    Starts, TracePoint, bootstrap, bootstrap_jointly, fit, fit_jointly, profile, profile_jointly, special_cases_first, with_intervals,
+    with_intervals_jointly, with_special_cases,
 };
 use pbrdf::model::{Model, Parameter, Preset};
 use std::sync::Arc;
@@ -234,9 +235,16 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn bootstrap(&mut self, problem: Problem, report: FitResult, replicates: usize, seed: u64) -> Result<(), String> {
+    pub fn bootstrap(&mut self, fit: &FitEntry, replicates: usize, seed: u64) -> Result<(), String> {
         self.abandon_scan();
-        let job = move |context: &JobContext| bootstrap(&problem, &report, replicates, seed, observer(&|| context.is_cancelled()));
+        let (problem, report, joint) = (fit.problem.clone(), fit.report.clone(), fit.joint.clone());
+        let job = move |context: &JobContext| {
+            let cancelled = || context.is_cancelled();
+            match joint {
+                None => bootstrap(&problem, &report, replicates, seed, observer(&cancelled)),
+                Some(part) => bootstrap_in_joint(&part, replicates, seed, observer(&cancelled)),
+            }
+        };
         self.bootstrap.start(&self.spawner, "bootstrap", job).map_err(start_error)
     }
 
@@ -280,6 +288,20 @@ fn profile_in_joint(JointPart { of, set }: &JointPart, parameter: Parameter, obs
     let unknown = JointUnknown { parameter, set: own };
     let Profile { points, interval68, interval95, limits, is_complete, .. } = profile_jointly(&of.problem, &of.result, &unknown, observer);
     Profile { parameter, points, interval68, interval95, limits, is_complete }
+}
+
+/// A bootstrap of a joint fit, as one of the parameters of one of its measurements.
+fn bootstrap_in_joint(JointPart { of, set }: &JointPart, replicates: usize, seed: u64, observer: Observer<'_>) -> Bootstrap {
+    let Bootstrap { asked, replicates, estimates } = bootstrap_jointly(&of.problem, &of.result, replicates, seed, observer);
+    let name = &of.problem.set_names()[*set];
+    let is_its = |estimate: &BootstrapEstimate<JointUnknown>| estimate.parameter.set.as_ref().is_none_or(|set| set == name);
+    let plain = |BootstrapEstimate { parameter, std_error, low, high }: BootstrapEstimate<JointUnknown>| BootstrapEstimate {
+        parameter: parameter.parameter,
+        std_error,
+        low,
+        high,
+    };
+    Bootstrap { asked, replicates, estimates: estimates.into_iter().filter(is_its).map(plain).collect() }
 }
 
 /// What a fit gives that can be cancelled and tells how far it is.

@@ -251,6 +251,19 @@ fn what_the_data_determine_is_that_of_all_together() {
 }
 
 #[test]
+fn a_bootstrap_of_a_joint_fit_is_about_the_parameters_of_the_active_measurement() {
+    let (mut harness, _folder) = wavelengths();
+    order(&mut harness, Action::StartFit);
+    edit(&mut harness, Edit::SetReplicates(10));
+    order(&mut harness, Action::Bootstrap);
+    let scatter = explorer(&mut harness).work.diagnostics().scatter.clone().expect("a bootstrap");
+    let mut parameters: Vec<Parameter> = scatter.estimates.iter().map(|estimate| estimate.parameter).collect();
+    parameters.sort_by_key(|parameter| *parameter as usize);
+    let free = Model::CAUCHY.parameters().without(Parameter::Ks);
+    assert_eq!((scatter.replicates, parameters), (10, free.iter().collect::<Vec<_>>()));
+}
+
+#[test]
 fn the_profile_of_a_shared_parameter_is_that_of_all_together() {
     let (mut harness, _folder) = wavelengths();
     order(&mut harness, Action::StartFit);

@@ -105,7 +105,7 @@ fn the_report_of_a_joint_fit_is_about_all_measurements() {
 #[test]
 fn options_offer_range_and_weights_where_they_mean_something() {
     let (mut harness, _folder) = wavelengths();
-    harness.get_by_label("Options").click();
+    harness.get_by_label_contains("Options").click();
     harness.run();
     harness.get_by_label("Weight of red.csv");
     harness.get_by_label("only a range").click();

@@ -30,9 +30,7 @@ pub fn scans_ui(fit: &FitEntry, cx: &mut Cx<'_>, ui: &mut Ui) {
         if let Some(profile) = &scans.profile {
             profile_ui(profile, ui);
         }
-        if fit.joint.is_none() {
-            bootstrap_ui(cx, ui);
-        }
+        bootstrap_ui(cx, ui);
         if running {
             ui.horizontal(|ui| {
                 ui.spinner();

@@ -10,7 +10,7 @@ use crate::app::work::fit_setup::{explain, fit_problem, free, is_joint, joint_pr
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
-use pbrdf::fit::{Bootstrap, FitOptions, FitResult, Problem, Profile, free_by_default};
+use pbrdf::fit::{Bootstrap, FitOptions, Problem, Profile, free_by_default};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use tr::tr;
 
@@ -164,15 +164,9 @@ pub fn profiled(app: &mut App, profile: &Profile) {
 pub fn start_bootstrap(app: &mut App) -> Result<(), String> {
     app.work.apply(Edit::SetBootstrap(None));
     let (replicates, seed) = (app.work.diagnostics().replicates, app.work.settings().seed);
-    shown_fit(app).map_or(Ok(()), |(problem, report)| app.jobs.fits.bootstrap(problem, report, replicates, seed))
+    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.bootstrap(fit, replicates, seed))
 }
 
 pub fn bootstrapped(app: &mut App, bootstrap: Bootstrap) {
     app.work.apply(Edit::SetBootstrap(Some(bootstrap)));
-}
-
-/// The fit that is shown, with the problem that it solved; none where it is one of several measurements.
-fn shown_fit(app: &App) -> Option<(Problem, FitResult)> {
-    let fit = app.work.shown_fit().filter(|fit| fit.joint.is_none())?;
-    Some((Problem::clone(&fit.problem), fit.report.clone()))
 }
