@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Checks the book: python3 docs/check.py [PROGRAM]
+
+Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading; and with the
+path of pbrdf-explorer given, every block of ```sh in the chapters runs,
+in one folder a chapter that holds the measurements that the chapters speak of.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+DOCS = pathlib.Path(__file__).resolve().parent
+ROOT = DOCS.parent
+EXAMPLES = ROOT / "assets" / "examples"
+# Names that chapters give to a reader's own measurements, and the example that stands in for each.
+OWN = {"mine": "steel45", "blue": "copper_650nm", "green": "copper_650nm", "red": "copper_650nm", "copper": "copper_650nm",
+       "aluminium": "aluminium_650nm", "monday": "steel45", "tuesday": "steel45"}
+
+
+def anchors(text):
+    """The anchors that mdBook and GitHub give to headings."""
+    for heading in re.findall(r"^#+ (.*)$", text, re.M):
+        yield re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def faulty_links(path, text):
+    text = re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if "://" in target:
+            continue
+        name, _, anchor = target.partition("#")
+        goal = path.parent / name if name else path
+        if not goal.exists():
+            yield f"{path.name}: there is no {target}"
+        elif anchor and anchor not in anchors(goal.read_text(encoding="utf-8")):
+            yield f"{path.name}: {name} has no heading {anchor}"
+
+
+def measurements(folder):
+    """What the commands read."""
+    for example in EXAMPLES.iterdir():
+        shutil.copy(example, folder)
+    for name, example in OWN.items():
+        shutil.copy(EXAMPLES / f"{example}_simulated.csv", folder / f"{name}.csv")
+    header, *rows = [line for line in (EXAMPLES / "steel45_simulated.csv").read_text().splitlines() if not line.startswith("#")]
+    sets = [f"{row},{name}" for name in ("first", "second") for row in rows]
+    (folder / "lab.csv").write_text("\n".join([f"{header},set", *sets, ""]))
+
+
+def failing_commands(path, text, program):
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        measurements(folder)
+        os.symlink(program.resolve(), folder / "pbrdf-explorer")
+        environment = {**os.environ, "PATH": f"{place}:{os.environ['PATH']}"}
+        for block in re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S):
+            done = subprocess.run(["sh", "-euc", block], cwd=place, env=environment, capture_output=True, text=True)
+            if done.returncode:
+                yield f"{path.name}: {block}{done.stderr}"
+
+
+def main():
+    summary = (DOCS / "SUMMARY.md").read_text(encoding="utf-8")
+    faults = []
+    for path in [*sorted(DOCS.glob("*.md")), *sorted(ROOT.glob("*.md"))]:
+        text = path.read_text(encoding="utf-8")
+        faults += faulty_links(path, text)
+        if path.parent != DOCS:
+            continue
+        if path.name != "SUMMARY.md" and f"({path.name})" not in summary:
+            faults.append(f"{path.name} is not in SUMMARY.md")
+        if len(sys.argv) > 1:
+            faults += failing_commands(path, text, pathlib.Path(sys.argv[1]))
+    print("\n".join(faults) or "the book is in order")
+    return 1 if faults else 0
+
+
+sys.exit(main())
