@@ -1,0 +1,318 @@
+"""Fits, and what they say."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _checks, _pbrdf
+from ._angles import Evaluation, evaluate
+from ._measurement import Measurement
+from ._pbrdf import PbrdfError
+
+Interval = tuple["float | None", "float | None"]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter after a fit. As text it is rounded by its uncertainty: ``2.071 ± 0.021``, ``> 1.2 (68 %)``, ``not determined``."""
+
+    name: str
+    """Its name: ``"n"``, or ``"n@B.csv"`` where a measurement has it for itself."""
+    value: float
+    """Its value, in its own unit."""
+    free: bool
+    """Whether the fit could change it."""
+    std_error: float | None
+    """Its standard error, in its own unit; None where the data do not determine it and on a bound."""
+    at_bound: str | None
+    """``"lower"`` or ``"upper"`` where it rests on a bound."""
+    interval68: Interval | None
+    """Ends of its interval at 68.3 %, None on an open side; None where it is fixed or intervals were not asked for."""
+    interval95: Interval | None
+    """The same at 95 %."""
+    determined: bool
+    """Whether the data determine it."""
+    text: str
+    """The value as far as the data determine it, in words."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class Correlations:
+    """Correlations of the parameters that the data determine."""
+
+    names: tuple[str, ...]
+    """Their names, in the order of rows and columns."""
+    matrix: NDArray[np.float64]
+    """Correlation coefficients, −1 to 1, a row and a column for each name."""
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """A minimum that starts of a fit ended in."""
+
+    objective: float | None
+    """ΔE there."""
+    stop_reason: str
+    """Why the best start ended there."""
+    reached: int
+    """How many starts ended there."""
+
+
+@dataclass(frozen=True)
+class SetResult:
+    """One measurement of a fit of several."""
+
+    name: str
+    """What it is called."""
+    objective: float | None
+    """ΔE by its own measured values."""
+    sum_of_squares: float
+    """Its share in the residual sum of squares."""
+    parameters: dict[str, Estimate]
+    """All its parameters by name, those that all share among them."""
+
+
+class FitResult:
+    """What a fit found, and what the data leave undetermined."""
+
+    def __init__(self, inner: _pbrdf.Fitted) -> None:
+        self._inner = inner
+        self._document: dict[str, Any] = json.loads(inner.json())
+        texts = dict(inner.estimates())
+        document = self._document
+
+        def estimates(of: Mapping[str, Any], suffix: str = "") -> dict[str, Estimate]:
+            return {name: _estimate(f"{name}{suffix}", fields, texts) for name, fields in of.items()}
+
+        shared = estimates(document["parameters"])
+        sets = [(item, estimates(item["parameters"], f"@{item['set']}")) for item in document.get("sets", [])]
+        self.parameters: dict[str, Estimate] = dict(shared)
+        """The parameters of the model by name; those that each measurement has for itself as ``"n@B.csv"``."""
+        for _, own in sets:
+            self.parameters.update({estimate.name: estimate for estimate in own.values()})
+        self.sets: list[SetResult] = [
+            SetResult(item["set"], item["objective"], item["sum_of_squares"], {**shared, **own}) for item, own in sets
+        ]
+        """The measurements of a fit of several, in their order; empty after a fit of one."""
+
+    @property
+    def model(self) -> str:
+        """The name of the model."""
+        return self._document["model"]
+
+    @property
+    def objective(self) -> float | None:
+        """ΔE of Eq. (18) of Wang et al. (2021): the root of Σ (X − Xm)²/Σ Xm², of DoLP if measured, else of BRDF; with both, the sum. None
+        where all measured values are 0."""
+        return self._document["objective"]
+
+    @property
+    def sum_of_squares(self) -> float:
+        """Residual sum of squares."""
+        return self._document["sum_of_squares"]
+
+    @property
+    def chi2(self) -> float | None:
+        """χ², with ``weights="sigma"``."""
+        return self._document["chi2"]
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom: residuals less the directions that the data determine."""
+        return self._document["dof"]
+
+    @property
+    def aicc(self) -> float | None:
+        """Akaike's corrected criterion, for models of the same data; None where there are too few data."""
+        return self._document["aicc"]
+
+    @property
+    def stop_reason(self) -> str:
+        """Why the fit ended, as one word such as ``"converged"`` or ``"underdetermined"``."""
+        return self._document["stop_reason"]
+
+    @property
+    def evaluations(self) -> int:
+        """Residual evaluations of all starts."""
+        return self._document["evaluations"]
+
+    @property
+    def undetermined(self) -> list[str]:
+        """What the data leave open, a sentence each; empty where they determine everything."""
+        return self._inner.open()
+
+    @property
+    def correlations(self) -> Correlations:
+        """Correlations of the parameters that the data determine."""
+        found = self._document["correlations"]
+        size = len(found["names"])
+        return Correlations(tuple(found["names"]), np.array(found["matrix"], dtype=np.float64).reshape(size, size))
+
+    @property
+    def minima(self) -> list[Minimum]:
+        """The minima that starts ended in, best first."""
+        return [Minimum(**fields) for fields in self._document["starts"]]
+
+    def values(self, set: int = 0) -> dict[str, float]:
+        """Values of all parameters of the model by name, as :func:`evaluate` takes them; ``set`` counts the measurements of a fit of several."""
+        surfaces = self._inner.surfaces()
+        if not 0 <= set < len(surfaces):
+            raise PbrdfError(f"set = {set!r}; expected 0 to {len(surfaces) - 1}")
+        return dict(surfaces[set])
+
+    def evaluate(self, theta_i: ArrayLike, theta_r: ArrayLike, dphi: ArrayLike = 180.0, *, set: int = 0, **wanted: Any) -> Evaluation:
+        """The fitted surface at angles, as :func:`evaluate` has it; ``set`` counts the measurements of a fit of several."""
+        return evaluate(self.model, self.values(set), theta_i, theta_r, dphi, **wanted)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain lists and dicts: what the command ``pbrdf-explorer fit --json`` prints, but for its files."""
+        return json.loads(self._inner.json())
+
+    def __str__(self) -> str:
+        width = max(map(len, self.parameters), default=0)
+        lines = [f"{self.model}: {self._inner.ending()}, ΔE = {_short(self.objective)}"]
+        lines += [f"  {name:<{width}} = {estimate}" for name, estimate in self.parameters.items()]
+        return "\n".join(lines + [f"  {sentence}" for sentence in self.undetermined])
+
+    def __repr__(self) -> str:
+        return f"<pbrdf.FitResult\n{self}\n>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{html.escape(estimate.text)}</td><td>{_ends(estimate.interval95)}</td></tr>"
+            for name, estimate in self.parameters.items()
+        )
+        open_ends = "".join(f"<li>{html.escape(sentence)}</li>" for sentence in self.undetermined)
+        head = f"{html.escape(self.model)}: {html.escape(self._inner.ending())}, ΔE = {_short(self.objective)}"
+        table = f"<table><tr><th>parameter</th><th>value</th><th>95 %</th></tr>{rows}</table>"
+        return f"<p>{head}</p>{table}" + (f"<ul>{open_ends}</ul>" if open_ends else "")
+
+
+def _estimate(name: str, fields: Mapping[str, Any], texts: Mapping[str, str]) -> Estimate:
+    def ends(interval: Sequence[float | None] | None) -> Interval | None:
+        return None if interval is None else (interval[0], interval[1])
+
+    return Estimate(
+        name=name,
+        value=fields["value"],
+        free=fields["free"],
+        std_error=fields["std_error"],
+        at_bound=fields["at_bound"],
+        interval68=ends(fields["interval68"]),
+        interval95=ends(fields["interval95"]),
+        determined=fields["determined"],
+        text=texts[name],
+    )
+
+
+def _short(number: float | None) -> str:
+    return "none" if number is None else f"{number:.4g}"
+
+
+def _ends(interval: Interval | None) -> str:
+    if interval is None:
+        return ""
+    low, high = interval
+    return f"{'' if low is None else f'{low:.4g}'} … {'' if high is None else f'{high:.4g}'}"
+
+
+class _Settings:
+    """How a fit is asked for, by attribute."""
+
+    def __init__(self, **attributes: Any) -> None:
+        self.__dict__.update(attributes)
+
+
+def fit(
+    data: Measurement | Sequence[Measurement],
+    model: str = "cauchy",
+    *,
+    own: str | Iterable[str] | None = None,
+    fix: Mapping[str, float | None] | Iterable[str] | None = None,
+    free: str | Iterable[str] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    start: Mapping[str, float] | None = None,
+    starts: int | None = None,
+    seed: int = 1,
+    intervals: str = "profile",
+    weights: str = "none",
+    loss: str = "squared",
+    loss_scale: float | None = None,
+    brdf_residuals: str = "relative",
+    progress: Callable[[float, int, float], object] | None = None,
+) -> FitResult:
+    """Fits a model by least squares in a box, and says what the data determine. Ctrl-C stops it (``KeyboardInterrupt``).
+
+    Args:
+        data: A measurement, or several that are fitted together.
+        model: The name of a model; :func:`models` lists them.
+        own: Parameters that each of several measurements has for itself; the others are shared. ``"all"`` means each.
+        fix: Values at which parameters are held, by name; with the value None, or as a list of names, at their starts.
+        free: Parameters to free that are not free by default.
+        bounds: ``(low, high)`` by name; without, the range of :func:`parameters`.
+        start: Values to start from, by name.
+        starts: How many starts; None searches until nothing new is found.
+        seed: Shifts the points that starts are spread over. The same seed gives the same result.
+        intervals: ``"profile"`` (likelihood), ``"linear"`` (standard errors alone, much faster) or ``"none"``.
+        weights: ``"none"``, or ``"sigma"`` for the standard deviations of the measurement.
+        loss: ``"squared"``, ``"huber"`` or ``"soft-l1"``.
+        loss_scale: Scale of a robust loss in the unit of the residual; without, from the residuals.
+        brdf_residuals: ``"relative"``, ``"absolute"`` or ``"log"``.
+        progress: Called at each improvement with milliseconds, evaluations, and ΔE.
+
+    A name in ``fix``, ``free``, ``bounds`` and ``start`` can carry that of a measurement: ``"n@B.csv"``.
+
+    Returns:
+        A :class:`FitResult`: equal to what ``pbrdf-explorer fit`` finds with the same options.
+
+    Raises:
+        PbrdfError: A name is not known or not of the model, a value or a bound does not fit, or the data do not.
+
+    >>> data = Measurement([30, 40, 50, 60, 60, 70], [40, 40, 50, 60, 70, 70], dolp=[.127, .166, .268, .398, .466, .525])
+    >>> result = fit(data, model="specular", fix={"ks": 1.0}, start={"k": 3.0}, starts=1)
+    >>> round(result.parameters["n"].value, 2), result.undetermined
+    (2.08, [])
+    """
+    measurements = [data] if isinstance(data, Measurement) else list(data) if isinstance(data, Iterable) else None
+    if measurements is None or not all(isinstance(item, Measurement) for item in measurements):
+        raise PbrdfError("data: expected a Measurement or a list of them; read(path) and Measurement(...) make one")
+    if not measurements:
+        raise PbrdfError("data: the list is empty; expected at least one Measurement")
+    if progress is not None and not callable(progress):
+        raise PbrdfError("progress: expected a function of milliseconds, evaluations, and ΔE")
+    model = _checks.word("model", model)
+    everything = [name for key, _, _, names in _pbrdf.models() if key == model for name in names]
+    held = _checks.items("fix", fix) if fix is None or isinstance(fix, Mapping) else [(name, None) for name in _checks.names("fix", fix)]
+    settings = _Settings(
+        model=model,
+        own=everything if own == "all" else _checks.names("own", own),
+        fix=[(name, None if value is None else _checks.number(f"fix[{name!r}]", value)) for name, value in held],
+        free=_checks.names("free", free),
+        bounds=[(name, _bounds(name, value)) for name, value in _checks.items("bounds", bounds)],
+        start=_checks.values("start", start),
+        starts=None if starts is None else _checks.whole("starts", starts, 1),
+        seed=_checks.whole("seed", seed, 0),
+        intervals=_checks.word("intervals", intervals),
+        weights=_checks.word("weights", weights),
+        loss=_checks.word("loss", loss),
+        loss_scale=None if loss_scale is None else _checks.number("loss_scale", loss_scale),
+        brdf_residuals=_checks.word("brdf_residuals", brdf_residuals),
+    )
+    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress))
+
+
+def _bounds(name: str, value: Any) -> tuple[float, float]:
+    ends = _checks.numbers(f"bounds[{name!r}]", value)
+    if ends.shape != (2,):
+        raise PbrdfError(f"bounds[{name!r}] is {value!r}; expected (low, high)")
+    return float(ends[0]), float(ends[1])

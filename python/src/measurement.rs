@@ -1,0 +1,199 @@
+//! Measurements: from arrays, and from files.
+
+use crate::error::refused;
+use crate::surface::geometry;
+use numpy::{PyArray1, PyReadonlyArray1};
+use pbrdf::measurement::formats::{ImportError, ImportNote, ImportOptions, Opened, open};
+use pbrdf::measurement::{Expected, Quantity, Row, unwatched, write_measurements};
+use pyo3::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Rows of angles and what was measured there.
+#[pyclass(frozen, module = "pbrdf._pbrdf")]
+pub struct Measurement {
+    pub measurement: pbrdf::Measurement,
+}
+
+/// A column of numbers and where they were measured.
+type Column<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
+
+/// The columns of a measurement, all of one length; angles in degrees, DoLP from 0 to 1, BRDF in sr⁻¹.
+#[derive(FromPyObject)]
+pub struct Columns<'py> {
+    theta_i: PyReadonlyArray1<'py, f64>,
+    theta_r: PyReadonlyArray1<'py, f64>,
+    dphi: PyReadonlyArray1<'py, f64>,
+    dolp: Option<Column<'py>>,
+    dolp_sigma: Option<Column<'py>>,
+    brdf: Option<Column<'py>>,
+    brdf_sigma: Option<Column<'py>>,
+    masked: PyReadonlyArray1<'py, bool>,
+    name: String,
+    metadata: Vec<(String, String)>,
+}
+
+/// The number of a column in a row; none where it was not measured.
+fn cell(column: Option<&Column<'_>>, row: usize) -> Option<f64> {
+    let (values, measured) = column?;
+    let is_measured = measured.as_array().get(row).copied().unwrap_or(false);
+    if is_measured { values.as_array().get(row).copied() } else { None }
+}
+
+/// The quantity of a row, if it was measured; in a masked row a value outside its range is none, as in files.
+fn quantity(
+    name: &str,
+    (values, sigmas): (Option<&Column<'_>>, Option<&Column<'_>>),
+    row: usize,
+    (expected, maximum): (Expected, f64),
+    masked: bool,
+) -> PyResult<Option<Quantity>> {
+    let Some(value) = cell(values, row) else { return Ok(None) };
+    if value.is_nan() {
+        return Err(refused(format_args!(
+            "{name}[{row}] is NaN; what was not measured is None or masked (numpy.ma.masked_invalid masks every NaN)"
+        )));
+    }
+    if !(0.0..=maximum).contains(&value) {
+        let percent = matches!(expected, Expected::Dolp) && (2.0..=100.0).contains(&value);
+        let hint = if percent { "divide percent by 100" } else { "leave the row out, or mask it" };
+        return if masked { Ok(None) } else { Err(refused(format_args!("{name}[{row}] = {value}, expected {expected}; {hint}"))) };
+    }
+    let sigma = cell(sigmas, row);
+    match sigma.filter(|&sigma| !(sigma > 0.0 && sigma.is_finite())) {
+        Some(sigma) => Err(refused(format_args!("{name}_sigma[{row}] = {sigma}, expected {}", Expected::Sigma))),
+        None => Ok(Some(Quantity { value, sigma })),
+    }
+}
+
+#[pymethods]
+impl Measurement {
+    #[new]
+    fn new(columns: Columns<'_>) -> PyResult<Self> {
+        let Columns { theta_i, theta_r, dphi, masked, .. } = &columns;
+        let (theta_i, theta_r, dphi, masked) = (theta_i.as_array(), theta_r.as_array(), dphi.as_array(), masked.as_array());
+        let mut rows = Vec::with_capacity(theta_i.len());
+        for row in 0..theta_i.len() {
+            let geometry = geometry(theta_i[row], theta_r[row], dphi[row]);
+            let geometry = geometry.map_err(|reason| refused(format_args!("{reason} (in row {row})")))?;
+            let dolp = (columns.dolp.as_ref(), columns.dolp_sigma.as_ref());
+            let brdf = (columns.brdf.as_ref(), columns.brdf_sigma.as_ref());
+            let dolp = quantity("dolp", dolp, row, (Expected::Dolp, 1.0), masked[row])?;
+            let brdf = quantity("brdf", brdf, row, (Expected::Brdf, f64::MAX), masked[row])?;
+            rows.push(Row { geometry, dolp, brdf, masked: masked[row] || (dolp.is_none() && brdf.is_none()) });
+        }
+        let (name, metadata) = (columns.name, columns.metadata);
+        Ok(Self { measurement: pbrdf::Measurement { name, metadata, rows, ..pbrdf::Measurement::default() } })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.measurement.name
+    }
+
+    #[getter]
+    fn metadata(&self) -> Vec<(String, String)> {
+        self.measurement.metadata.clone()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.measurement.notes.iter().map(ToString::to_string).collect()
+    }
+
+    /// The column of that name: NaN where nothing was measured; `masked` has 1 in a masked row.
+    fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let value = |quantity: Option<Quantity>| quantity.map_or(f64::NAN, |quantity| quantity.value);
+        let sigma = |quantity: Option<Quantity>| quantity.and_then(|quantity| quantity.sigma).unwrap_or(f64::NAN);
+        let of: &dyn Fn(&Row) -> f64 = match name {
+            "theta_i" => &|row| row.geometry.theta_i().0,
+            "theta_r" => &|row| row.geometry.theta_r().0,
+            "dphi" => &|row| row.geometry.dphi().0,
+            "dolp" => &|row| value(row.dolp),
+            "dolp_sigma" => &|row| sigma(row.dolp),
+            "brdf" => &|row| value(row.brdf),
+            "brdf_sigma" => &|row| sigma(row.brdf),
+            "masked" => &|row| f64::from(u8::from(row.masked)),
+            _ => return Err(refused(format_args!("{name:?} is no column"))),
+        };
+        Ok(PyArray1::from_iter(py, self.measurement.rows.iter().map(of)))
+    }
+
+    fn __len__(&self) -> usize {
+        self.measurement.rows.len()
+    }
+
+    /// The measurement under another name.
+    fn renamed(&self, name: String) -> Self {
+        Self { measurement: pbrdf::Measurement { name, ..self.measurement.clone() } }
+    }
+
+    /// The measurement as a table that `read` and the command line read.
+    fn to_csv(&self) -> PyResult<Vec<u8>> {
+        let mut bytes = Vec::new();
+        write_measurements(std::slice::from_ref(&self.measurement), &mut bytes).map_err(refused)?;
+        Ok(bytes)
+    }
+}
+
+/// What a foreign file is told: a wavelength in nm, angles in degrees.
+#[derive(FromPyObject)]
+pub struct Answers {
+    wavelength_nm: Option<f64>,
+    theta_i: Vec<f64>,
+    theta_r: Vec<f64>,
+    dphi: Option<f64>,
+}
+
+/// The measurements of a file. One without a name has that of the file.
+#[pyfunction]
+pub fn read(py: Python<'_>, path: PathBuf, answers: Answers) -> PyResult<Vec<Measurement>> {
+    let found = py.detach(|| read_file(&path, answers)).map_err(|reason| refused(format_args!("{}: {reason}", path.display())))?;
+    let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let is_split = found.len() > 1;
+    let named = |mut measurement: pbrdf::Measurement| {
+        let wavelength = measurement.wavelength_nm().filter(|_| is_split).map(|nm| format!("{nm} nm"));
+        let set = Some(measurement.name).filter(|name| !name.is_empty());
+        let parts: Vec<String> = [set, wavelength].into_iter().flatten().collect();
+        measurement.name = if parts.is_empty() { file.clone() } else { parts.join(" ") };
+        Measurement { measurement }
+    };
+    Ok(found.into_iter().map(named).collect())
+}
+
+/// The measurements of a file, or why it has none.
+fn read_file(path: &Path, answers: Answers) -> Result<Vec<pbrdf::Measurement>, String> {
+    let bytes = std::fs::read(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::IsADirectory => "this is a directory; expected a file".to_owned(),
+        _ => format!("the file cannot be read: {error}"),
+    })?;
+    let Answers { wavelength_nm, theta_i, theta_r, dphi } = answers;
+    let options = ImportOptions { wavelength_nm, theta_i, theta_r, dphi, ..ImportOptions::default() };
+    let said = |error: ImportError| refused_text(&error);
+    let mut found = match open(bytes, &mut unwatched).map_err(said)? {
+        Opened::Measurements(found) => found,
+        Opened::Foreign(file) => {
+            let imported = file.import(&options, &mut unwatched).map_err(said)?;
+            let mut measurements = imported.measurements;
+            if let Some(first) = measurements.first_mut() {
+                first.notes.extend(file.notes());
+                first.notes.extend(imported.notes);
+            }
+            measurements
+        }
+    };
+    if let Some(first) = found.first_mut().filter(|first| !first.ignored_columns.is_empty()) {
+        first.notes.push(ImportNote::IgnoredColumns { names: first.ignored_columns.clone() });
+    }
+    Ok(found)
+}
+
+/// Options of the command line, and what answers them here.
+const ANSWERS: [(&str, &str); 4] =
+    [("--theta-i", "theta_i="), ("--theta-r", "theta_r="), ("--dphi", "dphi="), ("--wavelength", "wavelength_nm=")];
+
+/// An error of an import with its hint, in the words of Python.
+fn refused_text(error: &ImportError) -> String {
+    let text = error.hint().map_or_else(|| error.to_string(), |hint| format!("{error}; {hint}"));
+    ANSWERS.iter().fold(text, |text, (option, answer)| text.replace(option, answer))
+}

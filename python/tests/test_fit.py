@@ -1,0 +1,194 @@
+"""Fits, their results, and their refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import signal
+import threading
+
+import numpy as np
+import pbrdf
+import pytest
+
+TRUTH = {"n": 2.07, "k": 2.9, "sigma": 0.3, "ks": 1.0, "kd": 0.1, "kv": 0.05, "c": 0.0}
+# Times are no result.
+TIMES = ("elapsed_ms", "intervals_ms", "trace")
+
+
+def simulated(name="", **changes):
+    """DoLP and BRDF without noise."""
+    theta_i, theta_r = (grid.ravel() for grid in np.meshgrid([30.0, 50.0, 70.0], np.arange(0.0, 80.0, 10.0)))
+    values = pbrdf.evaluate("cauchy", TRUTH | changes, theta_i, theta_r)
+    return pbrdf.Measurement(theta_i, theta_r, dolp=values.dolp, brdf=values.brdf, name=name)
+
+
+def without_times(document):
+    return {key: value for key, value in document.items() if key not in TIMES}
+
+
+@pytest.mark.parametrize(
+    ("options", "arguments"),
+    [
+        ({}, []),
+        ({"model": "gauss", "starts": 1, "intervals": "linear"}, ["--model", "gauss", "--starts", "1", "--intervals", "linear"]),
+        (
+            {"fix": {"ks": 1.0}, "bounds": {"n": (0.5, 4.0)}, "start": {"k": 3.0}, "seed": 3, "loss": "huber", "weights": "sigma"},
+            "--fix ks=1 --bounds n=0.5..4 --start k=3 --seed 3 --loss huber --weights sigma".split(),
+        ),
+    ],
+)
+def test_a_fit_equals_that_of_the_command_line(program, example, options, arguments):
+    printed = json.loads(program("fit", example, "--json", *arguments))
+    result = pbrdf.fit(pbrdf.read(example), **options)
+    assert without_times(result.to_dict()) == without_times(printed)
+    for name, estimate in printed["parameters"].items():
+        assert result.parameters[name].value == estimate["value"] and result.parameters[name].std_error == estimate["std_error"]
+
+
+def test_a_fit_of_several_equals_that_of_the_command_line(program, tmp_path):
+    paths = [tmp_path / "A.csv", tmp_path / "B.csv"]
+    for path, n in zip(paths, (1.8, 2.2), strict=True):
+        simulated(n=n).write(path)
+    printed = json.loads(program("fit", *paths, "--own", "n", "--fix", "ks=1", "--starts", "3", "--intervals", "linear", "--json"))
+    result = pbrdf.fit([pbrdf.read(path) for path in paths], own="n", fix={"ks": 1}, starts=3, intervals="linear")
+    for item in printed["sets"]:
+        # What the command knows of its files.
+        assert item.pop("file") and item.pop("rows") == 24
+    assert without_times(result.to_dict()) == without_times(printed)
+
+
+def test_a_fit_finds_the_surface_that_the_data_are_of():
+    result = pbrdf.fit(simulated(), fix={"c": 0.0}, starts=4)
+    assert result.model == "cauchy" and result.objective < 1e-9
+    for name, value in TRUTH.items():
+        # What the search leaves of exact data.
+        assert result.parameters[name].value == pytest.approx(value, rel=1e-5), name
+    assert not result.parameters["c"].free and result.parameters["c"].interval95 is None
+    assert result.values()["n"] == result.parameters["n"].value
+    assert result.evaluate(60, 40).dolp == pbrdf.evaluate("cauchy", result.values(), 60, 40).dolp
+
+
+def test_intervals_contain_the_value_and_each_other(example):
+    result = pbrdf.fit(pbrdf.read(example))
+    closed = [item for item in result.parameters.values() if item.interval95 and None not in item.interval95]
+    assert closed
+    for estimate in closed:
+        (low, high), (wide_low, wide_high) = estimate.interval68, estimate.interval95
+        assert wide_low <= low <= estimate.value <= high <= wide_high
+    assert result.minima[0].objective == pytest.approx(result.objective) and result.minima[0].reached >= 1
+    size = len(result.correlations.names)
+    assert result.correlations.matrix.shape == (size, size)
+
+
+def test_what_the_data_leave_open_is_said():
+    data = pbrdf.Measurement([30, 50, 70], [40, 50, 70], dolp=[0.13, 0.29, 0.67])
+    result = pbrdf.fit(data, starts=1)
+    assert result.undetermined and result.stop_reason == "underdetermined"
+    assert any(str(estimate) == "not determined" for estimate in result.parameters.values())
+    assert result.undetermined[0] in str(result) and result.undetermined[0] in repr(result)
+    assert "<table>" in result._repr_html_() and "n" in result._repr_html_()
+
+
+def test_each_of_several_has_its_own_parameters():
+    data = [simulated(name="A", n=1.8), simulated(name="B", n=2.2)]
+    result = pbrdf.fit(data, own=["n"], fix={"ks": 1.0, "c": 0.0}, starts=3, intervals="linear")
+    assert result.parameters["n@A"].value == pytest.approx(1.8, rel=1e-5)
+    assert result.parameters["n@B"].value == pytest.approx(2.2, rel=1e-5)
+    assert "n" not in result.parameters and "k" in result.parameters
+    assert [item.name for item in result.sets] == ["A", "B"]
+    assert result.sets[1].parameters["n"] == result.parameters["n@B"] and result.sets[1].parameters["k"] == result.parameters["k"]
+    assert result.values(1)["n"] == result.parameters["n@B"].value
+    held = pbrdf.fit(data, own="n", fix={"ks": 1.0, "n@B": 2.5}, starts=1, intervals="linear")
+    assert held.parameters["n@B"].value == 2.5 and held.parameters["n@A"].free
+
+
+def test_progress_is_told_and_falls():
+    told = []
+    result = pbrdf.fit(simulated(), starts=1, intervals="none", progress=lambda *event: told.append(event))
+    assert told and all(len(event) == 3 for event in told)
+    assert told[-1][2] <= told[0][2] and result.objective <= told[0][2]
+
+
+def test_what_progress_raises_ends_the_fit():
+    def refuse(*_):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        pbrdf.fit(simulated(), starts=10**6, progress=refuse)
+
+
+def test_ctrl_c_stops_a_fit(example):
+    data = pbrdf.read(example)
+    # So many starts take hours: only the signal can end it.
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        pbrdf.fit(data, starts=10**6)
+    timer.join()
+
+
+def test_other_threads_go_on_during_a_fit(example):
+    data = pbrdf.read(example)
+    results = [None, None]
+
+    def work(index):
+        results[index] = pbrdf.fit(data, starts=2, intervals="linear").to_dict()
+
+    threads = [threading.Thread(target=work, args=(index,)) for index in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert without_times(results[0]) == without_times(results[1])
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"model": "cauchi"}, '"cauchi" is no model; expected one of'),
+        ({"fix": {"m": 1}}, '"m" is no parameter; expected one of n, k'),
+        ({"model": "specular", "fix": {"kd": 1}}, "the model specular has no parameter kd; it has n, k, sigma, ks, q"),
+        ({"fix": {"n": math.nan}}, "n = NaN is not allowed"),
+        ({"fix": {"n": "two"}}, r"fix\['n'\] is 'two'; expected numbers"),
+        ({"fix": {3: 1}}, "fix has the key 3; expected names"),
+        ({"fix": 3}, "fix is 3; expected names"),
+        ({"bounds": {"n": (2, 1)}}, "to hold a parameter at one value, fix it"),
+        ({"bounds": {"n": (math.nan, 1)}}, "n"),
+        ({"bounds": {"n": 3}}, r"bounds\['n'\] is 3; expected \(low, high\)"),
+        ({"start": {"n": 9.0}, "bounds": {"n": (1, 2)}}, "n = 9 is outside its bounds 1 … 2"),
+        ({"start": {"n@B": 1.0}}, "no measurement is called B; there are 1"),
+        ({"starts": 0}, "starts = 0; expected a whole number from 1 on"),
+        ({"starts": 1.5}, "starts = 1.5; expected a whole number"),
+        ({"seed": -1}, "seed = -1; expected a whole number from 0 on"),
+        ({"weights": "sigma"}, "has no dolp_sigma.*; state all standard deviations, or fit without weights"),
+        ({"weights": "sigmas"}, "weights: there is no `sigmas`, expected `none` or `sigma`"),
+        ({"loss": "cauchy"}, "loss: there is no `cauchy`, expected one of"),
+        ({"loss_scale": -1.0}, "loss_scale: expected a number above 0"),
+        ({"progress": 3}, "progress: expected a function"),
+    ],
+)
+def test_what_is_wrong_is_refused_in_one_sentence(options, said):
+    data = pbrdf.Measurement([30, 50], [40, 50], dolp=[0.1, 0.2])
+    with pytest.raises(pbrdf.PbrdfError, match=said) as caught:
+        pbrdf.fit(data, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_data_that_are_none_are_refused():
+    with pytest.raises(pbrdf.PbrdfError, match="the list is empty"):
+        pbrdf.fit([])
+    for wrong in (3, "steel.csv", [[1, 2, 3]]):
+        with pytest.raises(pbrdf.PbrdfError, match="expected a Measurement or a list of them"):
+            pbrdf.fit(wrong)
+    twice = pbrdf.Measurement(30, [40, 50], dolp=[0.1, 0.2], name="A")
+    with pytest.raises(pbrdf.PbrdfError, match="two measurements are called A; give each measurement a name of its own"):
+        pbrdf.fit([twice, twice])
+    with pytest.raises(pbrdf.PbrdfError, match="the model fresnel predicts DoLP|predicts DoLP only"):
+        pbrdf.fit(pbrdf.Measurement(30, [40, 50], brdf=[0.1, 0.2]), model="fresnel")
+
+
+def test_rows_that_are_all_masked_are_a_result_without_data():
+    data = pbrdf.Measurement(30, [40, 50], dolp=[0.1, 0.2], masked=True)
+    assert pbrdf.fit(data, starts=1).stop_reason == "no_data"
