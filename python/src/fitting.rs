@@ -100,6 +100,7 @@ impl Plan {
                 loss: choice("loss", &settings.loss)?,
                 loss_scale: settings.loss_scale,
                 dolp_only: preset.dolp_only,
+                ..FitOptions::default()
             },
         })
     }
