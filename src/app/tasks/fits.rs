@@ -145,7 +145,7 @@ impl FitJobs {
             let result = match joint {
                 None => whole_intervals(&problem, report, observer).map(|report| WithIntervals::One(Box::new(report))),
                 Some(JointPart { of, .. }) => {
-                    let result = with_intervals_jointly(&of.problem, of.result.clone(), observer);
+                    let result = with_intervals_jointly(&of.problem, &of.result, observer);
                     let is_part = result.course.intervals_complete == Some(false) && cancelled();
                     (!is_part).then(|| WithIntervals::Joint(Box::new(result)))
                 }

@@ -234,7 +234,7 @@ pub fn analyse_jointly(
 
 /// The joint result with the profile-likelihood intervals of all unknowns, as [`crate::fit::with_intervals`] has it of one measurement.
 #[must_use]
-pub fn with_intervals_jointly(problem: &JointProblem, result: JointResult, observer: Observer<'_>) -> JointResult {
+pub fn with_intervals_jointly(problem: &JointProblem, result: &JointResult, observer: Observer<'_>) -> JointResult {
     let (analysis, intervals) = profile_all(problem, result.analysis(problem), observer);
     JointResult::new(problem, analysis, intervals.as_deref())
 }
