@@ -12,7 +12,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum SavedEntry {
-    One(SavedFit),
+    One(Box<SavedFit>),
     Joint(SavedJointFit),
 }
 
@@ -26,7 +26,7 @@ impl SavedEntry {
     /// Of the parts of a fit, each with the number of its measurement in the session, from 0.
     pub fn new(parts: &[(&FitEntry, usize)]) -> Option<Self> {
         match parts {
-            [(fit, measurement)] if fit.joint.is_none() => Some(Self::One(SavedFit::new(fit, *measurement))),
+            [(fit, measurement)] if fit.joint.is_none() => Some(Self::One(Box::new(SavedFit::new(fit, *measurement)))),
             _ => SavedJointFit::new(parts).map(Self::Joint),
         }
     }
@@ -39,7 +39,7 @@ impl SavedEntry {
         if value.get("sets").is_some() {
             SavedJointFit::read(value, measurements).map(Self::Joint)
         } else {
-            SavedFit::read(value, measurements).map(Self::One)
+            SavedFit::read(value, measurements).map(|fit| Self::One(Box::new(fit)))
         }
     }
 
