@@ -13,13 +13,13 @@ use serde::Serialize;
 #[serde(untagged)]
 pub enum SavedEntry {
     One(Box<SavedFit>),
-    Joint(SavedJointFit),
+    Joint(Box<SavedJointFit>),
 }
 
 /// A fit of a session, made again.
 pub enum RestoredEntry {
-    One(RestoredFit),
-    Joint(RestoredJointFit),
+    One(Box<RestoredFit>),
+    Joint(Box<RestoredJointFit>),
 }
 
 impl SavedEntry {
@@ -27,7 +27,7 @@ impl SavedEntry {
     pub fn new(parts: &[(&FitEntry, usize)]) -> Option<Self> {
         match parts {
             [(fit, measurement)] if fit.joint.is_none() => Some(Self::One(Box::new(SavedFit::new(fit, *measurement)))),
-            _ => SavedJointFit::new(parts).map(Self::Joint),
+            _ => SavedJointFit::new(parts).map(|fit| Self::Joint(Box::new(fit))),
         }
     }
 
@@ -37,7 +37,7 @@ impl SavedEntry {
     /// It is none.
     pub fn read(value: serde_json::Value, measurements: &[SavedMeasurement]) -> Result<Self, SavedFitError> {
         if value.get("sets").is_some() {
-            SavedJointFit::read(value, measurements).map(Self::Joint)
+            SavedJointFit::read(value, measurements).map(|fit| Self::Joint(Box::new(fit)))
         } else {
             SavedFit::read(value, measurements).map(|fit| Self::One(Box::new(fit)))
         }
@@ -46,8 +46,8 @@ impl SavedEntry {
     /// The fit again. None where the data of the session are no longer such that there is one.
     pub fn restore(&self, measurements: &[SavedMeasurement]) -> Option<RestoredEntry> {
         match self {
-            Self::One(fit) => fit.restore(measurements).map(RestoredEntry::One),
-            Self::Joint(fit) => fit.restore(measurements).map(RestoredEntry::Joint),
+            Self::One(fit) => fit.restore(measurements).map(|fit| RestoredEntry::One(Box::new(fit))),
+            Self::Joint(fit) => fit.restore(measurements).map(|fit| RestoredEntry::Joint(Box::new(fit))),
         }
     }
 }
@@ -56,12 +56,14 @@ impl RestoredEntry {
     /// The entries of the history, each with the number of its measurement in the session, from 0.
     pub fn into_entries(self, measurements: &[OpenMeasurement]) -> Vec<(usize, FitEntry)> {
         match self {
-            Self::One(RestoredFit { measurement, report, problem, before, mask }) => {
+            Self::One(fit) => {
+                let RestoredFit { measurement, report, problem, before, mask } = *fit;
                 let about = measurements[measurement].clone();
                 let entry = FitEntry::new(about.clone(), problem, report);
                 vec![(measurement, placed(entry, before, mask, &about))]
             }
-            Self::Joint(RestoredJointFit { joint, sets }) => {
+            Self::Joint(fit) => {
+                let RestoredJointFit { joint, sets } = *fit;
                 let about: Vec<OpenMeasurement> = sets.iter().map(|(measurement, ..)| measurements[*measurement].clone()).collect();
                 let entries = FitEntry::of_joint(about.clone(), joint);
                 let place = |((entry, (measurement, before, mask)), about)| (measurement, placed(entry, before, mask, &about));

@@ -74,7 +74,7 @@ fn a_joint_fit_and_its_session_keep_ties_range_and_weights() {
     let (n, k) = (values(&mut source, N), values(&mut source, K));
     assert!(n.iter().zip(&k).all(|(n, k)| *k == 1.4 * n) && n[0] != n[1], "{n:?} {k:?}");
     let before = shown(&mut source).joint.expect("a joint fit").of;
-    assert_eq!(before.problem.parts().iter().map(|part| part.len()).collect::<Vec<_>>(), [15; 3], "20 rows, 5 of them at 75°");
+    assert_eq!(before.problem.parts().iter().map(pbrdf::fit::Problem::len).collect::<Vec<_>>(), [15; 3], "20 rows, 5 of them at 75°");
     assert!(before.problem.own().contains(K) && !before.problem.own().contains(Kv));
     assert_eq!(before.problem.parts()[0].emphasis(), 1.5, "2 of the mean 4/3");
     let path = folder.path().join("work.pbrdf.json");

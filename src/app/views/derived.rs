@@ -39,10 +39,13 @@ pub struct Derived {
     outlook: Memo<OutlookKey, Option<Identifiability>>,
 }
 
+/// What the problem of a surface depends on: the generation of the data, model, ties and range.
+type ProblemKey = (u64, Model, Vec<Tie>, Option<FitRange>);
+
 /// How far a surface is from its data.
 #[derive(Default)]
 struct Misfit {
-    problem: Memo<(u64, Model, Vec<Tie>, Option<FitRange>), Option<Problem>>,
+    problem: Memo<ProblemKey, Option<Problem>>,
     delta_e: Memo<(Parameters, u64, Model, Option<FitRange>), Option<f64>>,
 }
 
