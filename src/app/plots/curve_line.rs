@@ -98,6 +98,7 @@ impl PlotItem for CurveLine<'_> {
 }
 
 #[cfg(test)]
+#[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
     use super::{TOLERANCE, simplified};
     use egui::{Pos2, pos2};

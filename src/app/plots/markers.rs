@@ -195,6 +195,7 @@ impl PlotItem for Markers<'_> {
 }
 
 #[cfg(test)]
+#[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels of a small picture")]
 mod tests {
     use super::{Markers, SYMBOLS, cells, outside, picture};
     use crate::app::plots::markers::ErrorBar;
