@@ -50,17 +50,16 @@ pub fn resolve_ties(ties: &[Tie]) -> Result<Vec<Tie>, TieError> {
         by_parameter[tie.parameter] = Some(*tie);
     }
     let to_root = |tie: Tie| {
-        let (mut whole, mut path) = (tie, vec![tie.parameter, tie.to]);
-        while let Some(next) = by_parameter[whole.to] {
-            let is_circle = path.contains(&next.to);
-            path.push(next.to);
-            if is_circle {
-                let first = path.iter().position(|&parameter| parameter == next.to).unwrap_or(0);
+        let (mut whole, mut path) = (tie, vec![tie.parameter]);
+        loop {
+            let seen = path.iter().position(|&parameter| parameter == whole.to);
+            path.push(whole.to);
+            if let Some(first) = seen {
                 return Err(TieError::Circle(path.split_off(first)));
             }
+            let Some(next) = by_parameter[whole.to] else { return Ok(whole) };
             whole = Tie { factor: whole.factor * next.factor, to: next.to, ..whole };
         }
-        if whole.to == whole.parameter { Err(TieError::Circle(path)) } else { Ok(whole) }
     };
     Parameter::ALL.into_iter().filter_map(|parameter| by_parameter[parameter]).map(to_root).collect()
 }
