@@ -4,7 +4,10 @@
 mod error;
 mod fitting;
 mod measurement;
+mod metals;
 mod names;
+mod planning;
+mod posterior;
 mod surface;
 mod watched;
 
@@ -23,5 +26,10 @@ fn _pbrdf(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surface::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(measurement::read, module)?)?;
     module.add_function(wrap_pyfunction!(fitting::fit, module)?)?;
+    module.add_function(wrap_pyfunction!(metals::metals, module)?)?;
+    module.add_function(wrap_pyfunction!(planning::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(planning::choose_angles, module)?)?;
+    module.add_class::<posterior::Drawn>()?;
+    module.add_function(wrap_pyfunction!(posterior::posterior, module)?)?;
     Ok(())
 }

@@ -13,12 +13,20 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// Stack of the thread: as much as a main thread has on most systems.
 const STACK: usize = 8 << 20;
 
+/// What work has to tell.
+enum Event {
+    /// A fit came closer.
+    Improved(TracePoint),
+    /// The share that is done, 0 to 1.
+    Share(f64),
+}
+
 /// How work learns that it is to stop, and tells how far it is.
 pub struct Watch<'a> {
     begun: Instant,
     stopped: &'a AtomicBool,
     /// None where nobody listens.
-    events: Option<Sender<TracePoint>>,
+    events: Option<Sender<Event>>,
 }
 
 impl Watch<'_> {
@@ -27,7 +35,12 @@ impl Watch<'_> {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    fn tell(&self, event: TracePoint) {
+    /// Tells the share that is done, 0 to 1.
+    pub fn tell_share(&self, share: f64) {
+        self.tell(Event::Share(share));
+    }
+
+    fn tell(&self, event: Event) {
         if let Some(events) = &self.events {
             // Who went away does not want to know.
             let _ = events.send(event);
@@ -38,12 +51,18 @@ impl Watch<'_> {
     pub fn observe<T>(&self, work: impl FnOnce(Observer<'_>) -> T) -> T {
         let clock = || self.begun.elapsed().as_secs_f64() * 1e3;
         let cancelled = || self.is_stopped();
-        let progress = |point: TracePoint| self.tell(point);
+        let progress = |point: TracePoint| self.tell(Event::Improved(point));
         work(Observer { clock: &clock, cancelled: &cancelled, progress: &progress })
+    }
+
+    /// The same, telling nothing of the improvements of a fit.
+    pub fn fit_quietly<T>(&self, work: impl FnOnce(Observer<'_>) -> T) -> T {
+        self.observe(|observer| work(Observer { progress: &|_| {}, ..observer }))
     }
 }
 
-/// Does work without the interpreter's lock. `progress` is called with (milliseconds, evaluations, ΔE) of a fit.
+/// Does work without the interpreter's lock. `progress` is called with (milliseconds, evaluations, ΔE) of a fit, or with the share that is
+/// done of other work.
 ///
 /// # Errors
 ///
@@ -83,10 +102,15 @@ pub fn watched<T: Send>(py: Python<'_>, progress: Option<&Py<PyAny>>, work: impl
 }
 
 /// Runs signal handlers and tells of an event.
-fn listen(py: Python<'_>, progress: Option<&Py<PyAny>>, event: Option<TracePoint>) -> PyResult<()> {
+fn listen(py: Python<'_>, progress: Option<&Py<PyAny>>, event: Option<Event>) -> PyResult<()> {
     py.check_signals()?;
-    if let (Some(progress), Some(TracePoint { elapsed_ms, evaluations, objective })) = (progress, event) {
-        progress.call1(py, (elapsed_ms, evaluations, objective))?;
+    if let (Some(progress), Some(event)) = (progress, event) {
+        match event {
+            Event::Improved(TracePoint { elapsed_ms, evaluations, objective }) => {
+                progress.call1(py, (elapsed_ms, evaluations, objective))?
+            }
+            Event::Share(share) => progress.call1(py, (share,))?,
+        };
     }
     Ok(())
 }

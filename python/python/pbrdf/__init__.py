@@ -22,27 +22,38 @@ from __future__ import annotations
 from ._angles import Evaluation, Geometries, evaluate, prepare
 from ._fitting import Correlations, Estimate, FitResult, Minimum, SetResult, fit
 from ._measurement import Measurement, read, read_all
+from ._metals import MetalSource, metals
 from ._pbrdf import PbrdfError, __version__
+from ._planning import AngleChoice, choose_angles, simulate
+from ._posterior import Posterior, Summary, posterior
 from ._tables import ModelInfo, ParameterInfo, models, parameters
 
 __all__ = [
+    "AngleChoice",
     "Correlations",
     "Estimate",
     "Evaluation",
     "FitResult",
     "Geometries",
     "Measurement",
+    "MetalSource",
     "Minimum",
     "ModelInfo",
     "ParameterInfo",
     "PbrdfError",
+    "Posterior",
     "SetResult",
+    "Summary",
     "__version__",
+    "choose_angles",
     "evaluate",
     "fit",
+    "metals",
     "models",
     "parameters",
+    "posterior",
     "prepare",
     "read",
     "read_all",
+    "simulate",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -45,8 +46,8 @@ class Geometries:
     """Angles that are prepared once and evaluated for many surfaces; made by :func:`prepare`."""
 
     def __init__(self, theta_i: ArrayLike, theta_r: ArrayLike, dphi: ArrayLike = 180.0) -> None:
-        angles, self._shape = _checks.broadcast(theta_i=theta_i, theta_r=theta_r, dphi=dphi)
-        self._prepared = _pbrdf.Prepared(*angles, self._shape)
+        (rays_in, rays_out, azimuths), self._shape = _checks.broadcast(theta_i=theta_i, theta_r=theta_r, dphi=dphi)
+        self._prepared = _pbrdf.Prepared(rays_in, rays_out, azimuths, self._shape)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -119,20 +120,13 @@ def evaluate(
     ((2, 80), (2, 80))
     """
     question, by = _question(model, parameters, terms, mueller, gradients)
-    angles, shape = _checks.broadcast(theta_i=theta_i, theta_r=theta_r, dphi=dphi)
-    return _evaluation(_pbrdf.evaluate(question, *angles, shape), shape, terms, mueller, by)
-
-
-class _Question:
-    """What the compiled part asks for by attribute."""
-
-    def __init__(self, **attributes: Any) -> None:
-        self.__dict__.update(attributes)
+    (rays_in, rays_out, azimuths), shape = _checks.broadcast(theta_i=theta_i, theta_r=theta_r, dphi=dphi)
+    return _evaluation(_pbrdf.evaluate(question, rays_in, rays_out, azimuths, shape), shape, terms, mueller, by)
 
 
 def _question(
     model: Any, parameters: Any, terms: Any, mueller: Any, gradients: Any
-) -> tuple[_Question, list[str]]:
+) -> tuple[SimpleNamespace, list[str]]:
     model = _checks.word("model", model)
     if gradients is True:
         found = models().get(model)
@@ -143,7 +137,7 @@ def _question(
     # In the order of the core; unknown names stay, for it to refuse.
     by = sorted(dict.fromkeys(by), key=lambda name: order.index(name) if name in order else len(order))
     values = _checks.values("parameters", parameters)
-    return _Question(model=model, parameters=values, terms=bool(terms), mueller=bool(mueller), gradients=by), by
+    return SimpleNamespace(model=model, parameters=values, terms=bool(terms), mueller=bool(mueller), gradients=by), by
 
 
 def _evaluation(columns: list[Array], shape: tuple[int, ...], terms: Any, mueller: Any, by: list[str]) -> Evaluation:

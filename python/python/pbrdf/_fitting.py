@@ -6,6 +6,7 @@ import html
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -226,13 +227,6 @@ def _ends(interval: Interval | None) -> str:
     return f"{'' if low is None else f'{low:.4g}'} … {'' if high is None else f'{high:.4g}'}"
 
 
-class _Settings:
-    """How a fit is asked for, by attribute."""
-
-    def __init__(self, **attributes: Any) -> None:
-        self.__dict__.update(attributes)
-
-
 def fit(
     data: Measurement | Sequence[Measurement],
     model: str = "cauchy",
@@ -293,7 +287,7 @@ def fit(
     model = _checks.word("model", model)
     everything = [name for key, _, _, names in _pbrdf.models() if key == model for name in names]
     held = _checks.items("fix", fix) if fix is None or isinstance(fix, Mapping) else [(name, None) for name in _checks.names("fix", fix)]
-    settings = _Settings(
+    settings = SimpleNamespace(
         model=model,
         own=everything if own == "all" else _checks.names("own", own),
         fix=[(name, None if value is None else _checks.number(f"fix[{name!r}]", value)) for name, value in held],

@@ -6,6 +6,7 @@ import os
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,13 +16,6 @@ from . import _checks, _pbrdf
 from ._pbrdf import PbrdfError
 
 COLUMNS = ("theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked")
-
-
-class _Columns:
-    """What the compiled part takes by attribute."""
-
-    def __init__(self, **attributes: Any) -> None:
-        self.__dict__.update(attributes)
 
 
 class Measurement:
@@ -87,7 +81,7 @@ class Measurement:
             raise PbrdfError("no row has a value of DoLP or BRDF")
         texts = [(key, str(value)) for key, value in _checks.items("metadata", metadata)]
         self._inner = _pbrdf.Measurement(
-            _Columns(
+            SimpleNamespace(
                 **{key: rows[key] for key in ("theta_i", "theta_r", "dphi")},
                 **{key: pairs.get(key) for key in quantities},
                 masked=rows["masked"] != 0.0,
@@ -121,7 +115,7 @@ class Measurement:
 
     def to_pandas(self) -> Any:
         """As a ``pandas.DataFrame`` with the columns that have a value, and ``masked`` as truth values. Needs pandas."""
-        import pandas
+        import pandas  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
         columns: dict[str, Any] = {key: self._inner.column(key) for key in COLUMNS}
         columns["masked"] = self.masked
@@ -217,13 +211,6 @@ def _to_rows(measured: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(np.broadcast_to(measured, shape))
 
 
-class _Answers:
-    """What a foreign file is told, by attribute."""
-
-    def __init__(self, **attributes: Any) -> None:
-        self.__dict__.update(attributes)
-
-
 def read_all(
     path: str | os.PathLike[str],
     *,
@@ -235,7 +222,7 @@ def read_all(
     """All measurements of a file: one for each set and wavelength. As :func:`read` otherwise."""
     if not isinstance(path, (str, os.PathLike)):
         raise PbrdfError(f"path is a {type(path).__name__}; expected the name of a file")
-    answers = _Answers(
+    answers = SimpleNamespace(
         wavelength_nm=None if wavelength_nm is None else _checks.number("wavelength_nm", wavelength_nm),
         theta_i=[] if theta_i is None else _checks.numbers("theta_i", theta_i).ravel().tolist(),
         theta_r=[] if theta_r is None else _checks.numbers("theta_r", theta_r).ravel().tolist(),

@@ -48,4 +48,4 @@ def parameters() -> dict[str, ParameterInfo]:
     >>> parameters()["n"].unit
     ''
     """
-    return {key: ParameterInfo(*rest) for key, *rest in _pbrdf.parameters()}
+    return {row[0]: ParameterInfo(*row[1:]) for row in _pbrdf.parameters()}
