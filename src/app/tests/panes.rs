@@ -173,7 +173,8 @@ fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
 /// Whether a curve of that colour is drawn, longer than its sample beside the name.
 fn is_drawn(harness: &Harness<'static, Option<App>>, color: fn(bool) -> egui::Color32) -> bool {
     let color = egui::epaint::ColorMode::Solid(color(harness.ctx.global_style().visuals.dark_mode));
-    let line = |shape: &egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.color == color && path.points.len() > 100);
+    let is_long = |path: &egui::epaint::PathShape| path.visual_bounding_rect().width() > 100.0;
+    let line = |shape: &egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.color == color && is_long(path));
     harness.output().shapes.iter().any(|clipped| line(&clipped.shape))
 }
 

@@ -39,7 +39,7 @@ fn with_report(subject: BenchmarkId, looks: usize) -> Harness<'static, Option<Ap
     explorer(&mut harness).dock.show(pane_of(subject));
     let result = Box::new(part(subject, looks));
     explorer(&mut harness).benchmarks.take(*result, true);
-    harness.run();
+    wait(&mut harness);
     harness
 }
 
@@ -91,7 +91,7 @@ fn every_case_of_the_gallery_can_be_drawn() {
 fn a_report_is_measured_in_the_background_and_can_be_stopped() {
     let mut harness = harness();
     explorer(&mut harness).dock.show(pane_of(BenchmarkId::Cost));
-    harness.run();
+    wait(&mut harness);
     harness.get_by_label("Nothing is measured yet.");
     harness.get_by_label("Measure costs").click();
     harness.step();
