@@ -5,7 +5,8 @@ use crate::measurement::Measurement;
 use crate::names::{choice, parameter, preset};
 use crate::watched::watched;
 use pbrdf::fit::{
-    Fit, FitOptions, FitResult, Intervals, JointFit, JointProblem, JointResult, Observer, Problem, Starts, fit_jointly, with_intervals,
+    Fit, FitOptions, FitRange, FitResult, Intervals, JointFit, JointProblem, JointResult, Observer, Problem, Starts, fit_jointly,
+    with_intervals,
 };
 use pbrdf::model::{Parameter, ParameterSet, Parameters, Preset};
 use pyo3::prelude::*;
@@ -21,6 +22,10 @@ pub struct Settings {
     free: Vec<String>,
     bounds: Vec<(String, (f64, f64))>,
     start: Vec<(String, f64)>,
+    /// What is tied, the factor, and to what.
+    tie: Vec<(String, f64, String)>,
+    /// The angles that are fitted: θi, then θr, from and to in degrees.
+    range: Option<[[f64; 2]; 2]>,
     starts: Option<usize>,
     seed: u64,
     intervals: String,
@@ -45,6 +50,7 @@ struct Plan {
     free: Vec<Said<()>>,
     bounds: Vec<Said<(f64, f64)>>,
     start: Vec<Said<f64>>,
+    ties: Vec<(Parameter, f64, Parameter)>,
     starts: Starts,
     seed: u64,
     intervals: Intervals,
@@ -74,6 +80,7 @@ fn parameter_of(preset: &Preset, name: &str) -> PyResult<Parameter> {
 }
 
 impl Plan {
+    #[allow(clippy::needless_update, reason = "the core's options may become more")]
     fn new(settings: Settings) -> PyResult<Self> {
         let preset = preset(&settings.model)?;
         if settings.loss_scale.is_some_and(|scale| !(scale > 0.0 && scale.is_finite())) {
@@ -86,6 +93,11 @@ impl Plan {
             free: said(preset, settings.free.into_iter().map(|name| (name, ())).collect())?,
             bounds: said(preset, settings.bounds)?,
             start: said(preset, settings.start)?,
+            ties: settings
+                .tie
+                .iter()
+                .map(|(tied, factor, to)| Ok((parameter_of(preset, tied)?, *factor, parameter_of(preset, to)?)))
+                .collect::<PyResult<_>>()?,
             starts: match settings.starts {
                 None => Starts::Automatic,
                 Some(0) => return Err(refused("starts = 0: expected at least 1, or None to search until nothing new is found")),
@@ -100,6 +112,7 @@ impl Plan {
                 loss: choice("loss", &settings.loss)?,
                 loss_scale: settings.loss_scale,
                 dolp_only: preset.dolp_only,
+                range: settings.range.map(|[theta_i, theta_r]| FitRange { theta_i, theta_r }),
                 ..FitOptions::default()
             },
         })
@@ -116,7 +129,7 @@ impl Plan {
 
     /// The fit of the measurement of that name: what is said of it alone comes last and counts.
     fn describe<'a>(&self, fit: Fit<'a>, set: &str) -> Fit<'a> {
-        let fit = fit.options(self.options);
+        let fit = self.ties.iter().fold(fit.options(self.options), |fit, &(tied, factor, to)| fit.tie(tied, factor, to));
         let fit = meant(&self.bounds, set).fold(fit, |fit, said| fit.bound(said.parameter, said.what.0..=said.what.1));
         let fit = meant(&self.start, set).fold(fit, |fit, said| fit.start(said.parameter, said.what));
         let fit = meant(&self.fix, set).fold(fit, |fit, said| match said.what {

@@ -104,6 +104,40 @@ def test_each_of_several_has_its_own_parameters():
     assert held.parameters["n@B"].value == 2.5 and held.parameters["n@A"].free
 
 
+def test_a_tied_parameter_follows_the_other():
+    result = pbrdf.fit(simulated(), fix={"ks": 1.0, "c": 0.0}, tie={"kv": (0.5, "kd")}, starts=3)
+    assert result.parameters["kv"].value == pytest.approx(0.5 * result.parameters["kd"].value, rel=1e-12)
+    # The truth has this ratio.
+    assert result.parameters["kd"].value == pytest.approx(TRUTH["kd"], rel=1e-5)
+
+
+def test_a_range_of_angles_leaves_the_other_rows_out():
+    data = simulated()
+    ranged = pbrdf.fit(data, starts=1, intervals="linear", theta_i_range=(40, 60), theta_r_range=(10, 50))
+    rows = (data.theta_i >= 40) & (data.theta_i <= 60) & (data.theta_r >= 10) & (data.theta_r <= 50)
+    assert 0 < rows.sum() < len(data)
+    masked = pbrdf.Measurement(data.theta_i, data.theta_r, dolp=data.dolp, brdf=data.brdf, masked=~rows)
+    expected = pbrdf.fit(masked, starts=1, intervals="linear")
+    assert without_times(ranged.to_dict()) == without_times(expected.to_dict())
+
+
+def test_a_plot_has_points_and_curves():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    result = pbrdf.fit(simulated(), starts=1, intervals="none")
+    axes = result.plot("brdf", ax=plt.figure().add_subplot())
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["θi = 30°", "θi = 50°", "θi = 70°"]
+    points = [line for line in axes.lines if line.get_marker() == "o"]
+    assert sum(len(line.get_xdata()) for line in points) == 24
+    plt.close("all")
+    with pytest.raises(pbrdf.PbrdfError, match='expected "dolp" or "brdf"'):
+        result.plot("radiance")
+    with pytest.raises(pbrdf.PbrdfError, match="set = 3; expected 0 to 0"):
+        result.plot(set=3)
+
+
 def test_progress_is_told_and_falls():
     told = []
     result = pbrdf.fit(simulated(), starts=1, intervals="none", progress=lambda *event: told.append(event))
@@ -166,6 +200,11 @@ def test_other_threads_go_on_during_a_fit(example):
         ({"weights": "sigmas"}, "weights: there is no `sigmas`, expected `none` or `sigma`"),
         ({"loss": "cauchy"}, "loss: there is no `cauchy`, expected one of"),
         ({"loss_scale": -1.0}, "loss_scale: expected a number above 0"),
+        ({"tie": {"kv": (2.0, "kd"), "kd": (0.5, "kv")}}, "is a circle"),
+        ({"tie": {"kv": (0.0, "kd")}}, "expected a factor other than 0"),
+        ({"tie": {"kv": "kd"}}, r"tie\['kv'\] is 'kd'; expected a factor and a name"),
+        ({"theta_i_range": (60, 40)}, r"theta_i_range is \(60, 40\); expected \(low, high\)"),
+        ({"theta_r_range": (math.nan, 40)}, "theta_r_range is .*; expected"),
         ({"progress": 3}, "progress: expected a function"),
     ],
 )

@@ -86,8 +86,9 @@ class SetResult:
 class FitResult:
     """What a fit found, and what the data leave undetermined."""
 
-    def __init__(self, inner: _pbrdf.Fitted) -> None:
+    def __init__(self, inner: _pbrdf.Fitted, data: Sequence[Measurement] = ()) -> None:
         self._inner = inner
+        self._data = list(data)
         self._document: dict[str, Any] = json.loads(inner.json())
         texts = dict(inner.estimates())
         document = self._document
@@ -175,6 +176,47 @@ class FitResult:
         """The fitted surface at angles, as :func:`evaluate` has it; ``set`` counts the measurements of a fit of several."""
         return evaluate(self.model, self.values(set), theta_i, theta_r, dphi, **wanted)
 
+    def plot(self, quantity: str | None = None, *, set: int = 0, ax: Any = None) -> Any:
+        """Draws what was measured in the plane of incidence and the fitted curves over the angle of view, a colour for each angle of incidence.
+        Needs matplotlib.
+
+        Args:
+            quantity: ``"dolp"`` or ``"brdf"``; without, DoLP if it was measured.
+            set: Which measurement of a fit of several, counted from 0.
+            ax: Axes of matplotlib to draw on; without, the current ones.
+
+        Returns:
+            The axes.
+
+        Raises:
+            PbrdfError: The quantity was not measured in the plane of incidence.
+        """
+        import matplotlib.pyplot as plt  # type: ignore[import-not-found, unused-ignore]
+
+        self.values(set)
+        data = self._data[set]
+        quantity = ("brdf" if np.isnan(data.dolp).all() else "dolp") if quantity is None else _checks.word("quantity", quantity)
+        if quantity not in ("dolp", "brdf"):
+            raise PbrdfError(f'quantity = {quantity!r}; expected "dolp" or "brdf"')
+        measured: NDArray[np.float64] = getattr(data, quantity)
+        backward = np.isin(data.dphi, (0.0, 360.0))
+        in_plane = (backward | (data.dphi == 180.0)) & ~np.isnan(measured)
+        if not in_plane.any():
+            raise PbrdfError(f"no {quantity} was measured in the plane of incidence (dphi 0 or 180)")
+        axes = plt.gca() if ax is None else ax
+        signed = np.where(backward, -data.theta_r, data.theta_r)
+        for number, theta_i in enumerate(np.unique(data.theta_i[in_plane])):
+            colour, rows = f"C{number % 10}", in_plane & (data.theta_i == theta_i)
+            for chosen, filled in ((rows & ~data.masked, colour), (rows & data.masked, "none")):
+                axes.plot(signed[chosen], measured[chosen], "o", color=colour, markerfacecolor=filled, markersize=4)
+            angles = np.linspace(signed[rows].min(), signed[rows].max(), 200)
+            curve = getattr(self.evaluate(theta_i, angles, set=set), quantity)
+            axes.plot(angles, curve, color=colour, label=f"θi = {theta_i:g}°")
+        axes.set_xlabel("θr (degrees)")
+        axes.set_ylabel("DoLP" if quantity == "dolp" else "BRDF (1/sr)")
+        axes.legend()
+        return axes
+
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain lists and dicts: what the command ``pbrdf-explorer fit --json`` prints, but for its files."""
         return json.loads(self._inner.json())
@@ -236,6 +278,9 @@ def fit(
     free: str | Iterable[str] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     start: Mapping[str, float] | None = None,
+    tie: Mapping[str, tuple[float, str]] | None = None,
+    theta_i_range: tuple[float, float] | None = None,
+    theta_r_range: tuple[float, float] | None = None,
     starts: int | None = None,
     seed: int = 1,
     intervals: str = "profile",
@@ -255,6 +300,9 @@ def fit(
         free: Parameters to free that are not free by default.
         bounds: ``(low, high)`` by name; without, the range of :func:`parameters`.
         start: Values to start from, by name.
+        tie: Parameters that are another one times a factor: ``{"kv": (2.0, "kd")}`` is kv = 2 kd.
+        theta_i_range: Angles of incidence that are fitted, ``(low, high)`` in degrees, both included; without, all.
+        theta_r_range: Angles of view that are fitted, negative on the backscatter side; without, all.
         starts: How many starts; None searches until nothing new is found.
         seed: Shifts the points that starts are spread over. The same seed gives the same result.
         intervals: ``"profile"`` (likelihood), ``"linear"`` (standard errors alone, much faster) or ``"none"``.
@@ -294,6 +342,10 @@ def fit(
         free=_checks.names("free", free),
         bounds=[(name, _bounds(name, value)) for name, value in _checks.items("bounds", bounds)],
         start=_checks.values("start", start),
+        tie=[(name, *_tie(name, value)) for name, value in _checks.items("tie", tie)],
+        range=None
+        if theta_i_range is None and theta_r_range is None
+        else [_range("theta_i_range", theta_i_range, (0.0, 90.0)), _range("theta_r_range", theta_r_range, (-90.0, 90.0))],
         starts=None if starts is None else _checks.whole("starts", starts, 1),
         seed=_checks.whole("seed", seed, 0),
         intervals=_checks.word("intervals", intervals),
@@ -302,7 +354,7 @@ def fit(
         loss_scale=None if loss_scale is None else _checks.number("loss_scale", loss_scale),
         brdf_residuals=_checks.word("brdf_residuals", brdf_residuals),
     )
-    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress))
+    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress), measurements)
 
 
 def _bounds(name: str, value: Any) -> tuple[float, float]:
@@ -310,3 +362,18 @@ def _bounds(name: str, value: Any) -> tuple[float, float]:
     if ends.shape != (2,):
         raise PbrdfError(f"bounds[{name!r}] is {value!r}; expected (low, high)")
     return float(ends[0]), float(ends[1])
+
+
+def _tie(name: str, value: Any) -> tuple[float, str]:
+    if not (isinstance(value, (tuple, list)) and len(value) == 2 and isinstance(value[1], str)):
+        raise PbrdfError(f'tie[{name!r}] is {value!r}; expected a factor and a name, such as (2.0, "kd")')
+    return _checks.number(f"tie[{name!r}]", value[0]), value[1]
+
+
+def _range(name: str, value: Any, whole: tuple[float, float]) -> list[float]:
+    if value is None:
+        return list(whole)
+    ends = _checks.numbers(name, value)
+    if ends.shape != (2,) or not ends[0] <= ends[1]:
+        raise PbrdfError(f"{name} is {value!r}; expected (low, high) in degrees")
+    return [float(end) for end in ends]
