@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+import multiprocessing
 import os
+import pickle
 import signal
 import threading
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pbrdf
@@ -102,6 +105,23 @@ def test_each_of_several_has_its_own_parameters():
     assert result.values(1)["n"] == result.parameters["n@B"].value
     held = pbrdf.fit(data, own="n", fix={"ks": 1.0, "n@B": 2.5}, starts=1, intervals="linear")
     assert held.parameters["n@B"].value == 2.5 and held.parameters["n@A"].free
+
+
+def test_measurements_and_results_go_to_other_processes(example):
+    data = [pbrdf.read(example), simulated(name="B"), pbrdf.Measurement(30, [40, 50, -60], dolp=[0.1, None, 0.3], masked=[0, 0, 1])]
+    for one in data:
+        again = pickle.loads(pickle.dumps(one))
+        assert again.name == one.name and again.metadata == one.metadata
+        for key in ("theta_i", "theta_r", "dphi", "dolp", "dolp_sigma", "brdf", "brdf_sigma", "masked"):
+            assert np.array_equal(getattr(again, key), getattr(one, key), equal_nan=key != "masked"), key
+    here = pbrdf.fit(data[0], "specular", starts=1)
+    # A fork would have none of the threads of this process.
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
+        there = executor.submit(pbrdf.fit, data[0], "specular", starts=1).result()
+    assert without_times(there.to_dict()) == without_times(here.to_dict())
+    assert str(there) == str(here) and there.undetermined == here.undetermined and there.values() == here.values()
+    with pytest.raises(pbrdf.PbrdfError, match="comes from another process and lacks its problem"):
+        pbrdf.posterior(there)
 
 
 def test_a_tied_parameter_follows_the_other():

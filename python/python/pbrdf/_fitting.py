@@ -83,10 +83,32 @@ class SetResult:
     """All its parameters by name, those that all share among them."""
 
 
-class FitResult:
-    """What a fit found, and what the data leave undetermined."""
+class _Finished:
+    """What is left of a fit in another process: all that it says, without its problem."""
 
-    def __init__(self, inner: _pbrdf.Fitted, data: Sequence[Measurement] = ()) -> None:
+    def __init__(self, inner: _pbrdf.Fitted | _Finished) -> None:
+        self._said = {name: getattr(inner, name)() for name in ("json", "estimates", "open", "ending", "surfaces")}
+
+    def json(self) -> str:
+        return str(self._said["json"])
+
+    def estimates(self) -> list[tuple[str, str]]:
+        return list(self._said["estimates"])
+
+    def open(self) -> list[str]:
+        return list(self._said["open"])
+
+    def ending(self) -> str:
+        return str(self._said["ending"])
+
+    def surfaces(self) -> list[list[tuple[str, float]]]:
+        return list(self._said["surfaces"])
+
+
+class FitResult:
+    """What a fit found, and what the data leave undetermined. It can be pickled, and so come from other processes."""
+
+    def __init__(self, inner: _pbrdf.Fitted | _Finished, data: Sequence[Measurement] = ()) -> None:
         self._inner = inner
         self._data = list(data)
         self._document: dict[str, Any] = json.loads(inner.json())
@@ -106,6 +128,9 @@ class FitResult:
             SetResult(item["set"], item["objective"], item["sum_of_squares"], {**shared, **own}) for item, own in sets
         ]
         """The measurements of a fit of several, in their order; empty after a fit of one."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FitResult, (_Finished(self._inner), self._data)
 
     @property
     def model(self) -> str:

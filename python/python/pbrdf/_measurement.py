@@ -185,12 +185,27 @@ class Measurement:
         """Writes it as a CSV that :func:`read`, the command line and the window read, every number to its last bit."""
         Path(path).write_bytes(bytes(self._inner.to_csv()))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Goes to other processes: rows, name and metadata, without the notes of its reader."""
+        return _restored, ([self._inner.column(key) for key in COLUMNS], self.name, self.metadata)
+
     def __len__(self) -> int:
         return len(self._inner)
 
     def __repr__(self) -> str:
         there = [label for key, label in (("dolp", "DoLP"), ("brdf", "BRDF")) if not np.isnan(self._inner.column(key)).all()]
         return f"<pbrdf.Measurement {self.name!r}: {len(self)} rows, {' and '.join(there) or 'nothing measured'}>"
+
+
+def _restored(columns: list[NDArray[np.float64]], name: str, metadata: dict[str, str]) -> Measurement:
+    """A measurement from another process."""
+    rows: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True))
+    for key in ("dolp", "dolp_sigma", "brdf", "brdf_sigma"):
+        rows[key] = np.ma.masked_invalid(rows[key])
+    for key in ("dolp", "brdf"):
+        if rows[key].mask.all():
+            del rows[key], rows[f"{key}_sigma"]
+    return Measurement(**rows, name=name, metadata=metadata)
 
 
 def _split(name: str, value: Any) -> tuple[np.ndarray, np.ndarray]:

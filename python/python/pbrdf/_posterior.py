@@ -108,6 +108,8 @@ def posterior(
     """
     if not isinstance(result, FitResult):
         raise PbrdfError("result: expected a FitResult, as fit returns it")
+    if not isinstance(result._inner, _pbrdf.Fitted):
+        raise PbrdfError("result comes from another process and lacks its problem; fit and draw in one process")
     if progress is not None and not callable(progress):
         raise PbrdfError("progress: expected a function of the share that is done")
     request = SimpleNamespace(
