@@ -114,6 +114,7 @@ fn help() {
         fit --help
         simulate --help
         compare --help
+        posterior --help
         plan --help
         report --help
         picture --help

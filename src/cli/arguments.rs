@@ -76,6 +76,10 @@ pub struct FitArguments {
     /// Measurements: theta_i, theta_r and dolp or brdf, in degrees and 1/sr; a column set makes several of one file.
     #[arg(required = true)]
     pub inputs: Vec<PathBuf>,
+    /// Fit each measurement by itself and write a row of --output for it, several at a time; patterns such as 'runs/*.csv' are expanded.
+    /// Rows are written as they come; the same command again goes on where it was.
+    #[arg(long, requires = "output", conflicts_with_all = ["own", "profile", "bootstrap", "json", "table", "report", "figure"])]
+    pub batch: bool,
     /// Model: a preset such as cauchy, gauss, specular or fresnel.
     #[arg(long, default_value = "cauchy", value_parser = values::preset)]
     pub model: &'static Preset,
@@ -97,6 +101,7 @@ pub struct FitArguments {
     #[arg(long, value_name = "FORM", value_parser = values::table_format(), conflicts_with = "json")]
     pub table: Option<TableFormat>,
     /// File for the input columns with dolp_model, dolp_residual, brdf_model, brdf_residual beside them; what was fitted stands in its comments.
+    /// With --batch the table of results.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// File for a report with figures: .html in one file, .md with its figures as .svg files beside it.

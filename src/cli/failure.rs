@@ -55,6 +55,11 @@ impl Failure {
         Self { message: "Interrupted.".to_owned(), code: INTERRUPTED }
     }
 
+    /// The sentence, or the sentences, one a line.
+    pub fn sentence(&self) -> &str {
+        &self.message
+    }
+
     /// Prints the sentence.
     pub fn report(self) -> ExitCode {
         // A closed stderr cannot be reported.

@@ -8,7 +8,7 @@ use crate::cli::problem::{check, fitted, joint_failure, model, own_parameters, p
 use crate::cli::scans::{add_scans, is_cut_short, print_cut_short, print_scans};
 use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
-use crate::cli::{interrupt, joint, output};
+use crate::cli::{batch, interrupt, joint, output};
 use crate::files::export;
 use crate::report::{English, FitDocument, ResultColumn, ResultTable, fit_comments, fit_json, fitted_cells, write_beside};
 use pbrdf::fit::{FitResult, JointError, Problem, Profile, bootstrap, profile};
@@ -20,6 +20,9 @@ use std::process::ExitCode;
 
 pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();
+    if arguments.batch {
+        return batch::run(arguments);
+    }
     let sets = MeasurementSets::read(&arguments.inputs)?;
     match &sets.all[..] {
         [_] => run_single(arguments, &sets),

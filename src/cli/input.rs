@@ -60,20 +60,23 @@ pub fn measurements(path: &Path, bytes: &[u8]) -> Result<Vec<Measurement>, Failu
     Ok(measurements)
 }
 
-/// What the reader of a file has to say: the columns that no row uses, and its notices.
+/// What the reader of a file has to say: its notices, and the columns that no row uses.
+pub fn notices(measurement: &Measurement) -> Vec<String> {
+    let names = &measurement.ignored_columns;
+    let ignored = (!names.is_empty()).then(|| ImportNote::IgnoredColumns { names: names.clone() });
+    measurement.notes.iter().chain(&ignored).map(ToString::to_string).collect()
+}
+
+/// The same on stderr.
 pub fn notice_of_reading(path: &Path, measurement: &Measurement) {
-    for note in &measurement.notes {
-        notice(format_args!("{}: {note}.", input_name(path)));
-    }
-    if !measurement.ignored_columns.is_empty() {
-        let note = ImportNote::IgnoredColumns { names: measurement.ignored_columns.clone() };
+    for note in notices(measurement) {
         notice(format_args!("{}: {note}.", input_name(path)));
     }
 }
 
 /// The failure of a command whose input is no measurement; for a foreign file with the command that
 /// imports it.
-fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
+pub fn measurement_failure(path: &Path, bytes: &[u8], error: &ReadError) -> Failure {
     if error.may_be_foreign() || recognise(bytes).is_some() || is_workbook(bytes) {
         if let Some(other) = OtherFormat::of(bytes) {
             let command = other.options.map_or_else(String::new, |options| format!("; to import it, use {}", command(path, options)));

@@ -4,6 +4,8 @@
 //! 130 interrupted. Errors and progress go to stderr.
 
 mod arguments;
+mod batch;
+mod batch_table;
 mod compare;
 mod compare_joint;
 mod documents;
@@ -41,6 +43,11 @@ use std::process::ExitCode;
 
 /// Opens the window with files in it and returns when the user closes it; the error is a sentence.
 type OpenWindow = fn(Vec<PathBuf>) -> Result<(), String>;
+
+/// The arguments.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// Runs what the arguments say; without a command opens the window, where this build has one.
 pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
@@ -96,7 +103,7 @@ fn window(open: Option<OpenWindow>, files: Vec<PathBuf>) -> Result<ExitCode, Fai
         ))),
         (None, None) => {
             // Nobody reads a closed stderr.
-            let _ = write!(std::io::stderr(), "{}", Arguments::command().render_help());
+            let _ = write!(std::io::stderr(), "{}", command().render_help());
             Ok(ExitCode::from(failure::USAGE))
         }
     }

@@ -70,7 +70,7 @@ fn starts(arguments: &ProblemArguments) -> Starts {
 }
 
 /// That no option says two things of one parameter of one measurement.
-fn check_once(arguments: &ProblemArguments) -> Result<(), String> {
+pub fn check_once(arguments: &ProblemArguments) -> Result<(), String> {
     fn keys<T>(options: &[Targeted<T>]) -> Vec<(Parameter, Option<&str>)> {
         options.iter().map(|option| (option.parameter, option.set.as_deref())).collect()
     }
@@ -92,7 +92,7 @@ pub fn model(preset: &Preset, arguments: &ProblemArguments) -> Model {
 }
 
 /// Notices of parameters that options name and the model does not have.
-fn notice_strangers(preset: &Preset, arguments: &ProblemArguments) {
+pub fn notice_strangers(preset: &Preset, arguments: &ProblemArguments) {
     let has = model(preset, arguments).parameters();
     let started = arguments.start.iter().map(|option| option.parameter);
     let fixed = arguments.fix.iter().map(|option| option.parameter);

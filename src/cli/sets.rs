@@ -44,10 +44,25 @@ impl MeasurementSets {
         if !failures.is_empty() {
             return Err(Failure::all(failures));
         }
-        sets.name();
-        match sets.all.iter().enumerate().find(|(index, set)| sets.all[..*index].iter().any(|other| other.name == set.name)) {
+        sets.with_names()
+    }
+
+    /// The measurements that were read from one file.
+    ///
+    /// # Errors
+    ///
+    /// A failure where two of them have one name.
+    pub fn of_file(path: &Path, bytes: Vec<u8>, measurements: Vec<Measurement>) -> Result<Self, Failure> {
+        let named = |measurement: Measurement| NamedMeasurement { name: String::new(), file: 0, measurement };
+        Self { paths: vec![path.to_owned()], bytes: vec![bytes], all: measurements.into_iter().map(named).collect() }.with_names()
+    }
+
+    /// With a name for each measurement.
+    fn with_names(mut self) -> Result<Self, Failure> {
+        self.name();
+        match self.all.iter().enumerate().find(|(index, set)| self.all[..*index].iter().any(|other| other.name == set.name)) {
             Some((_, twice)) => Err(Failure::usage(format!("Two measurements are called {}; each needs a name of its own.", twice.name))),
-            None => Ok(sets),
+            None => Ok(self),
         }
     }
 
