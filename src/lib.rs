@@ -30,6 +30,13 @@ pub fn run() -> ExitCode {
     cli::run(WINDOW)
 }
 
+/// The arguments of the program, from which completions of shells and manual pages are made.
+#[cfg(feature = "cli")]
+#[must_use]
+pub fn command() -> clap::Command {
+    cli::command()
+}
+
 /// Opens the window. This build reads no arguments.
 #[cfg(not(feature = "cli"))]
 #[must_use]

@@ -9,6 +9,7 @@ use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
 use crate::app::text::help::TITLE;
 use crate::app::views::action::Action;
+use crate::figure::{self, Image};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;
@@ -26,6 +27,9 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
     let (stored, notice) = settings_file::load();
     let mut viewport =
         egui::ViewportBuilder::default().with_title(TITLE).with_app_id(settings_file::APP).with_min_inner_size([1024.0, 640.0]);
+    if let Some(icon) = icon() {
+        viewport = viewport.with_icon(icon);
+    }
     viewport = viewport.with_inner_size(stored.window.size).with_maximized(stored.window.maximized);
     let options = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..eframe::NativeOptions::default() };
     let create: eframe::AppCreator<'_> = Box::new(|context| {
@@ -54,6 +58,13 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
         Err(panic) if STARTED.load(Ordering::Relaxed) => std::panic::resume_unwind(panic),
         Err(_) => Err("The window cannot be opened: a library of the window system is missing (on Debian: libxkbcommon-x11-0).".to_owned()),
     }
+}
+
+/// What title bars and task bars show.
+fn icon() -> Option<egui::IconData> {
+    const EDGE: u32 = 128;
+    let Image { width, height, rgba } = figure::icon(include_str!("../../assets/icon.svg"), EDGE).ok()?;
+    Some(egui::IconData { rgba, width, height })
 }
 
 /// Whether the window has opened.
@@ -86,4 +97,17 @@ fn reason(error: &eframe::Error) -> String {
         .trim_start_matches(|c: char| c.is_ascii_digit() || ": ".contains(c))
         .trim_end_matches('.')
         .to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::icon;
+
+    #[test]
+    fn the_icon_is_drawn() {
+        let icon = icon().unwrap();
+        let opacity = |x: u32, y: u32| icon.rgba[4 * (y * icon.width + x) as usize + 3];
+        // Round corners, and a ground that covers the middle.
+        assert_eq!((opacity(0, 0), opacity(64, 64)), (0, 255));
+    }
 }

@@ -28,6 +28,6 @@ pub use heat_map::HeatMap;
 pub use palette::{ColorMap, Rgb, SERIES};
 pub use panel::{Figure, Panel};
 #[cfg(feature = "figures")]
-pub use png::{Image, PngError};
+pub use png::{Image, PngError, icon};
 pub use series::{Dash, Mark, Point, Series, Symbol};
 pub use text::CJK;

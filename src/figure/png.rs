@@ -83,6 +83,22 @@ pub fn rendered(drawing: &str, width_mm: f64, height_mm: f64, dpi: f64) -> Resul
     Ok(Image { width: pixmap.width(), height: pixmap.height(), rgba: pixmap.take() })
 }
 
+/// A square drawing as so many pixels along an edge; colours are not multiplied by their opacity.
+///
+/// # Errors
+///
+/// [`PngError`] where the drawing is not understood, or has no pixels.
+pub fn icon(drawing: &str, pixels: u32) -> Result<Image, PngError> {
+    let tree = Tree::from_str(drawing, &Options::default())?;
+    let mm = f64::from(pixels);
+    let mut pixmap = Pixmap::new(pixels, pixels).ok_or(PngError::Size { width_mm: mm, height_mm: mm, dpi: 25.4 })?;
+    #[expect(clippy::cast_precision_loss, reason = "a scale for a renderer of f32")]
+    let edge = pixels as f32;
+    let scale = Transform::from_scale(edge / tree.size().width(), edge / tree.size().height());
+    resvg::render(&tree, scale, &mut pixmap.as_mut());
+    Ok(Image { width: pixels, height: pixels, rgba: pixmap.take_demultiplied() })
+}
+
 impl Image {
     /// The bytes of a PNG file that states that resolution in dots per inch.
     ///

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds the Debian package into target/debian; needs `cargo install cargo-deb`. With --no-build the program in target/release is taken
+# as it is.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+target=${CARGO_TARGET_DIR:-target}
+case ${1:-} in
+    --no-build) ;;
+    *) cargo build --release --locked ;;
+esac
+cargo run -q --release --example package_files --no-default-features --features cli -- "$target/package-files"
+# Debian wants them compressed, the same bytes each time.
+cargo deb --no-build --target-dir "$target" -o "$target/debian/"
