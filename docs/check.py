@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Checks the book: python3 docs/check.py [PROGRAM]
 
-Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading; and with the
-path of pbrdf-explorer given, every block of ```sh in the chapters runs,
+Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading; the chapter of
+options is that of the program's help; with mdbook on the PATH the book builds without a warning; and with
+the path of pbrdf-explorer given, every block of ```sh in the chapters runs,
 in one folder a chapter that holds the measurements that the chapters speak of.
 """
 
@@ -14,10 +15,13 @@ import subprocess
 import sys
 import tempfile
 
+import make_commands
+
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 EXAMPLES = ROOT / "assets" / "examples"
 # Names that chapters give to a reader's own measurements, and the example that stands in for each.
+# Blocks of Python and Rust run elsewhere: python/tests/test_examples.py, and as documentation tests of the core.
 OWN = {"mine": "steel45", "blue": "copper_650nm", "green": "copper_650nm", "red": "copper_650nm", "copper": "copper_650nm",
        "aluminium": "aluminium_650nm", "monday": "steel45", "tuesday": "steel45"}
 
@@ -64,16 +68,32 @@ def failing_commands(path, text, program):
                 yield f"{path.name}: {block}{done.stderr}"
 
 
+def faults_of_the_book():
+    """What mdBook says of the book, where it is installed."""
+    if not shutil.which("mdbook"):
+        print("mdbook is not installed: the book is not built")
+        return
+    with tempfile.TemporaryDirectory() as place:
+        done = subprocess.run(["mdbook", "build", str(DOCS), "-d", place], capture_output=True, text=True)
+        said = done.stdout + done.stderr
+        if done.returncode or re.search(r"\b(WARN|ERROR)\b", said):
+            yield f"mdbook: {said}"
+
+
 def main():
     summary = (DOCS / "SUMMARY.md").read_text(encoding="utf-8")
     faults = []
-    for path in [*sorted(DOCS.glob("*.md")), *sorted(ROOT.glob("*.md"))]:
+    if (DOCS / "commands.md").read_text(encoding="utf-8") != make_commands.page():
+        faults.append("commands.md is not what the program prints: run docs/make_commands.py")
+    faults += faults_of_the_book()
+    for path in [*sorted(DOCS.rglob("*.md")), *sorted(ROOT.glob("*.md")), ROOT / "python" / "README.md"]:
         text = path.read_text(encoding="utf-8")
         faults += faulty_links(path, text)
-        if path.parent != DOCS:
+        if not path.is_relative_to(DOCS):
             continue
-        if path.name != "SUMMARY.md" and f"({path.name})" not in summary:
-            faults.append(f"{path.name} is not in SUMMARY.md")
+        name = path.relative_to(DOCS).as_posix()
+        if name != "SUMMARY.md" and f"({name})" not in summary:
+            faults.append(f"{name} is not in SUMMARY.md")
         if len(sys.argv) > 1:
             faults += failing_commands(path, text, pathlib.Path(sys.argv[1]))
     print("\n".join(faults) or "the book is in order")
