@@ -43,18 +43,18 @@ struct Said<T> {
 }
 
 /// Settings, read.
-struct Plan {
-    preset: &'static Preset,
+pub struct Plan {
+    pub preset: &'static Preset,
     own: ParameterSet,
     fix: Vec<Said<Option<f64>>>,
     free: Vec<Said<()>>,
     bounds: Vec<Said<(f64, f64)>>,
     start: Vec<Said<f64>>,
     ties: Vec<(Parameter, f64, Parameter)>,
-    starts: Starts,
-    seed: u64,
-    intervals: Intervals,
-    options: FitOptions,
+    pub starts: Starts,
+    pub seed: u64,
+    pub intervals: Intervals,
+    pub options: FitOptions,
 }
 
 /// Reads names, with those of measurements after an `@`; parameters that the model does not have are refused.
@@ -81,7 +81,7 @@ fn parameter_of(preset: &Preset, name: &str) -> PyResult<Parameter> {
 
 impl Plan {
     #[allow(clippy::needless_update, reason = "the core's options may become more")]
-    fn new(settings: Settings) -> PyResult<Self> {
+    pub fn new(settings: Settings) -> PyResult<Self> {
         let preset = preset(&settings.model)?;
         if settings.loss_scale.is_some_and(|scale| !(scale > 0.0 && scale.is_finite())) {
             return Err(refused("loss_scale: expected a number above 0"));
@@ -119,7 +119,7 @@ impl Plan {
     }
 
     /// The names of measurements that something is said of.
-    fn sets(&self) -> impl Iterator<Item = &str> {
+    pub fn sets(&self) -> impl Iterator<Item = &str> {
         let fix = self.fix.iter().map(|said| &said.set);
         let free = self.free.iter().map(|said| &said.set);
         let bounds = self.bounds.iter().map(|said| &said.set);
@@ -128,7 +128,7 @@ impl Plan {
     }
 
     /// The fit of the measurement of that name: what is said of it alone comes last and counts.
-    fn describe<'a>(&self, fit: Fit<'a>, set: &str) -> Fit<'a> {
+    pub fn describe<'a>(&self, fit: Fit<'a>, set: &str) -> Fit<'a> {
         let fit = self.ties.iter().fold(fit.options(self.options), |fit, &(tied, factor, to)| fit.tie(tied, factor, to));
         let fit = meant(&self.bounds, set).fold(fit, |fit, said| fit.bound(said.parameter, said.what.0..=said.what.1));
         let fit = meant(&self.start, set).fold(fit, |fit, said| fit.start(said.parameter, said.what));
@@ -139,7 +139,7 @@ impl Plan {
         meant(&self.free, set).fold(fit, |fit, said| fit.free(said.parameter))
     }
 
-    fn run(&self, problem: &Problem, observer: Observer<'_>) -> FitResult {
+    pub fn run(&self, problem: &Problem, observer: Observer<'_>) -> FitResult {
         let result = pbrdf::fit::fit(problem, self.starts, self.seed, observer);
         match self.intervals {
             Intervals::Profile => with_intervals(problem, result, observer),

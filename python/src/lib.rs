@@ -3,9 +3,12 @@
 
 mod error;
 mod fitting;
+mod many;
 mod measurement;
 mod metals;
 mod names;
+mod picture;
+mod pixels;
 mod planning;
 mod posterior;
 mod surface;
@@ -26,7 +29,13 @@ fn _pbrdf(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surface::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(measurement::read, module)?)?;
     module.add_function(wrap_pyfunction!(fitting::fit, module)?)?;
+    module.add_class::<many::Stop>()?;
+    module.add_function(wrap_pyfunction!(many::fit_row_columns, module)?)?;
+    module.add_function(wrap_pyfunction!(many::thread_count, module)?)?;
+    module.add_function(wrap_pyfunction!(many::fit_rows, module)?)?;
     module.add_function(wrap_pyfunction!(metals::metals, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::picture, module)?)?;
+    module.add_function(wrap_pyfunction!(pixels::fit_pixels, module)?)?;
     module.add_function(wrap_pyfunction!(planning::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(planning::choose_angles, module)?)?;
     module.add_class::<posterior::Drawn>()?;

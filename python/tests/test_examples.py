@@ -20,8 +20,9 @@ def test_the_examples_of_docstrings_hold():
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_the_page_of_the_package_runs(tmp_path, example, monkeypatch, capsys):
-    page = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", ["python/README.md", "docs/python.md"])
+def test_the_pages_of_the_package_run(name, tmp_path, example, monkeypatch, capsys):
+    page = (Path(__file__).parents[2] / name).read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     assert blocks
     (tmp_path / "steel.csv").write_bytes(example.read_bytes())

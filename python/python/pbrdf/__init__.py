@@ -21,19 +21,24 @@ from __future__ import annotations
 
 from ._angles import Evaluation, Geometries, evaluate, prepare
 from ._fitting import Correlations, Estimate, FitResult, Minimum, SetResult, fit
+from ._many import FitTable, map_fits
 from ._measurement import Measurement, read, read_all
 from ._metals import MetalSource, metals
 from ._pbrdf import PbrdfError, __version__
+from ._picture import Picture, picture
+from ._pixels import Body, PixelFit, cylinder, fit_pixels, sphere
 from ._planning import AngleChoice, choose_angles, simulate
 from ._posterior import Posterior, Summary, posterior
 from ._tables import ModelInfo, ParameterInfo, models, parameters
 
 __all__ = [
     "AngleChoice",
+    "Body",
     "Correlations",
     "Estimate",
     "Evaluation",
     "FitResult",
+    "FitTable",
     "Geometries",
     "Measurement",
     "MetalSource",
@@ -41,19 +46,26 @@ __all__ = [
     "ModelInfo",
     "ParameterInfo",
     "PbrdfError",
+    "Picture",
+    "PixelFit",
     "Posterior",
     "SetResult",
     "Summary",
     "__version__",
     "choose_angles",
+    "cylinder",
     "evaluate",
     "fit",
+    "fit_pixels",
+    "map_fits",
     "metals",
     "models",
     "parameters",
+    "picture",
     "posterior",
     "prepare",
     "read",
     "read_all",
     "simulate",
+    "sphere",
 ]

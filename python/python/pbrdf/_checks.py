@@ -85,6 +85,14 @@ def word(name: str, value: Any) -> str:
     return value
 
 
+def pair(name: str, value: Any, expected: str) -> tuple[float, float]:
+    """Two numbers."""
+    found = numbers(name, value)
+    if found.shape != (2,):
+        raise PbrdfError(f"{name} is {_described(value)}; expected {expected}")
+    return float(found[0]), float(found[1])
+
+
 def _described(value: Any) -> str:
     text = repr(value)
     return text if len(text) <= 60 else f"a {type(value).__name__}"

@@ -357,10 +357,51 @@ def fit(
         raise PbrdfError("data: the list is empty; expected at least one Measurement")
     if progress is not None and not callable(progress):
         raise PbrdfError("progress: expected a function of milliseconds, evaluations, and ΔE")
+    settings = fit_settings(
+        model,
+        own=own,
+        fix=fix,
+        free=free,
+        bounds=bounds,
+        start=start,
+        tie=tie,
+        theta_i_range=theta_i_range,
+        theta_r_range=theta_r_range,
+        starts=starts,
+        seed=seed,
+        intervals=intervals,
+        weights=weights,
+        loss=loss,
+        loss_scale=loss_scale,
+        brdf_residuals=brdf_residuals,
+    )
+    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress), measurements)
+
+
+def fit_settings(
+    model: Any,
+    *,
+    own: Any = None,
+    fix: Any = None,
+    free: Any = None,
+    bounds: Any = None,
+    start: Any = None,
+    tie: Any = None,
+    theta_i_range: Any = None,
+    theta_r_range: Any = None,
+    starts: Any = None,
+    seed: Any = 1,
+    intervals: Any = "profile",
+    weights: Any = "none",
+    loss: Any = "squared",
+    loss_scale: Any = None,
+    brdf_residuals: Any = "relative",
+) -> SimpleNamespace:
+    """The options of :func:`fit` as the compiled part takes them."""
     model = _checks.word("model", model)
     everything = [name for key, _, _, names in _pbrdf.models() if key == model for name in names]
     held = _checks.items("fix", fix) if fix is None or isinstance(fix, Mapping) else [(name, None) for name in _checks.names("fix", fix)]
-    settings = SimpleNamespace(
+    return SimpleNamespace(
         model=model,
         own=everything if own == "all" else _checks.names("own", own),
         fix=[(name, None if value is None else _checks.number(f"fix[{name!r}]", value)) for name, value in held],
@@ -379,7 +420,6 @@ def fit(
         loss_scale=None if loss_scale is None else _checks.number("loss_scale", loss_scale),
         brdf_residuals=_checks.word("brdf_residuals", brdf_residuals),
     )
-    return FitResult(_pbrdf.fit([item._inner for item in measurements], settings, progress), measurements)
 
 
 def _bounds(name: str, value: Any) -> tuple[float, float]:

@@ -243,11 +243,17 @@ def read_all(
         theta_r=[] if theta_r is None else _checks.numbers("theta_r", theta_r).ravel().tolist(),
         dphi=None if dphi is None else _checks.number("dphi", dphi),
     )
-    found = [Measurement._of(inner) for inner in _pbrdf.read(os.fspath(path), answers)]
+    found = read_quietly(path, answers)
     for measurement in found:
         for note in measurement.notes:
             warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
     return found
+
+
+def read_quietly(path: str | os.PathLike[str], answers: SimpleNamespace | None = None) -> list[Measurement]:
+    """The same without warnings."""
+    none = SimpleNamespace(wavelength_nm=None, theta_i=[], theta_r=[], dphi=None)
+    return [Measurement._of(inner) for inner in _pbrdf.read(os.fspath(path), answers or none)]
 
 
 def read(
