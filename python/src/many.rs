@@ -3,7 +3,7 @@
 use crate::error::refused;
 use crate::fitting::{Plan, Settings};
 use crate::names::preset;
-use pbrdf::fit::{Cell, Fit, Observer, StopReason, on_one_thread, row_columns};
+use pbrdf::fit::{Fit, Observer, RowCell, StopReason, on_one_thread, row_columns};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -39,13 +39,13 @@ pub enum Value {
 /// The cells of a fit, or none and the sentence why.
 type RowOrError = (Vec<Option<Value>>, String);
 
-fn value(cell: Cell) -> Option<Value> {
+fn value(cell: RowCell) -> Option<Value> {
     match cell {
-        Cell::Empty => None,
-        Cell::Number(number) => Some(Value::Number(number)),
-        Cell::Count(count) => Some(Value::Count(count)),
-        Cell::Text(text) => Some(Value::Text(text)),
-        Cell::Flag(flag) => Some(Value::Flag(flag)),
+        RowCell::Empty => None,
+        RowCell::Number(number) => Some(Value::Number(number)),
+        RowCell::Count(count) => Some(Value::Count(count)),
+        RowCell::Text(text) => Some(Value::Text(text)),
+        RowCell::Flag(flag) => Some(Value::Flag(flag)),
     }
 }
 

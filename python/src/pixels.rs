@@ -115,12 +115,7 @@ type PixelFit<'py> = (Fitted, [f64; 2], Bound<'py, PyArray1<i64>>, [Bound<'py, P
 
 /// Fits a surface to pixels.
 #[pyfunction]
-pub fn fit_pixels<'py>(
-    py: Python<'py>,
-    pixels: Pixels<'py>,
-    settings: Settings,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<PixelFit<'py>> {
+pub fn fit_pixels<'py>(py: Python<'py>, pixels: Pixels<'py>, settings: Settings, progress: Option<Py<PyAny>>) -> PyResult<PixelFit<'py>> {
     let plan = Plan::new(settings)?;
     let lamps = pixels.lamps.iter().map(|&(polar, azimuth)| Lamp::new(polar, azimuth)).collect::<Result<Vec<_>, _>>().map_err(refused)?;
     let (normals, used) = (pixels.normals.as_slice()?, pixels.used.as_slice()?);

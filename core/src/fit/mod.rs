@@ -100,7 +100,7 @@ pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, FitRange, Intervals, Loss, Weights};
 pub use problem_error::ProblemError;
 pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
-pub use row::{Cell, row_columns};
+pub use row::{RowCell, row_columns};
 pub use solve::fit;
 pub use special_cases::{special_cases_first, with_special_cases, with_special_cases_jointly};
 pub use stop_reason::StopReason;

@@ -10,7 +10,7 @@ use std::fmt;
 
 /// A cell of a row; `Display` writes it as tables of text hold it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Cell {
+pub enum RowCell {
     /// What does not exist or is not finite.
     Empty,
     /// A number, in the unit of its column.
@@ -23,7 +23,7 @@ pub enum Cell {
     Flag(bool),
 }
 
-impl Cell {
+impl RowCell {
     fn number(value: Option<f64>) -> Self {
         value.filter(|value| value.is_finite()).map_or(Self::Empty, Self::Number)
     }
@@ -33,7 +33,7 @@ impl Cell {
     }
 }
 
-impl fmt::Display for Cell {
+impl fmt::Display for RowCell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => Ok(()),
@@ -73,30 +73,39 @@ pub fn row_columns(parameters: ParameterSet) -> Vec<String> {
 impl FitResult {
     /// The cells of this fit of so many rows, in the order of [`row_columns`]. A fixed parameter has its value alone.
     #[must_use]
-    pub fn row(&self, rows: usize) -> Vec<Cell> {
+    pub fn row(&self, rows: usize) -> Vec<RowCell> {
         let goodness = [
-            Cell::Count(rows),
-            Cell::word(json!(self.stop_reason).as_str().unwrap_or_default()),
-            Cell::number(self.objective),
-            Cell::number(Some(self.statistics.rss)),
-            Cell::number(self.statistics.chi2),
-            Cell::Count(self.statistics.dof),
-            Cell::number(self.statistics.aicc),
+            RowCell::Count(rows),
+            RowCell::word(json!(self.stop_reason).as_str().unwrap_or_default()),
+            RowCell::number(self.objective),
+            RowCell::number(Some(self.statistics.rss)),
+            RowCell::number(self.statistics.chi2),
+            RowCell::Count(self.statistics.dof),
+            RowCell::number(self.statistics.aicc),
         ];
         let open: Vec<String> = self.describe_undetermined().iter().map(ToString::to_string).collect();
-        goodness.into_iter().chain(self.estimates.iter().flat_map(of_estimate)).chain([Cell::word(&open.join("; "))]).collect()
+        goodness.into_iter().chain(self.estimates.iter().flat_map(of_estimate)).chain([RowCell::word(&open.join("; "))]).collect()
     }
 }
 
 /// Value, error, ends of both intervals, bound, verdict.
-fn of_estimate(estimate: &Estimate) -> [Cell; 8] {
+fn of_estimate(estimate: &Estimate) -> [RowCell; 8] {
     let ends = |interval: Option<Interval>| {
-        [interval.and_then(|interval| interval.low), interval.and_then(|interval| interval.high)].map(Cell::number)
+        [interval.and_then(|interval| interval.low), interval.and_then(|interval| interval.high)].map(RowCell::number)
     };
     let ([low68, high68], [low95, high95]) = (ends(estimate.interval68), ends(estimate.interval95));
     let bound = estimate.at_bound.map_or("", |edge| if edge == Edge::Lower { "lower" } else { "upper" });
-    let determined = if estimate.free { Cell::Flag(estimate.determined) } else { Cell::Empty };
-    [Cell::number(Some(estimate.value)), Cell::number(estimate.std_error), low68, high68, low95, high95, Cell::word(bound), determined]
+    let determined = if estimate.free { RowCell::Flag(estimate.determined) } else { RowCell::Empty };
+    [
+        RowCell::number(Some(estimate.value)),
+        RowCell::number(estimate.std_error),
+        low68,
+        high68,
+        low95,
+        high95,
+        RowCell::word(bound),
+        determined,
+    ]
 }
 
 #[cfg(test)]
