@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import doctest
-import importlib
+import importlib.util
+import os
 import pkgutil
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pbrdf
@@ -33,6 +36,21 @@ def test_the_pages_of_the_package_run(name, tmp_path, example, monkeypatch, caps
             pytest.importorskip("matplotlib").use("Agg")
         exec(compile(block, "README.md", "exec"), names)
     assert capsys.readouterr().out
+
+
+def test_the_examples_run(tmp_path, example):
+    folder = Path(__file__).parents[1] / "examples"
+    (tmp_path / "steel.csv").write_bytes(example.read_bytes())
+    needs = {"fit_table.py": "matplotlib"}
+    arguments = {"many_files.py": ["steel.csv"]}
+    scripts = sorted(folder.glob("*.py"))
+    assert len(scripts) == 3
+    for script in scripts:
+        if script.name in needs and importlib.util.find_spec(needs[script.name]) is None:
+            continue
+        run = [sys.executable, str(script), *arguments.get(script.name, [])]
+        done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "Agg"})
+        assert done.returncode == 0 and done.stdout, done.stderr
 
 
 def test_everything_public_is_documented():

@@ -114,7 +114,8 @@ def map_fits(
         PbrdfError: As :func:`fit` for its options; ``output`` holds something else, or rows of other options; or the client went away. What
             was done then is in ``output``.
 
-    >>> data = [simulate("specular", {"n": n}, [30, 50, 70], range(0, 80, 10), noise=0.002, name=f"n{n}") for n in (1.5, 2.0)]
+    >>> from pbrdf import simulate
+    >>> data = [simulate("specular", {"n": n}, [30, 50, 70], range(0, 80, 10), noise=0.002).renamed(f"n{n}") for n in (1.5, 2.0)]
     >>> table = map_fits(data, "specular", fix={"ks": 1.0}, intervals="linear", starts=1)
     >>> table["file"].tolist(), table["n"].round(1).tolist()
     (['n1.5', 'n2.0'], [1.5, 2.0])

@@ -56,6 +56,7 @@ def sphere(image: ArrayLike | tuple[int, int], center: tuple[float, float] | Non
     Raises:
         PbrdfError: No circle fits the outline, or only one of ``center`` and ``radius`` is given.
 
+    >>> from pbrdf import picture
     >>> seen = picture("cauchy", {"kd": 0.3}, sky=1.0, lamp=None, size=200)
     >>> body = sphere(np.nan_to_num(seen.s0))
     >>> abs(body.radius - 100) < 0.2, abs(body.center[0] - 99.5) < 0.2
@@ -305,6 +306,7 @@ def fit_pixels(
     Raises:
         PbrdfError: Shapes do not agree, a lamp is no direction, no pixel is left, or as :func:`fit` has it.
 
+    >>> from pbrdf import picture
     >>> lamps = [(20.0, 90.0), (60.0, 200.0), (100.0, 330.0)]
     >>> seen = [picture("cauchy", {"n": 2.07, "k": 2.9}, lamp=lamp, size=60) for lamp in lamps]
     >>> found = fit_pixels([one.stokes for one in seen], seen[0].normals, lamps, scale=1.0)
