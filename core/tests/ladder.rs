@@ -3,8 +3,7 @@
 
 use pbrdf::Fit;
 use pbrdf::fit::{
-    Bounds, FitOptions, FitResult, Intervals, Observer, Problem, Starts, Weights, fit, free_by_default, special_cases_first,
-    with_special_cases,
+    Bounds, FitOptions, FitResult, Intervals, Observer, Problem, Starts, Weights, fit, fit_ladder, free_by_default, special_cases_first,
 };
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{Model, PRESETS, Parameter, Parameters, Pbrdf, Preset};
@@ -39,18 +38,36 @@ fn measurement(columns: Columns, seed: u64) -> Measurement {
 
 /// The fits of all presets that predict what is measured, by their keys.
 fn ladder(measurement: &Measurement, options: FitOptions, starts: Starts, seed: u64) -> Vec<(&'static str, FitResult)> {
-    let models = PRESETS.map(|preset| preset.model);
-    let mut fits: Vec<(&str, FitResult)> = Vec::new();
-    for preset in special_cases_first(&models).into_iter().map(|index| &PRESETS[index]) {
+    let problems = problems(measurement, options);
+    let posed: Vec<Option<&Problem>> = problems.iter().map(Option::as_ref).collect();
+    let fits = fit_ladder(&posed, |_, problem| Some(fit(problem, starts, seed, Observer::NONE)));
+    PRESETS.iter().zip(fits).filter_map(|(preset, fit)| Some((preset.key, fit?))).collect()
+}
+
+/// The problem of each preset that predicts what is measured.
+fn problems(measurement: &Measurement, options: FitOptions) -> Vec<Option<Problem>> {
+    let of = |preset: &Preset| {
         let options = FitOptions { dolp_only: preset.dolp_only, ..options };
         let free = free_by_default(preset.model, measurement, &options);
-        let problem = Problem::new(measurement, preset.model, Parameters::default(), free, Bounds::default(), options);
-        if let Ok(problem) = problem {
-            let problem = with_special_cases(&problem, fits.iter().map(|(_, fit)| fit));
-            fits.push((preset.key, fit(&problem, starts, seed, Observer::NONE)));
-        }
-    }
-    fits
+        Problem::new(measurement, preset.model, Parameters::default(), free, Bounds::default(), options).ok()
+    };
+    PRESETS.iter().map(of).collect()
+}
+
+#[test]
+fn a_ladder_that_is_stopped_keeps_what_it_has() {
+    let problems = problems(&measurement(Columns::Brdf, 1), FitOptions::default());
+    let posed: Vec<Option<&Problem>> = problems.iter().map(Option::as_ref).collect();
+    let mut order = Vec::new();
+    let fits = fit_ladder(&posed, |place, problem| {
+        order.push(place);
+        (order.len() <= 3).then(|| fit(problem, Starts::One, 1, Observer::NONE))
+    });
+    assert!(problems.iter().any(Option::is_none), "a model of DoLP alone predicts no BRDF");
+    let fitted: Vec<usize> = (0..fits.len()).filter(|&place| fits[place].is_some()).collect();
+    let mut first = order[..3].to_vec();
+    first.sort_unstable();
+    assert_eq!((order.len(), fitted), (4, first));
 }
 
 #[test]

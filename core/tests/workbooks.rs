@@ -3,7 +3,7 @@
 #![cfg(feature = "workbooks")]
 
 use pbrdf::measurement::foreign::{LabTable, TableOptions};
-use pbrdf::measurement::formats::{ImportError, Imported};
+use pbrdf::measurement::formats::{ImportError, ImportOptions, Imported, Opened, Question, open};
 use pbrdf::measurement::unwatched;
 use std::path::Path;
 
@@ -47,4 +47,24 @@ fn without_a_name_the_sheets_to_choose_from_are_told() {
 fn a_word_in_the_last_cell_of_a_sheet_costs_a_word() {
     let imported = read("far.xlsx", Some("data")).expect("a table");
     assert_eq!(imported.measurements[0].rows.len(), 8);
+}
+
+/// The window shows the first sheet that is a table, and any other on demand.
+#[test]
+fn a_workbook_opens_at_its_first_table_and_another_sheet_is_asked_for() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/workbooks/steel.ods");
+    let Ok(Opened::Foreign(file)) = open(std::fs::read(path).expect("a file of the repository"), &mut unwatched) else {
+        panic!("a foreign table")
+    };
+    let Some(Question::Columns(sample)) = file.questions().pop() else { panic!("a table asks for its columns") };
+    assert_eq!((sample.sheets.as_slice(), sample.sheet.as_deref()), (&["notes".to_owned(), "data".to_owned()][..], Some("data")));
+    let offered = ImportOptions::offered(&file.questions());
+    assert_eq!(file.import(&offered, &mut unwatched).expect("a table").measurements[0].rows.len(), 8);
+    assert!(file.reopened(&offered.table, &mut unwatched).expect("it is read so").is_none());
+    let other = TableOptions { sheet: Some("notes".to_owned()), ..TableOptions::default() };
+    assert!(file.reopened(&other, &mut unwatched).is_err(), "words alone");
+    let separated = TableOptions { thousands: Some(','), ..offered.table };
+    let again = file.reopened(&separated, &mut unwatched).expect("a table").expect("read anew");
+    let Some(Question::Columns(sample)) = again.questions().pop() else { panic!("a table asks for its columns") };
+    assert_eq!((sample.sheet.as_deref(), sample.thousands), (Some("data"), Some(',')), "the sheet stays");
 }

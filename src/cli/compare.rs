@@ -11,11 +11,11 @@ use crate::cli::{compare_joint, interrupt, output};
 use crate::figure::Figure;
 use crate::report::{ComparedMeasurement, English, ResultColumn, ResultTable, comparison_figure, fit_json};
 use pbrdf::fit::{
-    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, ends_text, special_cases_first,
-    with_special_cases,
+    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Observer, Problem, ProblemError, SpecialCases, ends_text,
+    fit_ladder,
 };
 use pbrdf::measurement::Measurement;
-use pbrdf::model::{Model, PRESETS, Parameter, Preset};
+use pbrdf::model::{PRESETS, Parameter, Preset};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -103,7 +103,7 @@ fn figure(sets: &MeasurementSets, ladders: &[Vec<ModelResult>]) -> Option<Figure
 fn ladder(arguments: &CompareArguments, sets: &MeasurementSets, set: &NamedMeasurement) -> Result<Vec<ModelResult>, Failure> {
     let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
     let problems = problems(&presets, arguments, sets, set)?;
-    Ok(results(&presets, &problems, arguments))
+    Ok(ladder_results(&presets, problems, |problem, observer| fitted(problem, &arguments.problem, observer)))
 }
 
 /// The problem of each model, or why there is none.
@@ -121,24 +121,22 @@ fn problems(
     presets.iter().map(of).collect()
 }
 
-/// The fit of each model, in the order of the presets. Each comes after its special cases and starts also where these ended, so that it
-/// never ends above one of them.
-fn results(presets: &[&'static Preset], problems: &[Result<Problem, String>], arguments: &CompareArguments) -> Vec<ModelResult> {
-    let models: Vec<Model> = presets.iter().map(|preset| preset.model).collect();
-    let mut fits: Vec<Option<FitResult>> = presets.iter().map(|_| None).collect();
-    for index in special_cases_first(&models) {
-        let Ok(problem) = &problems[index] else { continue };
-        if interrupt::asked() {
-            break;
-        }
-        let watched = Watched::new(presets[index].key);
-        let closures = watched.watch();
-        let problem = with_special_cases(problem, fits.iter().flatten());
-        fits[index] = Some(fitted(&problem, &arguments.problem, closures.as_watch()));
-    }
-    let result = |((preset, problem), fit): ((&&'static Preset, &Result<Problem, String>), Option<FitResult>)| {
-        let fit = problem.clone().and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?)));
-        (*preset, fit)
+/// The fit of each model by `fit`, in the order of the presets, or why there is none.
+pub fn ladder_results<P: SpecialCases>(
+    presets: &[&'static Preset],
+    problems: Vec<Result<P, String>>,
+    fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
+) -> Vec<(&'static Preset, Result<(P, P::Fitted), String>)> {
+    let posed: Vec<Option<&P>> = problems.iter().map(|problem| problem.as_ref().ok()).collect();
+    let fits = fit_ladder(&posed, |place, problem| {
+        (!interrupt::asked()).then(|| {
+            let watched = Watched::new(presets[place].key);
+            let closures = watched.watch();
+            fit(problem, closures.as_watch())
+        })
+    });
+    let result = |((preset, problem), fit): ((&&'static Preset, Result<P, String>), Option<P::Fitted>)| {
+        (*preset, problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))))
     };
     presets.iter().zip(problems).zip(fits).map(result).collect()
 }

@@ -1,20 +1,18 @@
 //! `compare --own`: the ladder of models on several measurements together.
 
 use crate::cli::arguments::CompareArguments;
+use crate::cli::compare::ladder_results;
 use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
-use crate::cli::problem::{fitted_jointly, joint_failure, joint_problem, model, own_parameters};
+use crate::cli::problem::{fitted_jointly, joint_failure, joint_problem, model, own_among};
 use crate::cli::sets::MeasurementSets;
-use crate::cli::verdict::{INTERRUPTED, NOT_REACHED, PAIRS, verdict_text};
+use crate::cli::verdict::{INTERRUPTED, PAIRS, verdict_text};
 use crate::cli::watched::Watched;
 use crate::cli::{interrupt, output};
 use crate::figure::Figure;
 use crate::report::{ComparedMeasurement, English, ResultColumn, ResultTable, TableFormat, comparison_figure, joint_json};
-use pbrdf::fit::{
-    DistributionComparison, FitError, GaussAtFixedSigma, JointError, JointProblem, JointResult, ProblemError, special_cases_first,
-    with_special_cases_jointly,
-};
-use pbrdf::model::{Model, PRESETS, Preset};
+use pbrdf::fit::{DistributionComparison, FitError, GaussAtFixedSigma, JointError, JointProblem, JointResult, ProblemError};
+use pbrdf::model::{PRESETS, Preset};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -54,33 +52,15 @@ pub fn run(arguments: &CompareArguments, sets: &MeasurementSets) -> Result<ExitC
     Ok(output::exit_code())
 }
 
-/// The joint fit of each model, in the order of the presets. Each comes after its special cases and starts also where these ended, so
-/// that it never ends above one of them.
+/// The joint fit of each model, in the order of the presets.
 fn results(presets: &[&'static Preset], arguments: &CompareArguments, sets: &MeasurementSets) -> Result<Vec<JointModelResult>, Failure> {
-    let problems: Vec<Result<JointProblem, String>> =
-        presets.iter().map(|preset| posed(arguments, sets, preset)).collect::<Result<_, _>>()?;
-    let models: Vec<Model> = presets.iter().map(|preset| preset.model).collect();
-    let mut fits: Vec<Option<JointResult>> = presets.iter().map(|_| None).collect();
-    for index in special_cases_first(&models) {
-        let Ok(problem) = &problems[index] else { continue };
-        if interrupt::asked() {
-            break;
-        }
-        let watched = Watched::new(presets[index].key);
-        let closures = watched.watch();
-        let problem = with_special_cases_jointly(problem, fits.iter().flatten());
-        fits[index] = Some(fitted_jointly(&problem, &arguments.problem, closures.as_watch()));
-    }
-    let result = |((preset, problem), fit): ((&&'static Preset, Result<JointProblem, String>), Option<JointResult>)| {
-        (*preset, problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))))
-    };
-    Ok(presets.iter().zip(problems).zip(fits).map(result).collect())
+    let problems = presets.iter().map(|preset| posed(arguments, sets, preset)).collect::<Result<_, _>>()?;
+    Ok(ladder_results(presets, problems, |problem, observer| fitted_jointly(problem, &arguments.problem, observer)))
 }
 
 /// The problem of one model, or why there is none. Of the own parameters those count that the model has.
 fn posed(arguments: &CompareArguments, sets: &MeasurementSets, preset: &'static Preset) -> Result<Result<JointProblem, String>, Failure> {
-    let parameters = model(preset, &arguments.problem).parameters();
-    let own = own_parameters(arguments.own.as_ref(), model(preset, &arguments.problem)).intersection(parameters);
+    let own = own_among(arguments.own.as_ref(), model(preset, &arguments.problem));
     match joint_problem(preset, &arguments.problem, own, sets) {
         Ok(problem) => Ok(Ok(problem)),
         Err(JointError::Fit { set, error: FitError::Problem(reason @ ProblemError::NothingToPredict) }) => {

@@ -4,14 +4,14 @@ use crate::cli::arguments::FitArguments;
 use crate::cli::documents::{data_source, write_figure, write_report};
 use crate::cli::failure::{Failure, input_name};
 use crate::cli::fit_text::{NAME_WIDTH, notice_left_out, print_course, print_estimate, print_head, print_open};
-use crate::cli::problem::{check, fitted, joint_failure, model, own_parameters, problem};
+use crate::cli::problem::{check, fitted, model, own_parameters, problem};
 use crate::cli::scans::{add_scans, is_cut_short, print_cut_short, print_scans};
 use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
 use crate::cli::{batch, interrupt, joint, output};
 use crate::files::export;
 use crate::report::{English, FitDocument, ResultColumn, ResultTable, fit_comments, fit_json, fitted_cells, write_beside};
-use pbrdf::fit::{FitResult, JointError, Problem, Profile, bootstrap, profile};
+use pbrdf::fit::{FitResult, Problem, Profile, bootstrap, profile};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::Pbrdf;
 use serde_json::json;
@@ -33,10 +33,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
 fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode, Failure> {
     let (path, bytes, measurement) = (&arguments.inputs[0], &sets.bytes[0], &sets.all[0].measurement);
     check(&arguments.problem, sets)?;
-    let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem));
-    if let Some(stranger) = own.without_all(model(arguments.model, &arguments.problem).parameters()).iter().next() {
-        return Err(joint_failure(&JointError::OwnOfNone(stranger), sets));
-    }
+    own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem), sets)?;
     let problem = problem(arguments.model, &arguments.problem, measurement).map_err(|reason| reason.about(path, measurement))?;
     notice_left_out(problem.left_out());
     if let Some(parameter) = arguments.profile.iter().find(|parameter| !problem.free().contains(parameter)) {

@@ -12,9 +12,10 @@ use crate::cli::watched::Watched;
 use crate::files::export;
 use crate::report::{
     DataSource, English, JointDocument, JointSource, ResultColumn, ResultTable, fit_comments, fitted_cells, joint_json, write_beside,
+    write_fitted_sets,
 };
-use pbrdf::fit::{JointProblem, JointResult, JointUnknown, UnknownName as _, bootstrap_jointly, profile_jointly};
-use pbrdf::measurement::{Measurement, write_measurements};
+use pbrdf::fit::{JointProblem, JointResult, JointUnknown, SetResult, UnknownName as _, bootstrap_jointly, profile_jointly};
+use pbrdf::measurement::Measurement;
 use pbrdf::model::{Parameter, ParameterSet, Pbrdf};
 use serde_json::json;
 use std::io::{self, Write};
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 
 pub fn run(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode, Failure> {
     check(&arguments.problem, sets)?;
-    let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem));
+    let own = own_parameters(arguments.own.as_ref(), model(arguments.model, &arguments.problem), sets)?;
     let problem = joint_problem(arguments.model, &arguments.problem, own, sets).map_err(|error| joint_failure(&error, sets))?;
     let profiled = profiled(arguments, &problem)?;
     let left_out: usize = problem.parts().iter().map(pbrdf::fit::Problem::left_out).sum();
@@ -95,29 +96,23 @@ fn used(measurement: &Measurement) -> usize {
 /// All rows with the fitted columns beside them: the table itself where there is one file, else all in one table with a column `set`.
 fn write_fitted(arguments: &FitArguments, sets: &MeasurementSets, result: &JointResult) -> Result<(), Failure> {
     let Some(path) = &arguments.output else { return Ok(()) };
-    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
-    for (set, fitted) in sets.all.iter().zip(&result.sets) {
-        let surface = Pbrdf::new(result.model, fitted.parameters).map_err(|error| Failure::usage(error.to_string()))?;
-        let cells = fitted_cells(&set.measurement, &surface, arguments.model.dolp_only);
-        rows.extend(set.measurement.lines.iter().copied().zip(cells));
-    }
-    let mut table = Vec::new();
-    let source: &[u8] = if let [bytes] = &sets.bytes[..] {
-        // The sets of a file may take turns.
-        rows.sort_by_key(|row| row.0);
-        bytes
-    } else {
-        let measurements: Vec<Measurement> = sets.all.iter().map(|set| set.measurement.clone()).collect();
-        let written = write_measurements(&measurements, &mut table)
-            .and_then(|()| Measurement::read(&table[..]).map_err(io::Error::other))
-            .map_err(|error| Failure::output(path.display(), &error))?;
-        rows.iter_mut().zip(written.lines).for_each(|(row, line)| row.0 = line);
-        &table
-    };
-    let (lines, cells): (Vec<u64>, Vec<Vec<String>>) = rows.into_iter().unzip();
+    let surface = |fitted: &SetResult| Pbrdf::new(result.model, fitted.parameters).map_err(|error| Failure::usage(error.to_string()));
+    let surfaces = result.sets.iter().map(surface).collect::<Result<Vec<_>, _>>()?;
     let estimates = result.estimates().map(|(name, estimate)| (name.key().into_owned(), estimate));
     let comments = fit_comments(arguments.model.key, result.objective, estimates.collect::<Vec<_>>());
-    output::write(Some(path), |out| write_beside(source, (&lines, &cells), &sets.all[0].measurement, &comments, out))
+    let dolp_only = arguments.model.dolp_only;
+    let [bytes] = &sets.bytes[..] else {
+        let fitted: Vec<(&Measurement, Pbrdf)> = sets.all.iter().map(|set| &set.measurement).zip(surfaces).collect();
+        return output::write(Some(path), |out| write_fitted_sets(&fitted, dolp_only, &comments, out));
+    };
+    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+    for (set, surface) in sets.all.iter().zip(&surfaces) {
+        rows.extend(set.measurement.lines.iter().copied().zip(fitted_cells(&set.measurement, surface, dolp_only)));
+    }
+    // The sets of a file may take turns.
+    rows.sort_by_key(|row| row.0);
+    let (lines, cells): (Vec<u64>, Vec<Vec<String>>) = rows.into_iter().unzip();
+    output::write(Some(path), |out| write_beside(bytes, (&lines, &cells), &sets.all[0].measurement, &comments, out))
 }
 
 /// The report for a person.

@@ -11,7 +11,7 @@ use crate::cli::{interrupt, output};
 use pbrdf::fit::posterior::{
     Convergence, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict, SampleOf,
 };
-use pbrdf::fit::{Intervals, JointError, Loss, Observer, Starts, UnknownName, Weights, fit, fit_jointly};
+use pbrdf::fit::{Intervals, Loss, Observer, Starts, UnknownName, Weights, fit, fit_jointly};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -28,10 +28,7 @@ pub fn run(arguments: &PosteriorArguments) -> Result<ExitCode, Failure> {
     let sets = MeasurementSets::read(&arguments.inputs)?;
     check(options, &sets)?;
     let model = model(arguments.model, options);
-    let own = own_parameters(arguments.own.as_ref(), model);
-    if let Some(stranger) = own.without_all(model.parameters()).iter().next() {
-        return Err(joint_failure(&JointError::OwnOfNone(stranger), &sets));
-    }
+    let own = own_parameters(arguments.own.as_ref(), model, &sets)?;
     let seed = options.seed;
     if let [set] = &sets.all[..] {
         let problem =

@@ -187,8 +187,21 @@ pub fn joint_problem(
     fit.problem()
 }
 
-/// The parameters of a model that each measurement has for itself.
-pub fn own_parameters(own: Option<&OwnParameters>, model: Model) -> ParameterSet {
+/// The parameters that each measurement has for itself; the model has them all.
+pub fn own_parameters(own: Option<&OwnParameters>, model: Model, sets: &MeasurementSets) -> Result<ParameterSet, Failure> {
+    let named = named_own(own, model);
+    match named.without_all(model.parameters()).iter().next() {
+        Some(stranger) => Err(joint_failure(&JointError::OwnOfNone(stranger), sets)),
+        None => Ok(named),
+    }
+}
+
+/// The same of one model among several: of the named parameters those that it has.
+pub fn own_among(own: Option<&OwnParameters>, model: Model) -> ParameterSet {
+    named_own(own, model).intersection(model.parameters())
+}
+
+fn named_own(own: Option<&OwnParameters>, model: Model) -> ParameterSet {
     match own {
         None => ParameterSet::EMPTY,
         Some(OwnParameters::All) => model.parameters(),

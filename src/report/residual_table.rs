@@ -1,7 +1,7 @@
 //! A fitted model beside the measured values: columns for a table.
 
 use crate::report::fit_comments::{insert_comments, with_fit};
-use pbrdf::measurement::{Measurement, append_columns, shortest};
+use pbrdf::measurement::{Measurement, append_columns, shortest, write_measurements};
 use pbrdf::model::Pbrdf;
 use pbrdf::optics::Facet;
 use std::io::{self, Write};
@@ -40,6 +40,29 @@ pub fn write_fitted(
     Measurement { metadata: with_fit(measurement, comments), ..measurement.clone() }.write(&mut table)?;
     let lines = Measurement::read(&table[..]).map_err(io::Error::other)?.lines;
     append_columns(&table, &FITTED_COLUMNS, &lines, &fitted_cells(measurement, surface, dolp_only), out)
+}
+
+/// Writes several measurements as one table with a column `set`, the fitted columns beside each on its own surface, and the comment lines
+/// of the fit above.
+///
+/// # Errors
+///
+/// Those of `out`.
+pub fn write_fitted_sets(
+    sets: &[(&Measurement, Pbrdf)],
+    dolp_only: bool,
+    comments: &[(String, String)],
+    mut out: impl Write,
+) -> io::Result<()> {
+    let named = |(measurement, _): &(&Measurement, Pbrdf)| Measurement { metadata: with_fit(measurement, &[]), ..(*measurement).clone() };
+    let measurements: Vec<Measurement> = sets.iter().map(named).collect();
+    let mut table = Vec::new();
+    write_measurements(&measurements, &mut table)?;
+    let lines = Measurement::read(&table[..]).map_err(io::Error::other)?.lines;
+    let cells: Vec<Vec<String>> = sets.iter().flat_map(|(measurement, surface)| fitted_cells(measurement, surface, dolp_only)).collect();
+    let mut whole = Vec::new();
+    append_columns(&table, &FITTED_COLUMNS, &lines, &cells, &mut whole)?;
+    out.write_all(&insert_comments(&whole, &measurements[0], comments))
 }
 
 /// Writes a table as it was read, with the fitted cells beside its rows and the comment lines of the fit above its header.

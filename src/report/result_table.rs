@@ -4,11 +4,11 @@
 //! from 1 on is written with its decimal point, `15.3(1.2)`. What is no value with an uncertainty carries a mark that a note explains.
 
 use crate::report::language::ReportLanguage;
+use crate::report::latex_table::{parts_of_a_page, tabular};
 use crate::report::number::{Number, symmetric, within};
 use pbrdf::fit::rounding::{significant, trimmed};
 use pbrdf::fit::{Edge, Estimate, EstimateStatus, FitResult, JointResult};
 use pbrdf::model::{Parameter, ParameterSet};
-use std::fmt::Write as _;
 
 /// The form of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -352,21 +352,15 @@ impl Writer {
                 }
             }
             TableFormat::Latex => {
-                // Ends above and below a value need room to those of the next row.
-                let room = |cells: &[String]| if cells.iter().any(|cell| cell.contains("}_{-")) { "[0.8ex]" } else { "" };
-                let line = |cells: &[String]| format!("{} \\\\{}", cells.join(" & "), room(cells));
                 lines.push("% \\usepackage{booktabs}".to_owned());
-                lines.push(format!("\\begin{{tabular}}{{l{}}}", "r".repeat(head.len() - 1)));
-                lines.push("\\toprule".to_owned());
-                match spanned(head) {
-                    Some((groups, rules, models)) => lines.extend([line(&groups), rules, line(&models)]),
-                    None => lines.push(line(head)),
+                for (place, columns) in parts_of_a_page(head, rows).into_iter().enumerate() {
+                    if place > 0 {
+                        lines.push("\n\\medskip\n".to_owned());
+                    }
+                    let part = |cells: &[String]| -> Vec<String> { cells[..1].iter().chain(&cells[columns.clone()]).cloned().collect() };
+                    let rows: Vec<Vec<String>> = rows.iter().map(|row| part(row)).collect();
+                    lines.extend(tabular(&part(head), &rows, *first_of_goodness));
                 }
-                lines.push("\\midrule".to_owned());
-                lines.extend(rows[..*first_of_goodness].iter().map(|row| line(row)));
-                lines.push("\\midrule".to_owned());
-                lines.extend(rows[*first_of_goodness..].iter().map(|row| line(row)));
-                lines.extend(["\\bottomrule".to_owned(), "\\end{tabular}".to_owned()]);
                 if !notes.is_empty() {
                     lines.push(format!("\n\\smallskip\n{{\\footnotesize {}.}}", notes.join("; ")));
                 }
@@ -374,26 +368,6 @@ impl Writer {
         }
         lines.join("\n") + "\n"
     }
-}
-
-/// Titles *measurement, model* in two lines, a measurement above all of its models: cells, the rules under them, and the second line.
-/// None where a title has no such parts, or no measurement has two models.
-fn spanned(head: &[String]) -> Option<(Vec<String>, String, Vec<String>)> {
-    let titles: Vec<(&str, &str)> = head[1..].iter().map(|title| title.rsplit_once(", ")).collect::<Option<_>>()?;
-    let groups: Vec<&[(&str, &str)]> = titles.chunk_by(|one, next| one.0 == next.0).collect();
-    if groups.iter().all(|group| group.len() == 1) {
-        return None;
-    }
-    let mut last = 1;
-    let (mut cells, mut rules) = (vec![String::new()], String::new());
-    for group in groups {
-        let first = last + 1;
-        last += group.len();
-        cells.push(format!("\\multicolumn{{{}}}{{c}}{{{}}}", group.len(), group[0].0));
-        let _ = write!(rules, "\\cmidrule(lr){{{first}-{last}}}");
-    }
-    let models = std::iter::once(String::new()).chain(titles.iter().map(|(_, model)| (*model).to_owned()));
-    Some((cells, rules, models.collect()))
 }
 
 fn escaped(text: &str, replacement: impl Fn(char) -> Option<String>) -> String {
@@ -407,7 +381,7 @@ fn quoted(cell: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, Writer, spanned};
+    use super::{Number, Writer};
     use crate::report::number::{symmetric, within};
     use crate::report::result_table::TableFormat;
     use pbrdf::fit::Interval;
@@ -444,16 +418,6 @@ mod tests {
         assert_eq!(both(Some(2.04), Some(1e6)), ["2.0 … 1.0e6", r"$2.0\ldots1.0\times10^{6}$"]);
         assert_eq!(both(Some(1.2), None), ["> 1.20", "$> 1.20$"]);
         assert_eq!(both(None, Some(2.5)), ["< 2.50", "$< 2.50$"]);
-    }
-
-    #[test]
-    fn models_of_a_measurement_stand_under_its_name() {
-        let head = |titles: &[&str]| titles.iter().map(|title| (*title).to_owned()).collect::<Vec<String>>();
-        let (cells, rules, models) = spanned(&head(&["", "a, b.csv, gauss", "a, b.csv, cauchy", "c, cauchy"])).expect("two lines");
-        assert_eq!(cells, ["", r"\multicolumn{2}{c}{a, b.csv}", r"\multicolumn{1}{c}{c}"]);
-        assert_eq!((rules.as_str(), models), (r"\cmidrule(lr){2-3}\cmidrule(lr){4-4}", head(&["", "gauss", "cauchy", "cauchy"])));
-        assert_eq!(spanned(&head(&["", "a.csv", "b.csv"])), None);
-        assert_eq!(spanned(&head(&["", "a, cauchy", "b, cauchy"])), None);
     }
 
     #[test]

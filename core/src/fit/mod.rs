@@ -102,6 +102,6 @@ pub use problem_error::ProblemError;
 pub use result::{Correlations, Course, FitResult, Minimum, Statistics};
 pub use row::{RowCell, row_columns};
 pub use solve::fit;
-pub use special_cases::{special_cases_first, with_special_cases, with_special_cases_jointly};
+pub use special_cases::{SpecialCases, fit_ladder, special_cases_first, with_special_cases, with_special_cases_jointly};
 pub use stop_reason::StopReason;
 pub use ties::{Tie, TieError, apply_ties, resolve_ties};

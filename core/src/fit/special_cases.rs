@@ -59,6 +59,62 @@ pub fn with_special_cases_jointly<'a>(problem: &JointProblem, fits: impl IntoIte
     problem.with_further_starts(fits.into_iter().filter_map(start).collect::<Vec<_>>())
 }
 
+/// A problem whose fit may begin where fits of special cases of its model ended.
+pub trait SpecialCases: Sized {
+    /// What a fit of it gives.
+    type Fitted;
+
+    /// Which terms there are.
+    fn terms(&self) -> Model;
+
+    /// The same problem that starts also where those fits of special cases ended.
+    #[must_use]
+    fn starting_at_special_cases(&self, fits: &[Option<Self::Fitted>]) -> Self;
+}
+
+impl SpecialCases for Problem {
+    type Fitted = FitResult;
+
+    fn terms(&self) -> Model {
+        self.model()
+    }
+
+    fn starting_at_special_cases(&self, fits: &[Option<FitResult>]) -> Self {
+        with_special_cases(self, fits.iter().flatten())
+    }
+}
+
+impl SpecialCases for JointProblem {
+    type Fitted = JointResult;
+
+    fn terms(&self) -> Model {
+        self.model()
+    }
+
+    fn starting_at_special_cases(&self, fits: &[Option<JointResult>]) -> Self {
+        with_special_cases_jointly(self, fits.iter().flatten())
+    }
+}
+
+/// The fits of a ladder of models, in the order of their problems; a place without a problem stays empty.
+///
+/// Each problem comes after those of its special cases and starts also where these ended, so that no fit ends above one of them.
+/// `fit` gets the place of a problem and the problem; where it has no answer the ladder ends with what there is.
+pub fn fit_ladder<P: SpecialCases>(problems: &[Option<&P>], mut fit: impl FnMut(usize, &P) -> Option<P::Fitted>) -> Vec<Option<P::Fitted>> {
+    let (places, models): (Vec<usize>, Vec<Model>) =
+        problems.iter().enumerate().filter_map(|(place, problem)| Some((place, (*problem)?.terms()))).unzip();
+    let mut fits: Vec<Option<P::Fitted>> = problems.iter().map(|_| None).collect();
+    for place in special_cases_first(&models).into_iter().map(|index| places[index]) {
+        let Some(problem) = problems[place] else { continue };
+        let fitted = fit(place, &problem.starting_at_special_cases(&fits));
+        if fitted.is_none() {
+            break;
+        }
+        fits[place] = fitted;
+    }
+    fits
+}
+
 /// Where this model does what its special case does with those parameters, as far as the bounds, a largest q and what is fixed allow; none
 /// where the other is no special case.
 fn start_at_special_case(problem: &Problem, special: Model, parameters: &Parameters, largest_q: f64) -> Option<Parameters> {

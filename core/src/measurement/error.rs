@@ -273,7 +273,7 @@ impl ReadError {
             }
             ReadErrorKind::RowLength { found, expected, separator: ',' } if found > expected => Some(Hint::SeparateBySemicolons),
             ReadErrorKind::NotANumber { found, expected } | ReadErrorKind::OutOfRange { found, expected } => cell_hint(found, *expected),
-            ReadErrorKind::TwoDecimalMarks { .. } => Some(Hint::NameThousands),
+            ReadErrorKind::TwoDecimalMarks { found, .. } => first_mark(found).map(Hint::NameThousands),
             ReadErrorKind::Nul | ReadErrorKind::Utf16 => Some(Hint::SaveAsUtf8),
             _ => None,
         }
@@ -289,7 +289,12 @@ fn cell_hint(found: &str, expected: Expected) -> Option<Hint> {
     match (expected, number) {
         (Expected::Dolp, Some(PERCENT_FROM..=100.0)) => Some(Hint::NameDolpPercent),
         (Expected::Dolp | Expected::DolpPercent | Expected::Brdf, Some(_)) => Some(Hint::LeaveOut),
-        _ if found.contains(',') && found.contains('.') => Some(Hint::NameThousands),
+        _ if found.contains(',') && found.contains('.') => first_mark(found).map(Hint::NameThousands),
         _ => None,
     }
+}
+
+/// The first comma or point of a number: of two marks the one between thousands.
+fn first_mark(number: &str) -> Option<char> {
+    number.chars().find(|letter| matches!(letter, ',' | '.'))
 }

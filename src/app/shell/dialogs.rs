@@ -2,7 +2,7 @@
 //! hand.
 
 use crate::app::panels::{MeasurementPanel, PinnedPanel};
-use crate::app::shell::import_dialog::{ImportDialog, ImportMemory};
+use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::path_entry::PathEntry;
 use crate::app::text::help::Help;
 use crate::app::views::action::Action;
@@ -19,8 +19,6 @@ pub struct Dialogs {
     pub import: Option<ImportDialog>,
     /// Those that ask after it.
     pub imports_waiting: VecDeque<ImportDialog>,
-    /// The answers that the last foreign files were opened with.
-    pub import_memory: ImportMemory,
     /// A file that is asked about before it is replaced.
     pub overwrite: Option<OverwritePrompt>,
     pub path_entry: PathEntry,

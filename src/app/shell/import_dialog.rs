@@ -3,7 +3,10 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::storage::import::{Origin, with_notes};
 use crate::app::work::design::AngleRange;
+use crate::app::work::import_memory::{KeptAnswers, TableShape, sample_of};
+use pbrdf::measurement::foreign::TableOptions;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported, Question};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Ranges of angles to slice at, in degrees.
@@ -25,55 +28,112 @@ pub struct ImportDialog {
     pub preview: Memo<ImportOptions, Result<Imported, ImportError>>,
     /// Why the whole file could not be read with these options.
     pub error: Option<ImportError>,
+    /// Of a table: its shape as it was first shown, and the sheet.
+    first: Option<(TableShape, Option<String>)>,
+    /// The answers that a table of this shape was opened with, which are offered.
+    pub recalled: Option<KeptAnswers>,
+    /// The cells could not be read as these options ask.
+    unreadable: Option<TableOptions>,
+    pub companions: Companions,
 }
 
-/// Answers of tables by the names of their columns: a file of the same shape is offered the same.
-#[derive(Default)]
-pub struct ImportMemory {
-    /// The last one last.
-    kept: Vec<(Vec<String>, ImportOptions)>,
+/// Files that the same answers may be for.
+#[derive(Debug, Default)]
+pub struct Companions {
+    /// Of those that were opened with it.
+    pub opened: Vec<PathBuf>,
+    /// Of its folder.
+    pub folder: Vec<PathBuf>,
+    /// Whether they are opened with the same answers.
+    pub are_meant: bool,
 }
 
-/// Shapes that are remembered.
-const REMEMBERED: usize = 20;
-
-impl ImportMemory {
-    /// Keeps the answers of a table that was opened.
-    pub fn keep(&mut self, import: &ImportDialog) {
-        let Some(shape) = import.shape() else { return };
-        self.kept.retain(|(other, _)| other != shape);
-        self.kept.push((shape.to_vec(), import.options.clone()));
-        if self.kept.len() > REMEMBERED {
-            self.kept.remove(0);
-        }
-    }
-
-    /// Offers the answers that a table of the same shape was opened with.
-    pub fn recall(&self, import: &mut ImportDialog) {
-        if let Some((_, options)) = import.shape().and_then(|shape| self.kept.iter().find(|(kept, _)| kept == shape)) {
-            import.options = options.clone();
-        }
+impl Companions {
+    /// The files that may be meant: others of the folder only where none was opened with it.
+    pub fn paths(&self) -> &[PathBuf] {
+        if self.opened.is_empty() { &self.folder } else { &self.opened }
     }
 }
 
 impl ImportDialog {
-    /// The names of the columns, of a table.
-    fn shape(&self) -> Option<&[String]> {
-        self.questions.iter().find_map(|question| match question {
-            Question::Columns(sample) => Some(&sample.header[..]),
-            _ => None,
-        })
-    }
-
     pub fn new(origin: Origin, file: Arc<dyn ForeignFile>) -> Self {
         let questions = file.questions();
         let options = ImportOptions::offered(&questions);
         let slices = Slices { theta_i: AngleRange::new(15.0, 75.0, 15.0), theta_r: AngleRange::new(-80.0, 80.0, 5.0) };
-        Self { origin, file, questions, options, slices, preview: Memo::default(), error: None }
+        let sheet = sample_of(&questions).and_then(|sample| sample.sheet.clone());
+        let first = TableShape::of(&questions).map(|shape| (shape, sheet));
+        let (preview, companions) = (Memo::default(), Companions::default());
+        Self { origin, file, questions, options, slices, preview, error: None, first, recalled: None, unreadable: None, companions }
+    }
+
+    /// The shape of a table as it was first shown.
+    pub fn shape(&self) -> Option<&TableShape> {
+        self.first.as_ref().map(|(shape, _)| shape)
+    }
+
+    /// What was chosen of a table.
+    pub fn answers(&self) -> Option<KeptAnswers> {
+        let (shape, sheet) = self.first.as_ref()?;
+        Some(KeptAnswers::new(shape.clone(), &ImportOptions::offered(&self.questions), sheet.as_deref(), &self.options))
+    }
+
+    /// Offers the answers that a table of the same shape was opened with.
+    pub fn recall(&mut self, answers: Option<&KeptAnswers>) {
+        if let Some((answers, options)) = answers.and_then(|answers| Some((answers, answers.of(&self.questions)?))) {
+            self.options = options;
+            self.recalled = Some(answers.clone());
+        }
+    }
+
+    /// Goes back to what the file itself suggests.
+    pub fn forget_recalled(&mut self) {
+        self.recalled = None;
+        let (sheet, questions) = (self.first.as_ref().and_then(|(_, sheet)| sheet.clone()), &self.questions);
+        self.options = ImportOptions::offered(questions);
+        (self.options.table.sheet, self.options.table.thousands) = (sheet, None);
+    }
+
+    /// The options that ask for other cells than the file was read with: another sheet, another thousands separator.
+    pub fn asks_for_other_cells(&self) -> Option<&TableOptions> {
+        let sample = sample_of(&self.questions)?;
+        let table = &self.options.table;
+        let is_read = table.thousands == sample.thousands && (table.sheet.is_none() || table.sheet == sample.sheet);
+        (!is_read && self.unreadable.as_ref() != Some(table)).then_some(table)
+    }
+
+    /// Takes the file with its cells read in another way.
+    pub fn reopened(&mut self, result: Result<Option<Box<dyn ForeignFile>>, ImportError>) {
+        match result {
+            Ok(None) => {}
+            Ok(Some(file)) => {
+                self.file = Arc::from(file);
+                self.questions = self.file.questions();
+                let asked = std::mem::take(&mut self.options.table);
+                self.options = match &self.recalled {
+                    Some(answers) => answers.adapted(&self.questions),
+                    None => ImportOptions::offered(&self.questions),
+                };
+                let TableOptions { sheet, thousands, .. } = self.options.table.clone();
+                self.options.table = TableOptions { sheet, thousands, ..asked };
+                self.preview = Memo::default();
+            }
+            Err(error) => {
+                self.unreadable = Some(self.options.table.clone());
+                self.error = Some(error);
+            }
+        }
+    }
+
+    /// Whether the cells are as the options ask for.
+    pub fn is_read(&self) -> bool {
+        self.unreadable.as_ref() != Some(&self.options.table) && self.asks_for_other_cells().is_none()
     }
 
     /// Before each frame: the preview of the options.
     pub fn refresh(&mut self) {
+        if !self.is_read() {
+            return;
+        }
         let Self { file, questions, options, slices, preview, error, .. } = self;
         if questions.iter().any(|question| matches!(question, Question::Directions)) {
             (options.theta_i, options.theta_r) = (slices.theta_i.angles().collect(), slices.theta_r.angles().collect());

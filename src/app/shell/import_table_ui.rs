@@ -2,7 +2,7 @@
 //! the columns above them, and what is open.
 
 use crate::app::plots::theme;
-use egui::{Color32, ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Ui, WidgetInfo};
+use egui::{Color32, ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 use pbrdf::measurement::foreign::{Doubt, PlannedColumn, RowKind, ShownRow, TableOptions};
 use pbrdf::measurement::formats::{ImportOptions, TableSample};
 use pbrdf::measurement::{BrdfMeaning, ColumnChoice, Field, MappedColumn, Mapping, Unit, is_not_measured};
@@ -22,7 +22,7 @@ fn field_text(field: Option<Field>) -> String {
         Some(Field::Dphi) => tr!("Δφ, relative azimuth"),
         Some(Field::Dolp) => "DoLP".to_owned(),
         Some(Field::DolpSigma) => tr!("standard deviation of DoLP"),
-        Some(Field::Brdf) => tr!("BRDF in 1/sr"),
+        Some(Field::Brdf) => "BRDF".to_owned(),
         Some(Field::BrdfSigma) => tr!("standard deviation of BRDF"),
         Some(Field::Masked) => tr!("mask, 0 or 1"),
         Some(Field::Set) => tr!("name of the measurement"),
@@ -43,6 +43,7 @@ fn unit_text(field: Field, unit: Unit) -> String {
         (Unit::Native, Field::Wavelength) => "nm".to_owned(),
         (Unit::Native, Field::ThetaI | Field::ThetaR | Field::Dphi | Field::PhiI | Field::PhiR) => tr!("degrees"),
         (Unit::Native, Field::Dolp | Field::DolpSigma) => tr!("fraction, 0 to 1"),
+        (Unit::Native, Field::Brdf | Field::BrdfSigma) => "1/sr".to_owned(),
         (Unit::Native, _) => String::new(),
     }
 }
@@ -58,7 +59,7 @@ fn meaning_text(chosen: Option<Field>, planned: &PlannedColumn) -> String {
 }
 
 /// The rows of the file with what each is, and the meaning of each column above it.
-pub(super) fn columns_ui(options: &mut ImportOptions, table: &TableSample, ui: &mut Ui) {
+pub(super) fn columns_ui(options: &mut ImportOptions, table: &TableSample, is_read: bool, ui: &mut Ui) {
     let is_clear = table.table.doubts.is_empty();
     let text = if is_clear {
         tr!("The columns are taken as follows: change what is not so.")
@@ -68,6 +69,13 @@ pub(super) fn columns_ui(options: &mut ImportOptions, table: &TableSample, ui: &
     let dark = ui.visuals().dark_mode;
     let text = RichText::new(text);
     ui.add(Label::new(if is_clear { text } else { text.color(theme::warning(dark)) }).wrap());
+    cells_ui(&mut options.table, table, ui);
+    // Until the cells are read as they are asked for, what is shown are others.
+    ui.add_enabled_ui(is_read, |ui| rows_and_answers_ui(options, table, ui));
+}
+
+fn rows_and_answers_ui(options: &mut ImportOptions, table: &TableSample, ui: &mut Ui) {
+    let dark = ui.visuals().dark_mode;
     let Some(columns) = table.table.columns.first() else { return };
     let columns = &columns[..columns.len().min(SHOWN_COLUMNS)];
     // As high whatever is chosen: nothing jumps.
@@ -89,6 +97,39 @@ pub(super) fn columns_ui(options: &mut ImportOptions, table: &TableSample, ui: &
     constants_ui(&mut options.columns, ui);
 }
 
+/// Separators of thousands that are offered, with 1234 written so.
+const THOUSANDS: [(Option<char>, &str); 5] =
+    [(None, ""), (Some(','), "1,234"), (Some('.'), "1.234"), (Some('\''), "1'234"), (Some(' '), "1 234")];
+
+/// Which sheet of a workbook is read, and how its numbers are written.
+fn cells_ui(options: &mut TableOptions, table: &TableSample, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        if table.sheets.len() > 1 {
+            let label = ui.label(tr!("Sheet"));
+            let shown = options.sheet.as_ref().or(table.sheet.as_ref()).cloned().unwrap_or_default();
+            let combo = ComboBox::from_id_salt("sheet").selected_text(&shown).height(320.0).show_ui(ui, |ui| {
+                for sheet in &table.sheets {
+                    if ui.selectable_label(*sheet == shown, sheet).clicked() {
+                        options.sheet = Some(sheet.clone());
+                    }
+                }
+            });
+            combo.response.labelled_by(label.id);
+            ui.add_space(12.0);
+        }
+        let label = ui.label(tr!("Thousands")).on_hover_text(tr!("What stands between the thousands of a number"));
+        let text = |separator: Option<char>, written: &str| if separator.is_none() { tr!("not separated") } else { written.to_owned() };
+        let shown = THOUSANDS.iter().find(|(separator, _)| *separator == options.thousands);
+        let shown = shown.map_or_else(|| format!("{:?}", options.thousands), |&(separator, written)| text(separator, written));
+        let combo = ComboBox::from_id_salt("thousands").selected_text(shown).show_ui(ui, |ui| {
+            for (separator, written) in THOUSANDS {
+                ui.selectable_value(&mut options.thousands, separator, text(separator, written));
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+}
+
 /// The colour and the name of a kind of rows.
 fn kind_style(kind: RowKind, dark: bool) -> (Color32, String) {
     match kind {
@@ -108,6 +149,13 @@ fn row_ui(row: &ShownRow, columns: usize, dark: bool, ui: &mut Ui) {
     ui.label(RichText::new(row.line.to_string()).weak()).on_hover_text(name);
     for index in 0..columns {
         let cell = row.cells.get(index).map(String::as_str).unwrap_or_default();
+        // A line of words may have more cells than the table has columns.
+        let rest = if row.kind == RowKind::Title && index + 1 == columns {
+            row.cells[index.min(row.cells.len())..].join(" ")
+        } else {
+            String::new()
+        };
+        let cell = if rest.is_empty() { cell } else { &rest };
         let is_missing = row.kind == RowKind::Data && is_not_measured(cell);
         let text = if is_missing && cell.is_empty() { "·" } else { cell };
         let text: String = text.chars().take(24).collect();
@@ -212,14 +260,16 @@ fn column_ui(mapping: &mut Mapping, planned: &PlannedColumn, index: usize, ui: &
     let place = mapping.columns.iter().position(|column| column.column == number);
     let before = place.map(|place| mapping.columns[place].field);
     let mut chosen = before;
-    let combo = ComboBox::from_id_salt(("meaning", index)).width(120.0).height(320.0).selected_text(meaning_text(before, planned)).show_ui(
-        ui,
-        |ui| {
+    let combo = ComboBox::from_id_salt(("meaning", index))
+        .width(120.0)
+        .height(320.0)
+        .wrap_mode(TextWrapMode::Extend)
+        .selected_text(meaning_text(before, planned))
+        .show_ui(ui, |ui| {
             for field in std::iter::once(None).chain(Field::all().map(Some)) {
                 ui.selectable_value(&mut chosen, field, field_text(field));
             }
-        },
-    );
+        });
     combo.response.labelled_by(label.id);
     if chosen != before {
         // A field is in one column, and a column is one field.

@@ -3,7 +3,8 @@
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::dialogs::Dialogs;
-use crate::app::shell::import_dialog::{ImportDialog, Slices};
+use crate::app::shell::import_dialog::{Companions, ImportDialog, Slices};
+use crate::app::shell::import_picture_ui::becomes_ui;
 use crate::app::shell::import_table_ui::{OFFERED_THETA_I, columns_ui};
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -11,8 +12,11 @@ use crate::app::text::messages::advised;
 use crate::app::text::numbers::{short, significant};
 use crate::app::views::action::Action;
 use crate::app::work::design::AngleRange;
+use crate::app::work::import_memory::sample_of;
 use egui::{ComboBox, DragValue, Grid, Label, RichText, Role, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo};
+use pbrdf::measurement::Quantity;
 use pbrdf::measurement::formats::{ImportOptions, Imported, Question};
+use std::path::PathBuf;
 use tr::tr;
 
 /// Width of the dialog, and heights of its scroll areas: place and size of the dialog don't depend
@@ -29,10 +33,12 @@ pub fn import_ui(app: &mut App, ui: &mut Ui) {
     let response = egui::Modal::new(egui::Id::unique("import")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         ui.heading(tr!("Import {}", import.origin.name));
+        recalled_ui(import, ui);
         questions_ui(import, ui);
         ui.separator();
         let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
         let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
+        companions_ui(&mut import.companions, ui);
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             if let Some(done) = jobs.files.reading_fraction() {
@@ -59,8 +65,44 @@ pub fn import_ui(app: &mut App, ui: &mut Ui) {
     }
 }
 
+/// That the answers are those of an earlier table, and the way back.
+fn recalled_ui(import: &mut ImportDialog, ui: &mut Ui) {
+    if import.recalled.is_none() {
+        return;
+    }
+    ui.horizontal(|ui| {
+        let color = theme::warning(ui.visuals().dark_mode);
+        ui.colored_label(color, tr!("Read as you read a table of this shape before."));
+        if ui.small_button(tr!("Back to the guess")).clicked() {
+            import.forget_recalled();
+        }
+    });
+}
+
+/// Whether other files are opened with the same answers.
+fn companions_ui(companions: &mut Companions, ui: &mut Ui) {
+    const NAMED: usize = 12;
+    let paths = companions.paths();
+    // The line is there in any case: nothing jumps when files are found.
+    if paths.is_empty() {
+        ui.label("");
+        return;
+    }
+    let text = if companions.opened.is_empty() {
+        tr!("also apply to the other {} files of this folder", paths.len())
+    } else {
+        tr!("also apply to the other {} files that were opened with it", paths.len())
+    };
+    let name = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut names: Vec<String> = paths.iter().take(NAMED).map(name).collect();
+    names.extend((paths.len() > NAMED).then(|| "…".to_owned()));
+    let help = tr!("They have the same columns: {}", names.join(", "));
+    ui.checkbox(&mut companions.are_meant, text).on_hover_text(help);
+}
+
 /// The questions of the file, each in its widgets.
 fn questions_ui(import: &mut ImportDialog, ui: &mut Ui) {
+    let is_read = import.is_read();
     let ImportDialog { file, questions, options, slices, .. } = import;
     if !file.summary().is_empty() {
         ui.label(translated(file.summary()));
@@ -70,7 +112,7 @@ fn questions_ui(import: &mut ImportDialog, ui: &mut Ui) {
             Question::Wavelength { available_nm } => wavelength_ui(options, available_nm, ui),
             Question::ThetaI => theta_i_ui(options, ui),
             Question::Directions => slices_ui(slices, options, ui),
-            Question::Columns(sample) => columns_ui(options, sample, ui),
+            Question::Columns(sample) => columns_ui(options, sample, is_read, ui),
         }
     }
 }
@@ -150,13 +192,29 @@ fn span_ui(span: &mut AngleRange, name: &str, least: f64, ui: &mut Ui) {
 /// The first rows of the measurement, or why there is none; returns whether there is one.
 fn answer_ui(import: &ImportDialog, ui: &mut Ui) -> bool {
     let warning = theme::warning(ui.visuals().dark_mode);
+    if let Some(reason) = import.error.as_ref().filter(|_| !import.is_read()) {
+        ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", advised(reason, reason.hint()))).color(warning)).wrap());
+        return false;
+    }
+    if !import.is_read() {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label(tr!("Reading…"));
+        });
+        return false;
+    }
     match import.preview.get() {
         None => return false,
         Some(Err(reason)) => {
             ui.add(Label::new(RichText::new(tr!("This cannot be opened yet: {}.", advised(reason, reason.hint()))).color(warning)).wrap());
             return false;
         }
-        Some(Ok(imported)) => rows_ui(imported, import.file.preview_is_whole(), ui),
+        Some(Ok(imported)) => {
+            if let Some(table) = sample_of(&import.questions) {
+                becomes_ui(table, imported, ui);
+            }
+            rows_ui(imported, import.file.preview_is_whole(), ui);
+        }
     }
     if let Some(reason) = &import.error {
         ui.add(Label::new(RichText::new(tr!("The file cannot be read so: {}.", advised(reason, reason.hint()))).color(warning)).wrap());
@@ -178,7 +236,8 @@ fn rows_ui(imported: &Imported, is_all: bool, ui: &mut Ui) {
                 ui.monospace(format!("{}°", significant(angle)));
             }
             for quantity in [row.dolp, row.brdf] {
-                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| significant(quantity.value)));
+                let sigma = |quantity: Quantity| quantity.sigma.map_or_else(String::new, |sigma| format!(" ± {}", significant(sigma)));
+                ui.monospace(quantity.map_or_else(|| "—".to_owned(), |quantity| significant(quantity.value) + &sigma(quantity)));
             }
             ui.end_row();
         }

@@ -9,6 +9,7 @@ pub mod file_dialogs;
 mod frame_times;
 mod help_ui;
 mod import_dialog;
+mod import_picture_ui;
 mod import_table_ui;
 mod import_ui;
 mod lesson_ui;

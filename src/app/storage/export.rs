@@ -14,8 +14,11 @@ use crate::files::export;
 use crate::files::picture::{StokesFileKind, stokes_file_kind, write_colors, write_exr, write_table};
 use crate::files::write_file::write_file;
 use crate::report::{
-    DataSource, FitDocument, JointDocument, JointSource, ReportDocument, ResultTable, fit_comments, picture_map, write_curves, write_fitted,
+    DataSource, FitDocument, JointDocument, JointSource, ReportDocument, ResultTable, fit_comments, picture_map, write_curves,
+    write_fitted, write_fitted_sets,
 };
+use pbrdf::fit::UnknownName as _;
+use pbrdf::measurement::Measurement;
 use pbrdf::model::{Pbrdf, Quality};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -158,10 +161,7 @@ impl ExportKind {
             }
             Self::Fitted => {
                 let fit = work.shown_fit().ok_or_else(|| translated(NO_FIT))?;
-                let surface = Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()))?;
-                let (dolp_only, measurement) = (fit.problem.options().dolp_only, fit.measurement().measurement);
-                let comments = comments(fit);
-                Ok(written(move |out| write_fitted(&measurement, &surface, dolp_only, &comments, out)))
+                fitted(fit, &parts_of(fit, work))
             }
             Self::Report => report(work),
             Self::Picture => picture(work),
@@ -200,17 +200,44 @@ pub fn results(table: Option<ResultTable>) -> Result<Write, String> {
     }))
 }
 
-/// What a table of a fit says of it.
-fn comments(fit: &FitEntry) -> Vec<(String, String)> {
+/// The fits of all measurements of a joint fit in their order; the fit alone where it was none, or where parts are gone.
+fn parts_of(fit: &Arc<FitEntry>, work: &Workspace) -> Vec<Arc<FitEntry>> {
+    let Some(joint) = &fit.joint else { return vec![fit.clone()] };
+    let mut parts: Vec<Arc<FitEntry>> = work.fit_history().parts(fit.id).cloned().collect();
+    parts.sort_by_key(|part| part.joint.as_ref().map(|joint| joint.set));
+    if parts.len() == joint.of.result.sets.len() { parts } else { vec![fit.clone()] }
+}
+
+/// The measurements of a fit with the fitted values beside them.
+fn fitted(fit: &FitEntry, parts: &[Arc<FitEntry>]) -> Result<Write, String> {
     let model = fit.preset().map_or("own terms", |preset| preset.key);
-    fit_comments(model, fit.report.objective, fit.report.estimates.iter().map(|estimate| (estimate.parameter.key(), estimate)))
+    let dolp_only = fit.problem.options().dolp_only;
+    let surface = |fit: &FitEntry| Pbrdf::new(fit.report.model, fit.report.parameters).map_err(|error| tr!("{}.", error.localized()));
+    let joint = fit.joint.as_ref().filter(|_| parts.len() > 1);
+    let Some(joint) = joint else {
+        let (surface, measurement) = (surface(fit)?, fit.measurement().measurement);
+        let estimates = fit.report.estimates.iter().map(|estimate| (estimate.parameter.key(), estimate));
+        let comments = fit_comments(model, fit.report.objective, estimates);
+        return Ok(written(move |out| write_fitted(&measurement, &surface, dolp_only, &comments, out)));
+    };
+    let surfaces = parts.iter().map(|part| surface(part)).collect::<Result<Vec<_>, _>>()?;
+    let estimates: Vec<_> = joint.of.result.estimates().map(|(name, estimate)| (name.key().into_owned(), estimate)).collect();
+    let comments = fit_comments(model, joint.of.result.objective, estimates);
+    let named = |(part, name): (&Arc<FitEntry>, &Arc<str>)| Measurement {
+        name: name.to_string(),
+        ..part.measurement().measurement.as_ref().clone()
+    };
+    let measurements: Vec<Measurement> = parts.iter().zip(joint.of.problem.set_names()).map(named).collect();
+    Ok(written(move |out| {
+        let sets: Vec<(&Measurement, Pbrdf)> = measurements.iter().zip(surfaces).collect();
+        write_fitted_sets(&sets, dolp_only, &comments, out)
+    }))
 }
 
 /// The report of the shown fit; of a joint one, that of all its measurements.
 fn report(work: &Workspace) -> Result<Write, String> {
     let fit = work.shown_fit().cloned().ok_or_else(|| translated(NO_FIT))?;
-    let mut parts: Vec<Arc<FitEntry>> = work.fit_history().parts(fit.id).cloned().collect();
-    parts.sort_by_key(|part| part.joint.as_ref().map(|joint| joint.set));
+    let parts = parts_of(&fit, work);
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let whole = fit.joint.as_ref().filter(|joint| joint.of.result.sets.len() == parts.len());
@@ -225,7 +252,7 @@ const PICTURE_SIZE: usize = 512;
 /// The picture of the sliders, one half of it of the companion where there is one.
 fn picture(work: &Workspace) -> Result<Write, String> {
     surface(work)?;
-    let (key, options) = (SceneKey::of(work), work.settings().maps.picture);
+    let (key, options) = (SceneKey::of(work), work.settings().panes.picture);
     Ok(Box::new(move |path| {
         let kind = stokes_file_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let (lamp, has_sky) = (key.lamp, key.sky.is_some());

@@ -1,5 +1,6 @@
 //! Reads a file into a measurement, or into a foreign file that has questions.
 
+use crate::app::work::import_memory::KeptAnswers;
 use crate::files::export;
 use pbrdf::measurement::formats::{self, ForeignFile, ImportError, ImportOptions, Imported, Opened};
 use pbrdf::measurement::{Progress, ReadError, ReadErrorKind};
@@ -70,15 +71,32 @@ pub fn bytes_of(mut source: impl Read, length: Option<u64>, progress: Progress<'
     }
 }
 
-/// Reads the bytes of a file; a foreign file without questions is imported at once.
-pub fn read(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Loaded, ImportError> {
-    match formats::open(bytes, progress)? {
-        Opened::Measurements(measurements) => Ok(Loaded::Measurement(Box::new(Imported { measurements, notes: Vec::new() }))),
-        Opened::Foreign(file) if file.questions().is_empty() => {
-            file.import(&ImportOptions::default(), progress).map(|imported| Loaded::Measurement(Box::new(with_notes(&*file, imported))))
+/// Reads the bytes of a file of that name; a foreign file without questions is imported at once, and one of a shape that was asked about
+/// before with those answers.
+pub fn read(bytes: Vec<u8>, name: &str, answers: Option<&KeptAnswers>, progress: Progress<'_>) -> Result<Loaded, ImportError> {
+    let file = match formats::open(bytes, progress)? {
+        Opened::Measurements(measurements) => {
+            return Ok(Loaded::Measurement(Box::new(Imported { measurements, notes: Vec::new() })));
         }
-        Opened::Foreign(file) => Ok(Loaded::Foreign(Arc::from(file))),
-    }
+        Opened::Foreign(file) => file,
+    };
+    let questions = file.questions();
+    let imported = if questions.is_empty() {
+        file.import(&ImportOptions::default(), progress)?
+    } else if let Some(options) = answers.and_then(|answers| answers.of(&questions)) {
+        let mut imported = file.import(&options, progress)?;
+        note_source(&mut imported, name);
+        imported
+    } else {
+        return Ok(Loaded::Foreign(Arc::from(file)));
+    };
+    Ok(Loaded::Measurement(Box::new(with_notes(&*file, imported))))
+}
+
+/// Writes into the metadata which file it was.
+pub fn note_source(imported: &mut Imported, name: &str) {
+    let source = ("imported_from".to_owned(), name.replace(char::is_control, " "));
+    imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
 }
 
 /// The import with the notices of the file itself.

@@ -6,6 +6,7 @@ use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::storage::export::{ExportKind, Write};
+use crate::app::storage::folder::measurements_in;
 use crate::app::storage::import;
 use crate::app::storage::import::{Hashing, Loaded, Origin, with_notes};
 use crate::app::storage::kept_work::KeptWork;
@@ -15,8 +16,10 @@ use crate::app::tasks::file_request::{FileReply, FileRequest};
 use crate::app::tasks::start_error::start_error;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::advised;
+use crate::app::work::import_memory::{KeptAnswers, TableShape};
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
+use pbrdf::measurement::foreign::TableOptions;
 use pbrdf::measurement::formats::{ForeignFile, ImportError, ImportOptions, Imported};
 use pbrdf::measurement::{Measurement, Progress};
 use std::io::Read;
@@ -35,6 +38,26 @@ pub struct DialogAnswer {
 pub struct LoadedFile {
     pub origin: Origin,
     pub result: Result<Loaded, String>,
+}
+
+/// A foreign file with its cells read as those options ask.
+pub struct Reopened {
+    pub options: TableOptions,
+    /// None where they were read so.
+    pub file: Result<Option<Box<dyn ForeignFile>>, ImportError>,
+}
+
+/// Files that have the shape of another one.
+pub struct Alike {
+    pub of: PathBuf,
+    pub paths: Vec<PathBuf>,
+}
+
+/// Files that are open, or are going to be.
+pub struct WithoutFiles {
+    pub paths: Vec<PathBuf>,
+    /// Of their bytes.
+    pub sha256: Vec<String>,
 }
 
 /// The session of a file; the error is a sentence.
@@ -63,6 +86,10 @@ pub struct FileJobs {
     pub waiting: Vec<PathBuf>,
     /// Reads a foreign file with the user's options; the progress is a fraction.
     pub import: Slot<Result<Imported, ImportError>, f64>,
+    /// Reads the cells of a foreign file anew.
+    pub reopen: Slot<Reopened>,
+    /// Looks through a folder for files that the answers of the dialog may be for.
+    pub alike: Slot<Alike>,
     pub session: Slot<LoadedSession>,
     /// Writes the measurement; the error is a sentence.
     pub save: Slot<Result<PathBuf, String>>,
@@ -81,6 +108,8 @@ impl FileJobs {
             load: Slot::default(),
             waiting: Vec::new(),
             import: Slot::default(),
+            reopen: Slot::default(),
+            alike: Slot::default(),
             session: Slot::default(),
             save: Slot::default(),
             export: Slot::default(),
@@ -91,8 +120,8 @@ impl FileJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, ask: _, waiting: _, dialog, load, import, session, save, export, autosave } = self;
-        vec![dialog, load, import, session, save, export, autosave]
+        let Self { spawner: _, ask: _, waiting: _, dialog, load, import, reopen, alike, session, save, export, autosave } = self;
+        vec![dialog, load, import, reopen, alike, session, save, export, autosave]
     }
 
     /// Asks the user for a path, unless a dialog is open.
@@ -115,7 +144,45 @@ impl FileJobs {
     /// The job does not start; a sentence.
     pub fn open(&mut self, paths: Vec<PathBuf>) -> Result<(), String> {
         self.abandon_reading();
-        self.load.start(&self.spawner, "read measurements", move |context| read_files(&paths, context)).map_err(start_error)
+        self.load.start(&self.spawner, "read measurements", move |context| read_files(&paths, None, context)).map_err(start_error)
+    }
+
+    /// Reads foreign files of one shape with the answers that one of them was opened with.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn open_alike(&mut self, paths: Vec<PathBuf>, answers: KeptAnswers) -> Result<(), String> {
+        self.abandon_reading();
+        let job = move |context: &JobContext<f64>| read_files(&paths, Some(&answers), context);
+        self.load.start(&self.spawner, "read alike", job).map_err(start_error)
+    }
+
+    /// Reads the cells of a foreign file, which is in memory, as those options ask.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn reopen(&mut self, file: Arc<dyn ForeignFile>, options: TableOptions) -> Result<(), String> {
+        let job = move |context: &JobContext| {
+            let mut progress = |_| if context.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            let file = file.reopened(&options, &mut progress);
+            Reopened { options, file }
+        };
+        self.reopen.start(&self.spawner, "read cells", job).map_err(start_error)
+    }
+
+    /// Looks in the folder of a foreign file for others of its shape, beside those that are left out.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn find_alike(&mut self, of: PathBuf, shape: TableShape, without: WithoutFiles) -> Result<(), String> {
+        let job = move |context: &JobContext| Alike { paths: alike(&of, &shape, &without, context), of };
+        self.alike.start(&self.spawner, "look for alike", job).map_err(start_error)
+    }
+
+    /// Stops what is done for the questions on screen.
+    pub fn abandon_dialog(&mut self) {
+        self.reopen.abandon();
+        self.alike.abandon();
     }
 
     /// Reads a text that is in memory.
@@ -127,7 +194,7 @@ impl FileJobs {
         let job = move |context: &JobContext<f64>| {
             let mut progress = reading_progress(context);
             let (at, source) = (PathBuf::from(&name), text.as_bytes());
-            vec![read(name, None, Ok((&at, source, None)), &mut progress)]
+            vec![read(name, None, Ok((&at, source, None)), None, &mut progress)]
         };
         self.load.start(&self.spawner, "read example", job).map_err(start_error)
     }
@@ -232,7 +299,7 @@ impl FileJobs {
 }
 
 /// The files, until the reading is cancelled.
-fn read_files(paths: &[PathBuf], context: &JobContext<f64>) -> Vec<LoadedFile> {
+fn read_files(paths: &[PathBuf], answers: Option<&KeptAnswers>, context: &JobContext<f64>) -> Vec<LoadedFile> {
     let mut files = Vec::new();
     for path in paths {
         #[expect(clippy::cast_precision_loss, reason = "a number of files")]
@@ -247,7 +314,7 @@ fn read_files(paths: &[PathBuf], context: &JobContext<f64>) -> Vec<LoadedFile> {
             let length = file.metadata().ok().map(|data| data.len());
             (path.as_path(), file, length)
         });
-        files.push(read(name, Some(path.clone()), source, &mut progress));
+        files.push(read(name, Some(path.clone()), source, answers, &mut progress));
         if context.is_cancelled() {
             break;
         }
@@ -255,11 +322,39 @@ fn read_files(paths: &[PathBuf], context: &JobContext<f64>) -> Vec<LoadedFile> {
     files
 }
 
+/// Bytes of a file that is looked at for its shape; a larger one is left to be opened by itself.
+const MOST_BYTES_OF_ALIKE: u64 = 64 << 20;
+
+/// The files beside that one, with the same ending, that are tables of its shape.
+fn alike(of: &Path, shape: &TableShape, without: &WithoutFiles, context: &JobContext) -> Vec<PathBuf> {
+    let ending = |path: &Path| path.extension().map(|extension| extension.to_ascii_lowercase());
+    let files = of.parent().and_then(|folder| measurements_in(folder).ok()).unwrap_or_default();
+    let is_candidate = |path: &PathBuf| path != of && ending(path) == ending(of) && !without.paths.contains(path);
+    let mut progress = |_| if context.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let mut found = Vec::new();
+    for path in files.into_iter().filter(is_candidate) {
+        if context.is_cancelled() {
+            break;
+        }
+        let file = open_file(&path).ok().filter(|file| file.metadata().is_ok_and(|data| data.len() <= MOST_BYTES_OF_ALIKE));
+        let Some(mut source) = file.map(Hashing::new) else { continue };
+        let bytes = import::bytes_of(&mut source, None, &mut progress).ok();
+        let bytes = bytes.filter(|_| !without.sha256.contains(&source.finish()));
+        if let Some(Ok(Loaded::Foreign(file))) = bytes.map(|bytes| import::read(bytes, "", None, &mut progress))
+            && TableShape::of(&file.questions()).as_ref() == Some(shape)
+        {
+            found.push(path);
+        }
+    }
+    found
+}
+
 /// A measurement out of a source at that path, of that length.
 fn read<R: Read>(
     name: String,
     path: Option<PathBuf>,
     source: Result<(&Path, R, Option<u64>), String>,
+    answers: Option<&KeptAnswers>,
     progress: Progress<'_>,
 ) -> LoadedFile {
     let mut sha256 = None;
@@ -268,7 +363,7 @@ fn read<R: Read>(
         let sentence = |reason: String| tr!("{0}: {1}.", at.display(), reason);
         let bytes = import::bytes_of(&mut source, length, progress).map_err(|error| sentence(error.localized()))?;
         sha256 = Some(source.finish());
-        import::read(bytes, progress).map_err(|error| sentence(advised(&error, error.hint())))
+        import::read(bytes, &name, answers, progress).map_err(|error| sentence(advised(&error, error.hint())))
     });
     let sha256 = sha256.filter(|_| path.is_some());
     LoadedFile { origin: Origin { name, path, sha256 }, result }

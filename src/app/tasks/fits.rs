@@ -10,14 +10,14 @@ use crate::app::tasks::start_error::start_error;
 use crate::app::work::edit::Refit;
 use crate::app::work::fit_history::{FitEntry, JointEntry, JointPart};
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::model_fit::ModelFit;
+use crate::app::work::model_fit::{ComparedModel, NotFitted};
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{
-    Bootstrap, BootstrapEstimate, FitResult, Intervals, JointProblem, JointResult, JointUnknown, Observer, Problem, ProblemError, Profile,
-    Starts, TracePoint, bootstrap, bootstrap_jointly, fit, fit_jointly, profile, profile_jointly, special_cases_first, with_intervals,
-    with_intervals_jointly, with_special_cases,
+    Bootstrap, BootstrapEstimate, FitResult, Intervals, JointError, JointProblem, JointResult, JointUnknown, Observer, Problem,
+    ProblemError, Profile, SpecialCases, Starts, TracePoint, bootstrap, bootstrap_jointly, fit, fit_jointly, fit_ladder, profile,
+    profile_jointly, with_intervals, with_intervals_jointly,
 };
-use pbrdf::model::{Model, Parameter, Preset};
+use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
 
 /// A fit with the intervals of its parameters.
@@ -32,6 +32,12 @@ pub struct FinishedIntervals {
 pub enum WithIntervals {
     One(Box<FitResult>),
     Joint(Box<JointResult>),
+}
+
+/// The models that were fitted to the measurements of those numbers.
+pub struct ComparedModels {
+    pub numbers: Vec<u64>,
+    pub models: Vec<ComparedModel>,
 }
 
 /// What is fitted while sliders move: a measurement by its number, or several.
@@ -52,8 +58,8 @@ pub struct FitJobs {
     pub active: u64,
     /// The revision at which the user had moved the sliders that the last refit began at.
     pub refitted_at: u64,
-    /// Fits several models to the measurement of a number; the progress is the name of the model.
-    pub compare: Slot<(u64, Vec<ModelFit>), &'static str>,
+    /// Fits several models; the progress is the name of the model.
+    pub compare: Slot<ComparedModels, &'static str>,
     pub profile: Slot<Profile>,
     pub bootstrap: Slot<Bootstrap>,
 }
@@ -145,9 +151,8 @@ impl FitJobs {
             let result = match joint {
                 None => whole_intervals(&problem, report, observer).map(|report| WithIntervals::One(Box::new(report))),
                 Some(JointPart { of, .. }) => {
-                    let result = with_intervals_jointly(&of.problem, &of.result, observer);
-                    let is_part = result.course.intervals_complete == Some(false) && cancelled();
-                    (!is_part).then(|| WithIntervals::Joint(Box::new(result)))
+                    let result = whole_joint_intervals(&of.problem, &of.result, observer);
+                    result.map(|result| WithIntervals::Joint(Box::new(result)))
                 }
             };
             FinishedIntervals { id, result }
@@ -174,8 +179,8 @@ impl FitJobs {
         self.refit.start(&self.spawner, "refit", job).map_err(start_error)
     }
 
-    /// Fits several models, one after the other, each also from the best fits of its special cases; a model without a problem keeps
-    /// the reason.
+    /// Fits several models to a measurement, one after the other, each also from the best fits of its special cases; a model without a
+    /// problem keeps the reason.
     ///
     /// # Errors
     /// The job does not start; a sentence.
@@ -186,32 +191,43 @@ impl FitJobs {
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {
-        let (number, about) = (document.number, document.clone());
+        let about = document.clone();
         let job = move |context: &JobContext<&'static str>| {
-            let models: Vec<Model> = problems.iter().map(|(preset, _)| preset.model).collect();
-            let mut fits: Vec<(usize, ModelFit)> = Vec::new();
-            for index in special_cases_first(&models) {
-                let (preset, problem) = &problems[index];
-                if context.is_cancelled() {
-                    break;
-                }
-                context.report(preset.name);
-                let begun = Instant::now();
-                let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
-                let fitted = |problem: &Problem| {
-                    let before = fits.iter().filter_map(|(_, fit)| fit.report());
-                    let searched = with_special_cases(problem, before);
-                    let linear = fit(&searched, starts, seed, observer);
-                    let report = whole_intervals(&searched, linear.clone(), observer).unwrap_or(linear);
-                    Arc::new(FitEntry::new(about.clone(), Arc::new(problem.clone()), report))
-                };
-                let result = problem.as_ref().map(fitted).map_err(Clone::clone);
-                fits.push((index, ModelFit { preset, result }));
-            }
-            fits.sort_by_key(|&(index, _)| index);
-            (number, fits.into_iter().map(|(_, fit)| fit).collect())
+            let fits = ladder(&problems, context, |problem, observer| {
+                let linear = fit(problem, starts, seed, observer);
+                whole_intervals(problem, linear.clone(), observer).unwrap_or(linear)
+            });
+            let entry = |problem: Problem, report| vec![FitEntry::new(about.clone(), Arc::new(problem), report)];
+            ComparedModels { numbers: vec![about.number], models: compared(problems, fits, NotFitted::One, entry) }
         };
         self.compare.start(&self.spawner, "compare models", job).map_err(start_error)
+    }
+
+    /// The same of several measurements together.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn compare_jointly(
+        &mut self,
+        list: &MeasurementList,
+        problems: Vec<(&'static Preset, Result<JointProblem, JointError>)>,
+        starts: Starts,
+        seed: u64,
+    ) -> Result<(), String> {
+        let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
+        let shared = list.shared();
+        let job = move |context: &JobContext<&'static str>| {
+            let fits = ladder(&problems, context, |problem, observer| {
+                let linear = fit_jointly(problem, starts, seed, Intervals::Linear, observer);
+                whole_joint_intervals(problem, &linear, observer).unwrap_or(linear)
+            });
+            let entries = |problem: JointProblem, result| {
+                FitEntry::of_joint(about.clone(), JointEntry { result, problem: Arc::new(problem), shared })
+            };
+            let numbers = about.iter().map(|open| open.number).collect();
+            ComparedModels { numbers, models: compared(problems, fits, NotFitted::Together, entries) }
+        };
+        self.compare.start(&self.spawner, "compare models together", job).map_err(start_error)
     }
 
     /// Profiles a parameter of a finished fit, in place of the running scan.
@@ -280,6 +296,45 @@ fn whole_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>)
     let result = with_intervals(problem, result, observer);
     let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
     (!is_part).then_some(result)
+}
+
+/// The same of a joint fit.
+fn whole_joint_intervals(problem: &JointProblem, result: &JointResult, observer: Observer<'_>) -> Option<JointResult> {
+    let result = with_intervals_jointly(problem, result, observer);
+    let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
+    (!is_part).then_some(result)
+}
+
+/// The fits of a ladder of models, until the job is cancelled; it reports the name of the model that is being fitted.
+fn ladder<P: SpecialCases, E>(
+    problems: &[(&'static Preset, Result<P, E>)],
+    context: &JobContext<&'static str>,
+    fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
+) -> Vec<Option<P::Fitted>> {
+    let posed: Vec<Option<&P>> = problems.iter().map(|(_, problem)| problem.as_ref().ok()).collect();
+    fit_ladder(&posed, |place, problem| {
+        if context.is_cancelled() {
+            return None;
+        }
+        context.report(problems[place].0.name);
+        let begun = Instant::now();
+        let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
+        Some(fit(problem, observer))
+    })
+}
+
+/// The models that were fitted or cannot be; those that were not reached are left out.
+fn compared<P, R, E>(
+    problems: Vec<(&'static Preset, Result<P, E>)>,
+    fits: Vec<Option<R>>,
+    reason: fn(E) -> NotFitted,
+    entries: impl Fn(P, R) -> Vec<FitEntry>,
+) -> Vec<ComparedModel> {
+    let model = |((preset, problem), fit): ((&'static Preset, Result<P, E>), Option<R>)| match problem {
+        Ok(problem) => fit.map(|fit| ComparedModel { preset, result: Ok(entries(problem, fit)) }),
+        Err(error) => Some(ComparedModel { preset, result: Err(reason(error)) }),
+    };
+    problems.into_iter().zip(fits).filter_map(model).collect()
 }
 
 /// The profile of a parameter of one measurement of a joint fit, its own one or that of all.

@@ -169,8 +169,8 @@ fn settings_view(settings: &Settings, surface: &Surface) -> Value {
         "wavelength_nm": settings.metal_selection.wavelength_nm,
         "metal_source": settings.metal_selection.source,
         "follow": settings.metal_selection.follow,
-        "landscape": [settings.maps.landscape.across.key(), settings.maps.landscape.up.key()],
-        "landscape_contours": settings.maps.landscape.contours,
+        "landscape": [settings.panes.landscape.across.key(), settings.panes.landscape.up.key()],
+        "landscape_contours": settings.panes.landscape.contours,
     })
 }
 

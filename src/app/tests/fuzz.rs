@@ -169,7 +169,7 @@ fn foreign_files() {
     let samples: Vec<Vec<u8>> = texts(&samples).into_iter().chain([crate::app::tests::imports::tensor()]).collect();
     fuzz("foreign", &samples, |bytes| {
         let go_on = &mut |_| ControlFlow::Continue(());
-        let Ok(arrived) = import::read(bytes.to_vec(), go_on) else { return false };
+        let Ok(arrived) = import::read(bytes.to_vec(), "fuzz", None, go_on) else { return false };
         if let Loaded::Foreign(file) = arrived {
             let options = ImportOptions {
                 theta_i: ImportOptions::offered_theta_i(),

@@ -139,7 +139,7 @@ fn ways_minima_and_metals_lie_on_it() {
     assert!(marks.text("way of the last fit", marks.ways[0].points[0]).expect("a text").contains("evaluation 1"));
     assert!(marks.text("minima", marks.minima.points[0]).expect("a text").contains("minimum 1"));
     // Metals have no place where the axes are others.
-    explorer.work.settings_mut().maps.landscape.up = Parameter::Kd;
+    explorer.work.settings_mut().panes.landscape.up = Parameter::Kd;
     wait(&mut harness);
     assert_eq!(
         crate::app::tests::explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks").metals.len(),
@@ -151,16 +151,16 @@ fn ways_minima_and_metals_lie_on_it() {
 fn every_pair_of_parameters_and_every_choice_of_a_fit_is_drawn() {
     let mut harness = shown();
     for across in Parameter::ALL {
-        let landscape = &mut explorer(&mut harness).work.settings_mut().maps.landscape;
+        let landscape = &mut explorer(&mut harness).work.settings_mut().panes.landscape;
         (landscape.across, landscape.up) = (across, if across == Parameter::Sigma { Parameter::Q } else { Parameter::Sigma });
         wait(&mut harness);
         assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there(), "{}", across.key());
     }
-    let landscape = &mut explorer(&mut harness).work.settings_mut().maps.landscape;
+    let landscape = &mut explorer(&mut harness).work.settings_mut().panes.landscape;
     (landscape.across, landscape.up) = (Parameter::N, Parameter::N);
     wait(&mut harness);
     harness.get_by_label("Both axes are the same parameter: choose another one for one of them.");
-    explorer(&mut harness).work.settings_mut().maps.landscape.up = Parameter::K;
+    explorer(&mut harness).work.settings_mut().panes.landscape.up = Parameter::K;
     explorer(&mut harness).work.settings_mut().fit_options.weights = Weights::Sigma;
     wait(&mut harness);
     assert!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().is_there());

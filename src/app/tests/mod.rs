@@ -12,6 +12,7 @@ mod fixtures;
 mod fuzz;
 mod help;
 mod hemisphere;
+mod import_choices;
 mod imports;
 mod kept_texts;
 mod kept_work;

@@ -27,7 +27,7 @@ fn rect(harness: &Harness<'static, Option<App>>) -> egui::Rect {
 }
 
 fn picture(harness: &mut Harness<'static, Option<App>>) -> PictureOptions {
-    explorer(harness).work.settings().maps.picture
+    explorer(harness).work.settings().panes.picture
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn a_pixel_is_what_the_model_says_and_a_click_takes_its_angles() {
     let settings = explorer(&mut harness).work.settings().clone();
     // One pixel of the screen more or less.
     assert!((settings.theta_i - geometry.theta_i().0).abs() < 1.0, "{} {geometry:?}", settings.theta_i);
-    assert_eq!(settings.maps.picture.polar, options.polar, "a click leaves the lamp where it is");
+    assert_eq!(settings.panes.picture.polar, options.polar, "a click leaves the lamp where it is");
 }
 
 #[test]
@@ -112,6 +112,6 @@ fn no_picture_is_made_of_values_that_are_no_surface_and_damaged_settings_are_ref
     assert!(explorer(&mut harness).views.get::<PictureView>().scene().is_none());
     let mut settings = explorer(&mut harness).work.settings().clone();
     assert!(settings.validate().is_ok());
-    settings.maps.picture.polar = 200.0;
+    settings.panes.picture.polar = 200.0;
     assert!(settings.validate().is_err());
 }

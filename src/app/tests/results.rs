@@ -59,6 +59,19 @@ fn results_are_a_column_for_each_measurement_and_model_that_sorts_and_hides() {
     harness.run();
     // One measurement alone needs no name.
     assert!(table(&mut harness).starts_with("parameter,cauchy\n"), "{}", table(&mut harness));
+    // The arrangement is part of the work, and follows a measurement to its new name.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("work.pbrdf.json");
+    order(&mut harness, Action::Export(ExportKind::Session, path.clone()));
+    let mut again = self::harness();
+    order(&mut again, Action::OpenSession(path));
+    explorer(&mut again).dock.show(PaneId::Results);
+    wait(&mut again);
+    assert_eq!(table(&mut again), table(&mut harness));
+    let number = explorer(&mut again).work.measurements().iter().next().expect("copper").number;
+    explorer(&mut again).work.apply(Edit::RenameMeasurement { number, name: "Cu".to_owned() });
+    wait(&mut again);
+    assert_eq!(explorer(&mut again).results().expect("a table").columns.len(), 1);
     harness.get_by_label("Show hidden columns (1)").click();
     harness.run();
     assert!(table(&mut harness).contains(copper));

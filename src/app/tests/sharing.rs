@@ -10,7 +10,8 @@ use crate::app::work::sharing::Sharing;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use pbrdf::fit::{Intervals, JointFit, Starts};
-use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use pbrdf::measurement::{Measurement, unwatched};
+use pbrdf::model::{Model, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf};
 use pbrdf::optics::{Facet, Geometry};
 
 fn shared(harness: &mut Window) -> ParameterSet {
@@ -274,4 +275,57 @@ fn the_profile_of_a_shared_parameter_is_that_of_all_together() {
     let [found, _] = profile.intervals;
     let is_near = |one: Option<f64>, other: Option<f64>| one.zip(other).is_some_and(|(one, other)| (one - other).abs() < 1e-4);
     assert!(is_near(found.low, interval.low) && is_near(found.high, interval.high), "{found:?} {interval:?}");
+}
+
+#[test]
+fn models_are_compared_on_all_measurements_together_where_they_share_something() {
+    let (mut harness, _folder) = wavelengths();
+    order(&mut harness, Action::CompareModels);
+    let work = &explorer(&mut harness).work;
+    let numbers: Vec<u64> = work.measurements().iter().map(|open| open.number).collect();
+    assert_eq!(work.fit_history().len(), PRESETS.len(), "a joint fit of each model");
+    let rows = work.model_comparison();
+    assert_eq!(rows.iter().map(|row| row.preset.key).collect::<Vec<_>>(), PRESETS.map(|preset| preset.key));
+    for row in rows {
+        let fit = row.result.as_ref().expect("a fit");
+        let part = fit.joint.as_ref().expect("a joint fit");
+        assert_eq!((part.of.result.sets.len(), row.objective()), (3, part.of.result.objective));
+    }
+    // A model that holds another one as a special case is never worse.
+    let delta_e = |key: &str| rows.iter().find(|row| row.preset.key == key).and_then(|row| row.objective()).expect("a ΔE");
+    assert!(delta_e("cauchy") <= delta_e("specular") * (1.0 + 1e-9));
+    let row = rows.iter().position(|row| row.preset.key == "specular-gauss").expect("a row");
+    // Every measurement has its part, and a click on a row takes the values of all.
+    activate(&mut harness, "green.csv");
+    edit(&mut harness, Edit::UseModelFit(row));
+    let work = &explorer(&mut harness).work;
+    for number in numbers {
+        let open = work.measurements().get(number).expect("it is open");
+        let shown = work.shown_fit_of(number).expect("its fit");
+        assert_eq!((shown.preset().map(|preset| preset.key), shown.number), (Some("specular-gauss"), number));
+        assert_eq!((open.surface.model, open.surface.parameters), (shown.report.model, shown.report.parameters));
+    }
+    let columns = explorer(&mut harness).results().expect("a table").columns.len();
+    assert_eq!(columns, 3 * PRESETS.len());
+}
+
+#[test]
+fn the_table_of_a_joint_fit_holds_all_its_measurements() {
+    let (mut harness, folder) = wavelengths();
+    order(&mut harness, Action::StartFit);
+    let path = folder.path().join("fit.csv");
+    order(&mut harness, Action::Export(ExportKind::Fitted, path.clone()));
+    let text = std::fs::read_to_string(&path).expect("the export wrote it");
+    let fit = shown(&mut harness);
+    let joint = fit.joint.expect("a joint fit");
+    for part in &joint.of.result.sets {
+        assert!(text.contains(&format!("# fitted_n@{}: {}; ", part.name, part.parameters.n)), "{} in {text}", part.name);
+    }
+    assert!(text.contains(&format!("# fitted_sigma: {}; ", joint.of.result.sets[0].parameters.sigma)));
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    let header = "set,wavelength_nm,theta_i,theta_r,dphi,dolp,dolp_model,dolp_residual,brdf_model,brdf_residual";
+    assert_eq!((rows[0], rows.len()), (header, 1 + 3 * 20));
+    // Read again it is three measurements.
+    let again = Measurement::read_sets(text.as_bytes(), &mut unwatched).expect("a measurement");
+    assert_eq!(again.iter().map(|set| set.rows.len()).collect::<Vec<_>>(), [20; 3]);
 }

@@ -6,6 +6,7 @@ use crate::app::tests::sharing::{shown, values, wavelengths};
 use crate::app::tests::{edit, explorer, harness};
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::{Edit, Switch};
+use crate::app::work::pane_id::PaneId;
 use crate::app::work::sharing::Sharing;
 use crate::app::work::surface::Surface;
 use egui_kittest::kittest::Queryable as _;
@@ -114,4 +115,27 @@ fn options_offer_range_and_weights_where_they_mean_something() {
     assert_eq!(explorer(&mut harness).work.settings().fit_options.range, Some(FitRange::default()));
     order(&mut harness, Action::List(ListAction::Share(Sharing::Samples)));
     assert!(harness.query_by_label("Weight of red.csv").is_none());
+}
+
+#[test]
+fn rows_outside_the_range_of_a_fit_are_drawn_faintly_and_have_no_residuals() {
+    let mut harness = harness();
+    harness.run();
+    let points = |harness: &mut Window| -> (usize, usize) {
+        let explorer = explorer(harness);
+        let marks = explorer.derived.marks.get().expect("points");
+        marks.series.iter().fold((0, 0), |(used, outside), marks| (used + marks.dolp.used.len(), outside + marks.dolp.outside.len()))
+    };
+    let all = explorer(&mut harness).work.active().measurement.rows.len();
+    assert_eq!(points(&mut harness), (all, 0));
+    let range = Some(FitRange { theta_i: [35.0, 90.0], theta_r: [-90.0, 40.0] });
+    let fit_options = FitOptions { range, ..explorer(&mut harness).work.settings().fit_options };
+    edit(&mut harness, Edit::SetFitOptions(fit_options));
+    let rows = &explorer(&mut harness).work.active().measurement.rows;
+    let inside = rows.iter().filter(|row| row.geometry.theta_i().0 >= 35.0 && row.geometry.theta_r().0 <= 40.0).count();
+    assert!(0 < inside && inside < all);
+    assert_eq!(points(&mut harness), (inside, all - inside));
+    let figure = explorer(&mut harness).figure(PaneId::Dolp).expect("a figure");
+    let names: Vec<&str> = figure.panels[0].series.iter().map(|series| &*series.name).collect();
+    assert!(names.contains(&"outside the range of the fit"), "{names:?}");
 }

@@ -4,12 +4,13 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
 use crate::app::plots::{KeyEntry, Polyline, theme};
-use crate::app::views::curves::{CurveKey, MOST_POINTS, drawn, drawn_brdf};
+use crate::app::views::curves::{CurveKey, MOST_POINTS, drawn, drawn_brdf, is_fitted};
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::app::work::surface::PinnedSurface;
 use crate::app::work::workspace::Workspace;
 use crate::figure::{Dash, Point, Rgb, SERIES, Series, Symbol};
 use egui_plot::LineStyle;
+use pbrdf::fit::FitRange;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use std::collections::BTreeMap;
@@ -107,6 +108,8 @@ struct Key {
     plotted: u64,
     times_cosine: bool,
     backscatter: bool,
+    /// The angles that are fitted.
+    range: Option<FitRange>,
     /// θi and plane of the sliders, of a surface.
     own: Option<(f64, f64)>,
 }
@@ -176,7 +179,8 @@ impl Companions {
         for (Pinned { id, look, model, parameters }, open) in all {
             let own = (open.number == active.number).then_some((curves.theta_i, curves.dphi.rem_euclid(360.0)));
             let CurveKey { times_cosine, backscatter, .. } = *curves;
-            let key = Key { parameters, model, plotted: open.plotted, times_cosine, backscatter, own };
+            let range = work.settings().fit_options.range;
+            let key = Key { parameters, model, plotted: open.plotted, times_cosine, backscatter, range, own };
             let (kept, drawn) = self.all.entry(id).or_insert_with(|| (look.clone(), Memo::default()));
             *kept = look;
             drawn.refresh(key, |key| Drawn::new(key, open));
@@ -213,8 +217,11 @@ impl Drawn {
                 all.brdf_points.extend(brdf.iter().map(|mark| point(mark, |value| drawn_brdf(mark.theta_r, value, key.times_cosine))));
             }
             if let Some(surface) = &surface {
-                all.dolp_residuals.extend(residuals(series, &dolp, |facet| surface.dolp(facet)));
-                all.brdf_residuals.extend(residuals(series, &brdf, |facet| surface.reflection(facet).brdf));
+                let fitted = |points: Vec<DataPoint>| -> Vec<DataPoint> {
+                    points.into_iter().filter(|point| is_fitted(key.range, series, point)).collect()
+                };
+                all.dolp_residuals.extend(residuals(series, &fitted(dolp), |facet| surface.dolp(facet)));
+                all.brdf_residuals.extend(residuals(series, &fitted(brdf), |facet| surface.reflection(facet).brdf));
                 let is_own = key.own == Some((series.theta_i, series.plane));
                 all.add_curves(surface, series, key, [true, is_own || !series.brdf.is_empty()]);
             }

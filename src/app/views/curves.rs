@@ -7,6 +7,7 @@ use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasure
 use crate::app::work::workspace::Workspace;
 use crate::figure;
 use crate::figure::{Point, Rgb, SERIES, Symbol};
+use pbrdf::fit::FitRange;
 use pbrdf::model::{Diffuse, Model, Parameters, Pbrdf, Reflection};
 use pbrdf::optics::{Degrees, Facet};
 use tr::tr;
@@ -52,17 +53,34 @@ pub struct DataPoints {
     pub used: Vec<Point>,
     /// Without.
     pub masked: Vec<Point>,
+    /// Outside the angles that are fitted, without error bars.
+    pub outside: Vec<Point>,
 }
+
+/// Whether a point of a series is none of those that a fit uses because its angles are outside the range.
+pub fn is_outside(range: Option<FitRange>, series: &IncidenceSeries, point: &DataPoint) -> bool {
+    range.is_some_and(|range| series.geometry(point.theta_r).is_some_and(|geometry| !range.contains(geometry)))
+}
+
+/// Whether a fit uses it.
+pub fn is_fitted(range: Option<FitRange>, series: &IncidenceSeries, point: &DataPoint) -> bool {
+    !point.masked && !is_outside(range, series, point)
+}
+
+/// Opacity of points outside the range.
+const OUTSIDE: f64 = 0.4;
 
 impl DataPoints {
     /// The measured values that are drawn.
-    fn new(measured: &[DataPoint], step: usize, coordinate: impl Fn(f64, f64) -> f64) -> Self {
+    fn new(measured: &[DataPoint], step: usize, is_outside: impl Fn(&DataPoint) -> bool, coordinate: impl Fn(f64, f64) -> f64) -> Self {
         let mut points = Self::default();
         for mark in measured.iter().step_by(step) {
             let place = |value| coordinate(mark.theta_r, value);
             let (x, y) = (mark.theta_r, place(mark.quantity.value));
             if mark.masked {
                 points.masked.push(Point { x, y, bar: None });
+            } else if is_outside(mark) {
+                points.outside.push(Point { x, y, bar: None });
             } else {
                 let bar = mark.quantity.sigma.map(|sigma| (place(mark.quantity.value - sigma), place(mark.quantity.value + sigma)));
                 points.used.push(Point { x, y, bar });
@@ -73,14 +91,17 @@ impl DataPoints {
 
     /// Whether nothing was measured.
     pub fn is_empty(&self) -> bool {
-        self.used.is_empty() && self.masked.is_empty()
+        self.used.is_empty() && self.masked.is_empty() && self.outside.is_empty()
     }
 
-    /// The points in a figure, masked ones as grey circles.
+    /// The points in a figure, masked ones as grey circles, those outside the range as faint ones of their own colour.
     pub fn series(&self, name: &str, color: Rgb, marker: Symbol) -> impl Iterator<Item = figure::Series> {
         let used = figure::Series::measured(name, self.used.clone(), marker).colored(color);
         let masked = figure::Series::measured(tr!("masked"), self.masked.clone(), Symbol::Circle).colored(MUTED);
-        [used, masked].into_iter().zip([&self.used, &self.masked]).filter(|(_, points)| !points.is_empty()).map(|(series, _)| series)
+        let outside = figure::Series::measured(tr!("outside the range of the fit"), self.outside.clone(), Symbol::Circle);
+        let outside = outside.colored(color).faded(OUTSIDE);
+        let all = [used, masked, outside].into_iter().zip([&self.used, &self.masked, &self.outside]);
+        all.filter(|(_, points)| !points.is_empty()).map(|(series, _)| series)
     }
 }
 
@@ -232,7 +253,7 @@ impl Decimation {
 }
 
 impl MarkSet {
-    pub fn new(document: &OpenMeasurement, times_cosine: bool) -> Self {
+    pub fn new(document: &OpenMeasurement, times_cosine: bool, range: Option<FitRange>) -> Self {
         let total: usize = document.series.iter().map(|series| series.dolp.len() + series.brdf.len()).sum();
         let step = total.div_ceil(MOST_POINTS).max(1);
         let of = document.series.len();
@@ -241,8 +262,13 @@ impl MarkSet {
             index,
             name: series.name(),
             ink: series_ink(index, of),
-            dolp: DataPoints::new(&series.dolp, step, |_, value| value),
-            brdf: DataPoints::new(&series.brdf, step, |theta_r, value| drawn_brdf(theta_r, value, times_cosine)),
+            dolp: DataPoints::new(&series.dolp, step, |point| is_outside(range, series, point), |_, value| value),
+            brdf: DataPoints::new(
+                &series.brdf,
+                step,
+                |point| is_outside(range, series, point),
+                |theta_r, value| drawn_brdf(theta_r, value, times_cosine),
+            ),
         });
         let drawn = document.drawn().len();
         let left_out = match (of - drawn, step) {
@@ -252,6 +278,13 @@ impl MarkSet {
         };
         Self { series: series.collect(), left_out }
     }
+}
+
+/// The title of a figure against θr: the active measurement, and how it is told from others.
+pub fn figure_title(work: &Workspace) -> String {
+    let title = work.active().title();
+    let has_others = work.measurements().shown().any(|open| open.number != work.active().number && !open.series.is_empty());
+    if has_others { tr!("{}: a colour for each θi; other measurements by their markers", title) } else { title }
 }
 
 /// Values of a curve that take part in choosing an axis.

@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
 pub struct Derived {
-    /// Measured points, by the state of the document and whether a BRDF is multiplied by cos θr.
-    pub marks: Memo<(u64, bool), MarkSet>,
+    /// Measured points, by the state of the document, whether a BRDF is multiplied by cos θr, and the angles that are fitted.
+    pub marks: Memo<(u64, bool, Option<FitRange>), MarkSet>,
     /// The model along θr.
     pub curves: Memo<CurveKey, CurveSet>,
     /// What is drawn beside the active measurement and its surface.
@@ -70,8 +70,8 @@ impl Derived {
     /// The measured points and the curves, for the panes that draw them.
     pub fn refresh_curves(&mut self, work: &Workspace) {
         let (settings, document) = (work.settings(), work.active());
-        let times_cosine = settings.view_options.times_cosine;
-        self.marks.refresh((document.plotted, times_cosine), |_| MarkSet::new(document, times_cosine));
+        let (times_cosine, range) = (settings.view_options.times_cosine, settings.fit_options.range);
+        self.marks.refresh((document.plotted, times_cosine, range), |_| MarkSet::new(document, times_cosine, range));
         self.curves.refresh(CurveKey::new(work), |key| CurveSet::new(key, document));
         if let Some(key) = self.curves.key() {
             self.companions.refresh(work, key);

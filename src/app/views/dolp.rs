@@ -9,7 +9,7 @@ use crate::app::text::i18n::{Language, translated};
 use crate::app::views::companions::{CompanionId, Look};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, band_name, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn};
+use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn, figure_title};
 use crate::app::views::picking::{MASK_HINT, clicked_mask};
 use crate::app::views::residuals::ResidualStrip;
 use crate::app::views::series_choice::series_choice_ui;
@@ -128,7 +128,7 @@ impl DolpView {
             series.push(Series::line(&names.own, curves.own.dolp.clone()).colored(FOREGROUND));
         }
         let (x, y) = (key.x().on(Axis::linear("θr", "°")), self.range.on(Axis::linear("DoLP", "")));
-        Figure { title: cx.work.active().title(), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
+        Figure { title: figure_title(cx.work), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
     }
 
     fn push_limit(&self, series: &mut Vec<Series>, curves: &ModelCurves, names: &Names, color: Rgb, settings: &Settings) {

@@ -53,7 +53,7 @@ fn nodes(rows: usize, most: usize, evaluations: usize) -> usize {
 impl View for LandscapeView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
         let (work, settings, surface, document) = (cx.work, cx.work.settings(), cx.work.surface(), cx.work.active());
-        let LandscapeAxes { across, up, .. } = settings.maps.landscape;
+        let LandscapeAxes { across, up, .. } = settings.panes.landscape;
         let fit = cx.work.shown_fit().map(|fit| &**fit);
         self.marks.refresh(MarksKey::new(work), |key| Marks::new(key, work));
         let [x, y] = self.look_at(across, up);
@@ -83,7 +83,7 @@ impl View for LandscapeView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let mut axes = cx.work.settings().maps.landscape;
+        let mut axes = cx.work.settings().panes.landscape;
         self.axes_ui(&mut axes, cx.work.surface().model.parameters(), ui);
         if let Some(edit) = changed(cx, axes) {
             self.look_anew(None);
@@ -98,7 +98,7 @@ impl View for LandscapeView {
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let mut shown = cx.work.settings().maps.landscape;
+        let mut shown = cx.work.settings().panes.landscape;
         ui.checkbox(&mut shown.contours, tr!("Contours"));
         ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
             .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
@@ -123,7 +123,7 @@ impl View for LandscapeView {
 
 /// The edit that sets these axes, if they are others.
 fn changed(cx: &Cx<'_>, axes: LandscapeAxes) -> Option<Edit> {
-    (axes != cx.work.settings().maps.landscape).then_some(Edit::SetLandscapeAxes(axes))
+    (axes != cx.work.settings().panes.landscape).then_some(Edit::SetLandscapeAxes(axes))
 }
 
 /// What stands under the map while nothing is pointed at.
@@ -158,7 +158,7 @@ impl LandscapeView {
 
     fn refresh_plot(&mut self, work: &Workspace) {
         let (Some(key), Some(drawn)) = (self.job.key(), self.job.get()) else { return };
-        let shown = work.settings().maps.landscape;
+        let shown = work.settings().panes.landscape;
         // The marks have other axes than a landscape of before.
         if (key.across.parameter, key.up.parameter) != (shown.across, shown.up) {
             return;

@@ -10,8 +10,8 @@ use crate::app::text::localized::Localized as _;
 use crate::app::views::action::{Action, ListAction};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
-use crate::app::work::fit_setup::explain;
-use crate::app::work::model_fit::ModelFit;
+use crate::app::work::fit_setup::{explain, is_joint};
+use crate::app::work::model_fit::{ModelFit, NotFitted};
 use crate::app::work::workspace::Workspace;
 use crate::report::bracketed;
 use egui::{Button, CollapsingHeader, Grid, Response, RichText, Role, ScrollArea, TextWrapMode, Ui, Widget, WidgetInfo};
@@ -39,7 +39,11 @@ impl View for ModelsView {
         let running = cx.jobs.fits.compare.job().map(Job::progress);
         ui.horizontal(|ui| {
             let compare = ui.add_enabled(running.is_none(), egui::Button::new(tr!("Fit all models")));
-            let help = tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit");
+            let help = if is_joint(cx.work.measurements()) {
+                tr!("Fit the whole ladder of models to all measurements together, with the options and bounds of a fit")
+            } else {
+                tr!("Fit the whole ladder of models to this measurement, with the options and bounds of a fit")
+            };
             if compare.on_hover_text(help).clicked() {
                 cx.actions.push(Action::CompareModels);
             }
@@ -97,6 +101,11 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
     let best = comparison.iter().filter_map(|row| row.report()?.statistics.aicc).fold(f64::INFINITY, f64::min);
     let current = work.preset().map(|preset| preset.key);
     let width = (ui.clip_rect().width() - NUMBERS).clamp(*NAMES.start(), *NAMES.end());
+    let fitted = comparison.iter().find_map(|row| row.result.as_ref().ok());
+    if let Some(joint) = fitted.and_then(|fit| fit.joint.as_ref()) {
+        let (count, name) = (joint.of.result.sets.len(), document.title());
+        ui.label(tr!("{0} measurements fitted together: ΔE and AICc are of all; the parameters are those of {1}.", count, name));
+    }
     ui.weak(tr!("A click on a model takes its terms and values to the sliders, and shows its fit."));
     Grid::new("models").striped(true).spacing(SPACING).show(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
@@ -116,11 +125,14 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
             match &row.result {
                 Ok(fit) => {
                     pin_ui(&name, index, actions, ui);
-                    numbers_ui(&fit.report, best, ui);
+                    numbers_ui(&fit.report, row.objective(), best, ui);
                 }
                 Err(error) => {
                     ui.label("");
-                    let reason = explain(error, &document.measurement);
+                    let reason = match error {
+                        NotFitted::One(error) => explain(error, &document.measurement),
+                        NotFitted::Together(error) => error.localized(),
+                    };
                     ui.colored_label(theme::warning(ui.visuals().dark_mode), tr!("skipped: {}", reason));
                 }
             }
@@ -158,11 +170,11 @@ fn pin_ui(name: &str, index: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
     }
 }
 
-fn numbers_ui(report: &FitResult, best_aicc: f64, ui: &mut Ui) {
+fn numbers_ui(report: &FitResult, objective: Option<f64>, best_aicc: f64, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.statistics.chi2.filter(|_| report.statistics.dof > 0).map(|chi2| chi2 / report.statistics.dof as f64);
-    ui.label(number(report.objective, |value| format!("{value:.3e}"))).on_hover_text(report.stop_reason.localized());
+    ui.label(number(objective, |value| format!("{value:.3e}"))).on_hover_text(report.stop_reason.localized());
     ui.label(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
     for parameter in Parameter::ALL {
         match report.estimate(parameter) {
@@ -207,9 +219,13 @@ const MOST_MINIMA: usize = 6;
 
 /// Gauss against Cauchy, in words.
 fn verdicts(comparison: &[ModelFit]) -> Vec<String> {
-    let report = |key: &str| comparison.iter().find(|rung| rung.preset.key == key)?.report();
+    let fit = |key: &str| comparison.iter().find(|row| row.preset.key == key)?.result.as_ref().ok();
     let verdict = |(cauchy, gauss, terms): &(&str, &str, &str)| {
-        let contest = DistributionComparison::new(report(gauss)?, report(cauchy)?)?;
+        let (gauss, cauchy) = (fit(gauss)?, fit(cauchy)?);
+        let contest = match (&gauss.joint, &cauchy.joint) {
+            (Some(gauss), Some(cauchy)) => DistributionComparison::jointly(&gauss.of.result, &cauchy.of.result)?,
+            _ => DistributionComparison::new(&gauss.report, &cauchy.report)?,
+        };
         Some(tr!("Cauchy against Gauss ({0}): {1}", translated(terms), contest.localized()))
     };
     PAIRS.iter().filter_map(verdict).collect()

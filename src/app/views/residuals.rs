@@ -7,11 +7,12 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, CompanionId};
 use crate::app::views::context::Cx;
-use crate::app::views::curves::{CurveKey, MOST_POINTS, MarkSet, drawn};
+use crate::app::views::curves::{CurveKey, MOST_POINTS, MarkSet, drawn, is_fitted};
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::app::work::surface::Surface;
 use crate::figure::{Axis, Figure, Panel, Series};
 use egui::Ui;
+use pbrdf::fit::FitRange;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use tr::tr;
@@ -20,7 +21,7 @@ use tr::tr;
 #[derive(Default)]
 pub struct ResidualStrip {
     /// DoLP of the model less the measured one, of each series; masked points left out.
-    pub of_series: Memo<(Parameters, Model, u64), Vec<Curve>>,
+    pub of_series: Memo<(Parameters, Model, u64, Option<FitRange>), Vec<Curve>>,
     range: AutoRange,
     plot: FigurePlot<PlotKey>,
     is_there: bool,
@@ -39,8 +40,9 @@ const EXACT: f64 = 0.01;
 impl ResidualStrip {
     pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, companions: &[Companion<'_>], cx: &Cx<'_>) {
         let (surface, document) = (cx.work.surface(), cx.work.active());
-        let key = (surface.parameters, surface.model, document.plotted);
-        self.of_series.refresh(key, |_| of_all(surface, document));
+        let range = cx.work.settings().fit_options.range;
+        let key = (surface.parameters, surface.model, document.plotted, range);
+        self.of_series.refresh(key, |_| of_all(surface, document, range));
         self.is_there = document.series.iter().any(|series| !series.dolp.is_empty());
         let Some(residuals) = self.of_series.get() else { return };
         let others = companions.iter().flat_map(|companion| &companion.drawn.dolp_residuals);
@@ -87,11 +89,11 @@ impl ResidualStrip {
 /// Below this height marks stand closer, so that there is more than that at 0.
 const LOW: f32 = 100.0;
 
-fn of_all(surface: &Surface, document: &OpenMeasurement) -> Vec<Vec<[f64; 2]>> {
+fn of_all(surface: &Surface, document: &OpenMeasurement, range: Option<FitRange>) -> Vec<Vec<[f64; 2]>> {
     let Ok(surface) = Pbrdf::new(surface.model, surface.parameters) else { return Vec::new() };
     let of_one = |series: &IncidenceSeries| {
         let step = series.dolp.len().div_ceil(MOST_POINTS / document.drawn().len().max(1)).max(1);
-        let used = series.dolp.iter().step_by(step).filter(|mark| !mark.masked);
+        let used = series.dolp.iter().step_by(step).filter(|mark| is_fitted(range, series, mark));
         let residual = |mark: &DataPoint| {
             let facet = Facet::new(series.geometry(mark.theta_r)?);
             Some([mark.theta_r, surface.dolp(&facet) - mark.quantity.value])

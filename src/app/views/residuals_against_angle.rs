@@ -8,11 +8,12 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, Residual, residuals};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn};
+use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn, figure_title, is_fitted};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::figure::{Axis, Figure, Panel, Series};
 use egui::Ui;
+use pbrdf::fit::FitRange;
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
 use tr::tr;
@@ -31,7 +32,7 @@ pub static SPEC: PaneSpec = PaneSpec {
 pub struct ResidualsAgainstAngleView {
     /// Whether the residuals are those of the shown fit rather than of the sliders.
     of_fit: bool,
-    residuals: Memo<(Parameters, Model, u64), Vec<QuantityResiduals>>,
+    residuals: Memo<(Parameters, Model, u64, Option<FitRange>), Vec<QuantityResiduals>>,
     ranges: [AutoRange; 2],
     plot: FigurePlot<PlotKey>,
 }
@@ -89,13 +90,13 @@ impl Quantity {
 
 impl QuantityResiduals {
     /// None where the quantity was not measured.
-    fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement) -> Option<Self> {
-        let used = || drawn(document).flat_map(|series| quantity.points(series)).filter(|mark| !mark.masked);
-        used().next()?;
+    fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement, fitted: Option<FitRange>) -> Option<Self> {
+        let has_used = |series: &IncidenceSeries| quantity.points(series).iter().any(|mark| is_fitted(fitted, series, mark));
+        drawn(document).find(|series| has_used(series))?;
         let of_series = drawn(document).map(|series| {
             let points = quantity.points(series);
             let step = points.len().div_ceil(MOST_POINTS / document.drawn().len().max(1)).max(1);
-            let used: Vec<DataPoint> = points.iter().step_by(step).filter(|mark| !mark.masked).copied().collect();
+            let used: Vec<DataPoint> = points.iter().step_by(step).filter(|mark| is_fitted(fitted, series, mark)).copied().collect();
             residuals(series, &used, |facet| quantity.of_model(surface, facet)).collect()
         });
         Some(Self { quantity, of_series: of_series.collect() })
@@ -139,10 +140,11 @@ impl View for ResidualsAgainstAngleView {
         let companions: Vec<Companion<'_>> = cx.derived.companions.iter().collect();
         let fit = cx.work.shown_fit().filter(|fit| self.of_fit && fit.number == document.number);
         let (parameters, model) = fit.map_or((surface.parameters, surface.model), |fit| (fit.report.parameters, fit.report.model));
-        self.residuals.refresh((parameters, model, document.plotted), |_| match Pbrdf::new(model, parameters) {
+        let fitted = cx.work.settings().fit_options.range;
+        self.residuals.refresh((parameters, model, document.plotted, fitted), |_| match Pbrdf::new(model, parameters) {
             Ok(surface) => [Quantity::Dolp, Quantity::Brdf]
                 .into_iter()
-                .filter_map(|quantity| QuantityResiduals::new(quantity, &surface, document))
+                .filter_map(|quantity| QuantityResiduals::new(quantity, &surface, document, fitted))
                 .collect(),
             Err(_) => Vec::new(),
         });
@@ -161,7 +163,7 @@ impl View for ResidualsAgainstAngleView {
             let x = curves.x().on(Axis::linear("θr", "°"));
             let panels = residuals.iter().zip(ranges).enumerate();
             let panels: Vec<Panel> = panels.map(|(i, (residuals, range))| residuals.panel(marks, &companions, &x, range, i == 0)).collect();
-            (!panels.is_empty()).then(|| Figure { title: document.title(), panels, ..Figure::default() })
+            (!panels.is_empty()).then(|| Figure { title: figure_title(cx.work), panels, ..Figure::default() })
         });
     }
 
@@ -210,7 +212,7 @@ mod tests {
     #[test]
     fn residuals_are_over_sigma_where_every_value_states_one() {
         let surface = Pbrdf::new(Model::full(SlopeDistribution::Cauchy), Parameters::default()).expect("a surface");
-        let residuals = |text: &str, quantity| QuantityResiduals::new(quantity, &surface, &document(text));
+        let residuals = |text: &str, quantity| QuantityResiduals::new(quantity, &surface, &document(text), None);
         let stated = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,0.02\n";
         let bare = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,\n";
         let (stated_dolp, bare_dolp) = (residuals(stated, Quantity::Dolp).expect("DoLP"), residuals(bare, Quantity::Dolp).expect("DoLP"));

@@ -4,9 +4,10 @@ use crate::app::work::design::DesignSettings;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::layout::Layout;
-use crate::app::work::model_fit::ModelFit;
+use crate::app::work::model_fit::ComparedModel;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
+use crate::app::work::results_options::ResultsOptions;
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::{PinnedSurface, Surface};
 use pbrdf::fit::{Bootstrap, Estimate, FitOptions, FitResult, JointResult, Starts};
@@ -51,6 +52,8 @@ pub enum Edit {
     SetViewOptions(ViewOptions),
     SetLandscapeAxes(LandscapeAxes),
     SetPictureOptions(PictureOptions),
+    /// Hidden columns and the order of the table of results.
+    SetResultsOptions(ResultsOptions),
     SetMetalSelection(MetalSelection),
     /// The angles that might be measured.
     SetDesign(DesignSettings),
@@ -128,10 +131,10 @@ pub enum Edit {
     /// Takes the values and the model of an earlier fit, 0 the newest, and shows it with its
     /// measurement.
     ReturnToFit(usize),
-    /// The fits of all presets to the measurement of that number.
+    /// The fits of all presets to the measurements of those numbers: to one, or to several together.
     SetModelComparison {
-        number: u64,
-        fits: Vec<ModelFit>,
+        numbers: Vec<u64>,
+        models: Vec<ComparedModel>,
     },
     /// Takes the values and the model of that row of the comparison.
     UseModelFit(usize),

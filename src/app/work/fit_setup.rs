@@ -37,9 +37,7 @@ pub fn is_joint(list: &MeasurementList) -> bool {
 pub fn joint_problem(list: &MeasurementList, held: ParameterSet, fit_options: FitOptions) -> Result<JointProblem, JointError> {
     let (model, shared) = (list.active().surface.model, list.shared());
     let mut surfaces = list.measured();
-    let fit = JointFit::new(list.measured().map(|open| &*open.measurement), model);
-    let fit = fit.named(list.measured().map(OpenMeasurement::title)).own(model.parameters().without_all(shared).iter());
-    let fit = fit.options(fit_options).weights(list.measured().map(|open| open.weight)).each(|fit| {
+    let fit = joint_fit(list, model, fit_options).each(|fit| {
         let Some(open) = surfaces.next() else { return fit };
         let is_active = open.number == list.active().number;
         let free = free_together(list, open).without_all(if is_active { held } else { held.intersection(shared) });
@@ -52,6 +50,29 @@ pub fn joint_problem(list: &MeasurementList, held: ParameterSet, fit_options: Fi
         })
     });
     fit.problem()
+}
+
+/// The problem of fitting another model to all measurements together, from their surfaces within their bounds, with what is free by
+/// default.
+pub fn joint_problem_of(list: &MeasurementList, model: Model, fit_options: FitOptions) -> Result<JointProblem, JointError> {
+    let mut surfaces = list.measured();
+    let fit = joint_fit(list, model, fit_options).each(|fit| {
+        let Some(open) = surfaces.next() else { return fit };
+        let (start, bounds) = start_in_bounds(&open.surface, model.parameters());
+        let fit = open.surface.ties.iter().fold(fit.start_at(start), |fit, tie| fit.tie(tie.parameter, tie.factor, tie.to));
+        model.parameters().iter().fold(fit, |fit, parameter| {
+            let (low, high) = bounds.of(parameter);
+            fit.bound(parameter, low..=high)
+        })
+    });
+    fit.problem()
+}
+
+/// A fit of all measurements with their names, weights, and what each has for itself.
+fn joint_fit(list: &MeasurementList, model: Model, fit_options: FitOptions) -> JointFit<'_> {
+    let fit = JointFit::new(list.measured().map(|open| &*open.measurement), model);
+    let fit = fit.named(list.measured().map(OpenMeasurement::title)).own(model.parameters().without_all(list.shared()).iter());
+    fit.options(fit_options).weights(list.measured().map(|open| open.weight))
 }
 
 /// The parameters that a joint fit would change on the surface of a measurement: of the shared ones those that any data can speak of.

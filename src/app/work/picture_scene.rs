@@ -45,7 +45,7 @@ pub struct ShownValues {
 impl SceneKey {
     /// Of the work as it is.
     pub fn of(work: &Workspace) -> Self {
-        let (options, surface) = (work.settings().maps.picture, work.surface());
+        let (options, surface) = (work.settings().panes.picture, work.surface());
         let companion = match options.companion {
             PictureCompanion::Nothing => None,
             PictureCompanion::OtherDistribution => surface.of_equal_median(),

@@ -3,8 +3,10 @@
 
 use crate::app::text::i18n::Language;
 use crate::app::work::design::DesignSettings;
+use crate::app::work::import_memory::ImportMemory;
 use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
+use crate::app::work::results_options::ResultsOptions;
 use crate::app::work::settings_error::SettingsError;
 use pbrdf::fit::{FitOptions, Starts};
 use pbrdf::model::Parameter;
@@ -128,12 +130,18 @@ impl Default for LandscapeAxes {
     }
 }
 
-/// What the panes with maps of colours show, each under a key of its own among the settings.
+/// What panes show beyond the view options, each under a key of its own among the settings.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub struct MapSettings {
+pub struct PaneSettings {
     pub landscape: LandscapeAxes,
     pub picture: PictureOptions,
+    #[serde(skip_serializing_if = "is_default")]
+    pub results: ResultsOptions,
+}
+
+fn is_default(results: &ResultsOptions) -> bool {
+    *results == ResultsOptions::default()
 }
 
 /// Which tabulated metal is looked at, and at which wavelength.
@@ -206,7 +214,7 @@ pub struct Settings {
     #[serde(rename = "tabulated")]
     pub metal_selection: MetalSelection,
     #[serde(flatten)]
-    pub maps: MapSettings,
+    pub panes: PaneSettings,
 }
 
 impl Default for Settings {
@@ -226,7 +234,7 @@ impl Default for Settings {
             refit_live: false,
             view_options: ViewOptions::default(),
             metal_selection: MetalSelection::default(),
-            maps: MapSettings::default(),
+            panes: PaneSettings::default(),
         }
     }
 }
@@ -263,7 +271,7 @@ impl Settings {
         Geometry::new(self.theta_i, 0.0, self.dphi).map_err(SettingsError::Angles)?;
         let others = [
             ("plan", self.design.is_sound()),
-            ("picture", self.maps.picture.is_sound()),
+            ("picture", self.panes.picture.is_sound()),
             ("tabulated.wavelength_nm", is_positive(self.metal_selection.wavelength_nm)),
             ("choices.loss_scale", self.fit_options.loss_scale.is_none_or(is_positive)),
         ];
@@ -285,6 +293,8 @@ pub struct WindowSettings {
     pub show_frame_times: bool,
     /// Measurements opened lately, the newest first.
     pub recent: Vec<PathBuf>,
+    /// How the last foreign tables were read.
+    pub imports: ImportMemory,
 }
 
 /// Recent files that are kept.
@@ -299,6 +309,7 @@ impl Default for WindowSettings {
             maximized: false,
             show_frame_times: false,
             recent: Vec::new(),
+            imports: ImportMemory::default(),
         }
     }
 }

@@ -24,6 +24,8 @@ pub struct LabTable {
     layout: TableLayout,
     /// The encoding of a text, or the sheet of a workbook.
     source: String,
+    /// Of a workbook: the sheet, and all of them.
+    sheets: Option<(String, Vec<String>)>,
 }
 
 /// What a foreign table is taken for.
@@ -76,12 +78,13 @@ impl LabTable {
     #[cfg(feature = "workbooks")]
     fn of_workbook(bytes: Vec<u8>, options: &TableOptions, progress: Progress<'_>) -> Result<Self, ImportError> {
         let (grid, sheet, names) = super::workbook::sheet_of(bytes, options.sheet.as_deref(), options.thousands, progress)?;
-        Self::new(grid, format!("sheet {sheet}"), progress).map_err(|error| match error.kind {
-            crate::measurement::ReadErrorKind::NoNumbers if names.len() > 1 && options.sheet.is_none() => {
-                ImportError::NoSheet { wanted: String::new(), names }
+        match Self::new(grid, format!("sheet {sheet}"), progress) {
+            Ok(table) => Ok(Self { sheets: Some((sheet, names)), ..table }),
+            Err(ReadError { kind: crate::measurement::ReadErrorKind::NoNumbers, .. }) if names.len() > 1 && options.sheet.is_none() => {
+                Err(ImportError::NoSheet { wanted: String::new(), names })
             }
-            _ => error.into(),
-        })
+            Err(error) => Err(error.into()),
+        }
     }
 
     #[cfg(not(feature = "workbooks"))]
@@ -96,7 +99,13 @@ impl LabTable {
     /// No row holds numbers, or `progress` stops the reading.
     fn new(grid: CellGrid, source: String, progress: Progress<'_>) -> Result<Self, ReadError> {
         let layout = TableLayout::new(&grid, progress)?;
-        Ok(Self { grid, layout, source })
+        Ok(Self { grid, layout, source, sheets: None })
+    }
+
+    /// The sheet of a workbook that this is, and all of them in their order; none of a text.
+    #[must_use]
+    pub fn sheets(&self) -> Option<(&str, &[String])> {
+        self.sheets.as_ref().map(|(sheet, all)| (&**sheet, &**all))
     }
 
     /// Number of rows of data.

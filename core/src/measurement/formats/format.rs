@@ -3,6 +3,7 @@
 use super::error::ImportError;
 use super::imported::Imported;
 use super::question::{ImportOptions, Question};
+use crate::measurement::foreign::TableOptions;
 use crate::measurement::note::ImportNote;
 use crate::measurement::{Progress, unwatched};
 
@@ -53,6 +54,15 @@ pub trait ForeignFile: Send + Sync {
     /// An answer is missing or does not fit the file, or the first rows are damaged.
     fn preview(&self, options: &ImportOptions) -> Result<Imported, ImportError> {
         self.import(options, &mut unwatched)
+    }
+
+    /// The same file with its cells read in another way, where the options ask for one: another sheet of a workbook, another thousands
+    /// separator. Its questions may differ.
+    ///
+    /// # Errors
+    /// There is no such sheet, it holds no table, or `progress` stops the reading.
+    fn reopened(&self, _options: &TableOptions, _progress: Progress<'_>) -> Result<Option<Box<dyn ForeignFile>>, ImportError> {
+        Ok(None)
     }
 
     /// Whether a preview holds every row.

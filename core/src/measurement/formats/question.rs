@@ -33,6 +33,12 @@ pub struct TableSample {
     pub guess: Mapping,
     /// What the whole table is taken for.
     pub table: TableGuess,
+    /// The sheets of a workbook, in their order; none of a text.
+    pub sheets: Vec<String>,
+    /// Which of them this is.
+    pub sheet: Option<String>,
+    /// The thousands separator that its numbers were read with.
+    pub thousands: Option<char>,
 }
 
 /// The answers. What a file does not ask for is not used.
@@ -76,7 +82,10 @@ impl ImportOptions {
                 }
                 Question::ThetaI => options.theta_i = vec![OFFERED_THETA_I],
                 Question::Directions => options.dphi = Some(180.0),
-                Question::Columns(sample) => options.columns = sample.guess.clone(),
+                Question::Columns(sample) => {
+                    options.columns = sample.guess.clone();
+                    (options.table.sheet, options.table.thousands) = (sample.sheet.clone(), sample.thousands);
+                }
             }
         }
         options

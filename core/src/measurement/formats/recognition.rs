@@ -11,7 +11,7 @@ use super::table::ForeignTable;
 use super::woollam::Woollam;
 use super::zemax::Zemax;
 use crate::measurement::foreign::{OtherFormat, is_workbook};
-use crate::measurement::{Field, Measurement, Progress, ReadError, ReadErrorKind};
+use crate::measurement::{Field, Hint, Measurement, Progress, ReadError, ReadErrorKind};
 
 /// The forms that are recognised by content, in the order in which they are tried.
 pub static FORMATS: &[&dyn Format] = &[&Woollam, &EllipsometerTable, &SpectraRay, &FilmSense, &Pbsdf, &PabPgii, &Zemax];
@@ -35,6 +35,11 @@ pub fn extensions() -> Vec<&'static str> {
         }
     }
     extensions
+}
+
+/// Whether an answer about the thousands separator would help.
+fn has_thousands(error: &ReadError) -> bool {
+    matches!(error.hint(), Some(Hint::NameThousands(_)))
 }
 
 /// What a file holds.
@@ -62,7 +67,7 @@ pub fn open(bytes: Vec<u8>, progress: Progress<'_>) -> Result<Opened, ImportErro
         Err(error) if matches!(&error.kind, ReadErrorKind::NoQuantity { names } if names.iter().all(|name| Field::from_key(name).is_some())) => {
             Err(error.into())
         }
-        Err(error) if error.may_be_foreign() && OtherFormat::of(&bytes).is_none() => {
+        Err(error) if (error.may_be_foreign() || has_thousands(&error)) && OtherFormat::of(&bytes).is_none() => {
             match ForeignTable::new(bytes, progress) {
                 Ok(table) => Ok(Opened::Foreign(Box::new(table))),
                 // No table at all: the reason is what the file lacks.

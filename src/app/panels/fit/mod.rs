@@ -69,7 +69,7 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         }
         past::past_fits_ui(work, cx.actions, ui);
         ui.separator();
-        comparison::comparison_ui(work.model_comparison(), jobs.fits.compare.job().map(Job::progress), cx.actions, ui);
+        comparison::comparison_ui(work, jobs.fits.compare.job().map(Job::progress), cx.actions, ui);
     });
 }
 

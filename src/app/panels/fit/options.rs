@@ -40,8 +40,8 @@ pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
             eq17_ui(&mut draft.surface, has_brdf, ui);
             starts_ui(&mut draft, ui);
             range_ui(&mut draft.fit_options, ui);
-            weights_ui(cx, ui);
         });
+        weights_ui(cx, ui);
         if fit_options.weights == Weights::Sigma && !cx.derived.states_sigmas() {
             let text = tr!("This measurement does not state a standard deviation for every value: a fit with these weights cannot begin.");
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
@@ -174,14 +174,18 @@ fn weights_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         return;
     }
     let help = tr!("How often its squared residuals count in a fit of several measurements");
+    ui.label(tr!("Weight of each measurement")).on_hover_text(&help);
     for open in list.measured() {
-        let label = ui.add(Label::new(tr!("Weight of {}", open.title())).truncate()).on_hover_text(&help);
-        let mut weight = open.weight;
-        let field = DragValue::new(&mut weight).range(0.001..=1000.0).speed(0.01).max_decimals(4);
-        if ui.add(field).labelled_by(label.id).on_hover_text(&help).changed() {
-            cx.edits.push(Edit::SetWeight { number: open.number, weight });
-        }
-        ui.end_row();
+        // The number first: the name has the rest of the width.
+        ui.horizontal(|ui| {
+            let mut weight = open.weight;
+            let field = ui.add(DragValue::new(&mut weight).range(0.001..=1000.0).speed(0.01).max_decimals(4)).on_hover_text(&help);
+            field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("Weight of {}", open.title())));
+            if field.changed() {
+                cx.edits.push(Edit::SetWeight { number: open.number, weight });
+            }
+            ui.add(Label::new(open.title()).truncate());
+        });
     }
 }
 

@@ -12,6 +12,7 @@ use crate::app::storage::settings_file;
 use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
 use crate::app::text::localized::Localized as _;
 use crate::app::views::action::Action;
+use crate::app::work::results_options::ResultsOptions;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tr::tr;
@@ -190,7 +191,9 @@ pub fn save_settings(app: &mut App) {
     app.persistence.saved_settings = Some((app.own_work().revision(), app.window.clone()));
     let Some(path) = app.persistence.settings_path.clone() else { return };
     let own = app.own_work();
-    let settings = SavedSettings { settings: own.settings().clone(), surface: own.surface().clone() };
+    let mut settings = SavedSettings { settings: own.settings().clone(), surface: own.surface().clone() };
+    // Which columns are hidden belongs to these measurements.
+    settings.settings.panes.results = ResultsOptions::default();
     let file = SettingsFile { settings, layout: own.layout().clone(), window: app.window.clone() };
     if let Err(error) = settings_file::save(&path, &file) {
         app.persistence.settings_path = None;

@@ -6,7 +6,7 @@ use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_setup::{explain, fit_problem, free, is_joint, joint_problem};
+use crate::app::work::fit_setup::{explain, fit_problem, free, is_joint, joint_problem, joint_problem_of};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
@@ -137,17 +137,29 @@ fn refit_problem(app: &App) -> Option<RefitProblem> {
     Some(RefitProblem::One(open.number, Box::new(problem)))
 }
 
+/// Fits the ladder of models to the active measurement, or to all of them where they share something.
 pub fn compare_models(app: &mut App) -> Result<(), String> {
-    let (settings, surface, measurement) = (app.work.settings(), app.work.surface(), &app.work.active().measurement);
-    let problems = PRESETS.iter().map(|preset| {
-        let fit_options = FitOptions { dolp_only: preset.dolp_only, ..settings.fit_options };
-        let model = preset.model.with_dolp_formula(surface.model.dolp_formula);
-        let free = free_by_default(model, measurement, &fit_options);
-        (preset, fit_problem(surface, measurement, model, free, fit_options))
-    });
-    let (problems, starts, seed) = (problems.collect(), settings.starts, settings.seed);
-    let number = app.work.active().number;
-    app.work.apply(Edit::SetModelComparison { number, fits: Vec::new() });
+    let (list, settings) = (app.work.measurements(), app.work.settings());
+    let (starts, seed, active) = (settings.starts, settings.seed, list.active());
+    let ladder = || {
+        PRESETS.iter().map(|preset| {
+            let fit_options = FitOptions { dolp_only: preset.dolp_only, ..settings.fit_options };
+            (preset, preset.model.with_dolp_formula(active.surface.model.dolp_formula), fit_options)
+        })
+    };
+    if is_joint(list) {
+        let problem = |(preset, model, fit_options)| (preset, joint_problem_of(list, model, fit_options));
+        let problems: Vec<_> = ladder().map(problem).collect();
+        let numbers = list.measured().map(|open| open.number).collect();
+        app.work.apply(Edit::SetModelComparison { numbers, models: Vec::new() });
+        return app.jobs.fits.compare_jointly(app.work.measurements(), problems, starts, seed);
+    }
+    let problem = |(preset, model, fit_options)| {
+        let free = free_by_default(model, &active.measurement, &fit_options);
+        (preset, fit_problem(&active.surface, &active.measurement, model, free, fit_options))
+    };
+    let (problems, numbers) = (ladder().map(problem).collect(), vec![active.number]);
+    app.work.apply(Edit::SetModelComparison { numbers, models: Vec::new() });
     app.jobs.fits.compare(app.work.active(), problems, starts, seed)
 }
 

@@ -6,11 +6,12 @@ use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::autosaved;
 use crate::app::shell::app::fits::{bootstrapped, fitted, intervals_found, profiled};
-use crate::app::shell::app::open::{files_loaded, imported};
+use crate::app::shell::app::open::{alike_found, files_loaded, imported, reopened};
 use crate::app::shell::app::session::{exported, session_read};
 use crate::app::shell::file_dialogs::{command_for, unavailable_text};
 use crate::app::tasks::benchmarks::FinishedBenchmark;
 use crate::app::tasks::files::DialogAnswer;
+use crate::app::tasks::fits::ComparedModels;
 use crate::app::tasks::jobs::Jobs;
 use crate::app::work::edit::Edit;
 use std::path::PathBuf;
@@ -36,6 +37,8 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.dialog, dialog_answered, || tr!("The file dialog ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.files.load, files_loaded, reading_panicked);
     poll(app, |jobs| &mut jobs.files.import, imported, reading_panicked);
+    poll(app, |jobs| &mut jobs.files.reopen, reopened, reading_panicked);
+    poll(app, |jobs| &mut jobs.files.alike, alike_found, reading_panicked);
     poll(app, |jobs| &mut jobs.files.session, |app, loaded| session_read(app, &loaded.path, loaded.result), reading_panicked);
     poll(app, |jobs| &mut jobs.files.save, measurement_saved, writing_panicked);
     poll(app, |jobs| &mut jobs.files.export, exported, writing_panicked);
@@ -44,7 +47,7 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.fits.fit, fitted, fit_panicked);
     poll(app, |jobs| &mut jobs.fits.intervals, intervals_found, || tr!("The intervals ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.refit, |app, found| app.work.apply(Edit::Refit(found)), fit_panicked);
-    poll(app, |jobs| &mut jobs.fits.compare, |app, (number, fits)| app.work.apply(Edit::SetModelComparison { number, fits }),
+    poll(app, |jobs| &mut jobs.fits.compare, |app, ComparedModels { numbers, models }| app.work.apply(Edit::SetModelComparison { numbers, models }),
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.profile, |app, profile| profiled(app, &profile), || tr!("The profile ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.bootstrap, bootstrapped, || tr!("The bootstrap ended unexpectedly; nothing was lost."));

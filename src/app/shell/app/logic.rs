@@ -6,7 +6,7 @@ use crate::app::shell::app::autosave::{autosave_when_rested, save_when_rested};
 use crate::app::shell::app::execute::execute;
 use crate::app::shell::app::fits::{follow_active, refit_if_moved};
 use crate::app::shell::app::job_results::poll_jobs;
-use crate::app::shell::app::open::open_waiting;
+use crate::app::shell::app::open::{open_waiting, reopen_if_asked};
 use crate::app::shell::app::title::show_title;
 use crate::app::shell::commands;
 use crate::app::text::i18n;
@@ -35,6 +35,7 @@ pub fn logic(app: &mut App, ctx: &egui::Context) {
     if !app.interacting && !app.jobs.fits.refit.is_running() {
         app.work.record_step();
     }
+    reopen_if_asked(app);
     refresh(app);
     show_title(app, ctx);
     remember_window(app, ctx);

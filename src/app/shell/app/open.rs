@@ -8,8 +8,8 @@ use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::lessons::{Lessons, own_folder};
 use crate::app::storage::export::ExportKind;
 use crate::app::storage::folder::measurements_in;
-use crate::app::storage::import::{Loaded, Origin};
-use crate::app::tasks::files::LoadedFile;
+use crate::app::storage::import::{Loaded, Origin, note_source};
+use crate::app::tasks::files::{Alike, LoadedFile, Reopened, WithoutFiles};
 use crate::app::text::localized::Localized;
 use crate::app::views::Views;
 use crate::app::work::edit::Edit;
@@ -137,11 +137,54 @@ pub fn files_loaded(app: &mut App, files: Vec<LoadedFile>) {
 
 /// Shows the questions of the next foreign file, if none are on screen.
 fn ask_next(app: &mut App) {
-    if app.dialogs.import.is_none()
-        && let Some(mut import) = app.dialogs.imports_waiting.pop_front()
+    if app.dialogs.import.is_some() {
+        return;
+    }
+    let Some(mut import) = app.dialogs.imports_waiting.pop_front() else { return };
+    if let Some(shape) = import.shape().cloned() {
+        import.recall(app.window.imports.recall(&shape));
+        let alike = app.dialogs.imports_waiting.iter().filter(|other| other.shape() == Some(&shape));
+        import.companions.opened = alike.filter_map(|other| other.origin.path.clone()).collect();
+        // They were chosen together.
+        import.companions.are_meant = !import.companions.opened.is_empty();
+        let without = WithoutFiles {
+            paths: app.dialogs.imports_waiting.iter().filter_map(|other| other.origin.path.clone()).collect(),
+            sha256: app.work.measurements().iter().filter_map(|open| open.sha256.clone()).collect(),
+        };
+        if let Some(path) = import.origin.path.clone()
+            && let Err(sentence) = app.jobs.files.find_alike(path, shape, without)
+        {
+            app.toasts.error(sentence);
+        }
+    }
+    app.dialogs.import = Some(import);
+}
+
+/// Files of the folder have been found that the answers may be for too.
+pub fn alike_found(app: &mut App, Alike { of, paths }: Alike) {
+    if let Some(import) = &mut app.dialogs.import
+        && import.origin.path.as_ref() == Some(&of)
     {
-        app.dialogs.import_memory.recall(&mut import);
-        app.dialogs.import = Some(import);
+        import.companions.folder = paths;
+    }
+}
+
+/// Reads the cells anew where the options ask for another sheet or thousands separator.
+pub fn reopen_if_asked(app: &mut App) {
+    if let Some(import) = &app.dialogs.import
+        && let Some(options) = import.asks_for_other_cells()
+        && !app.jobs.files.reopen.is_running()
+        && let Err(sentence) = app.jobs.files.reopen(Arc::clone(&import.file), options.clone())
+    {
+        app.toasts.error(sentence);
+    }
+}
+
+pub fn reopened(app: &mut App, result: Reopened) {
+    if let Some(import) = &mut app.dialogs.import
+        && import.asks_for_other_cells() == Some(&result.options)
+    {
+        import.reopened(result.file);
     }
 }
 
@@ -157,6 +200,7 @@ pub fn start_import(app: &mut App) -> Result<(), String> {
 pub fn cancel_import(app: &mut App) {
     if app.dialogs.import.take().is_some() {
         app.jobs.files.import.abandon();
+        app.jobs.files.abandon_dialog();
         ask_next(app);
     }
 }
@@ -164,16 +208,26 @@ pub fn cancel_import(app: &mut App) {
 pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
     match (result, app.dialogs.import.take()) {
         (Ok(mut imported), Some(import)) => {
-            app.dialogs.import_memory.keep(&import);
-            let name = import.origin.name.replace(char::is_control, " ");
-            let source = ("imported_from".to_owned(), name);
-            imported.measurements.iter_mut().for_each(|measurement| measurement.metadata.push(source.clone()));
+            app.jobs.files.abandon_dialog();
+            let answers = import.answers();
+            answers.iter().for_each(|answers| app.window.imports.keep(answers));
+            note_source(&mut imported, &import.origin.name);
+            let alike = if import.companions.are_meant { import.companions.paths().to_vec() } else { Vec::new() };
             if let Some(number) = loaded(app, import.origin, imported) {
                 app.work.apply(Edit::Activate(number));
             }
+            if let Some(answers) = answers.filter(|_| !alike.is_empty()) {
+                app.dialogs.imports_waiting.retain(|other| other.origin.path.as_ref().is_none_or(|path| !alike.contains(path)));
+                if let Err(sentence) = app.jobs.files.open_alike(alike, answers) {
+                    app.toasts.error(sentence);
+                }
+            }
             ask_next(app);
         }
-        (Err(error), Some(import)) => app.dialogs.import = Some(ImportDialog { error: Some(error), ..import }),
+        (Err(error), Some(mut import)) => {
+            import.error = Some(error);
+            app.dialogs.import = Some(import);
+        }
         // The dialog was closed meanwhile.
         (_, None) => {}
     }

@@ -43,7 +43,9 @@ impl Localized for Hint {
         match self {
             Self::Import => tr!("a table of another form needs at least two columns of numbers"),
             Self::NameDolpPercent => tr!("if the column holds percent, name it dolp_percent"),
-            Self::NameThousands => tr!("write one decimal mark, and no thousands separators"),
+            Self::NameThousands(separator) => {
+                tr!("write one decimal mark in all cells, or choose “{}” as what separates thousands", separator)
+            }
             Self::LeaveOut => tr!("a row with # before it, or with 1 in a column masked, is left out"),
             Self::SaveAsUtf8 => tr!("save the file as CSV in UTF-8"),
             Self::SeparateBySemicolons => tr!("if commas are decimal marks, separate the cells by semicolons"),

@@ -31,7 +31,7 @@ pub struct MarksKey {
 impl MarksKey {
     pub fn new(work: &Workspace) -> Self {
         let settings = work.settings();
-        let LandscapeAxes { across, up, .. } = settings.maps.landscape;
+        let LandscapeAxes { across, up, .. } = settings.panes.landscape;
         let wavelength_nm = settings.metal_selection.wavelength_nm;
         let (axes, shown) = ((across, up), work.shown_fit().map(|fit| fit.id));
         Self { axes, fits: work.fit_history().count(), shown, number: work.active().number, wavelength_nm, language: i18n::current() }

@@ -71,7 +71,7 @@ impl PictureView {
 
     /// The options with the analyser where it has turned to.
     fn options(&self, cx: &Cx<'_>) -> PictureOptions {
-        let set = cx.work.settings().maps.picture;
+        let set = cx.work.settings().panes.picture;
         PictureOptions { analyser: (set.analyser + self.turned.unwrap_or(0.0)).rem_euclid(180.0), ..set }
     }
 
@@ -169,7 +169,7 @@ impl View for PictureView {
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let mut set = cx.work.settings().maps.picture;
+        let mut set = cx.work.settings().panes.picture;
         controls::content_ui(&mut set, ui);
         controls::light_ui(&mut set, ui);
         controls::analyser_ui(&mut set, &mut self.turned, ui);
@@ -201,7 +201,7 @@ impl View for PictureView {
         if let Some(lesson) = self.lesson() {
             ui.add(egui::Label::new(egui::RichText::new(&lesson).weak()).truncate()).on_hover_text(lesson);
         }
-        if set != cx.work.settings().maps.picture {
+        if set != cx.work.settings().panes.picture {
             cx.edits.push(Edit::SetPictureOptions(set));
         }
     }

@@ -3,7 +3,7 @@
 use super::Workspace;
 use super::results::Results;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::model_fit::ModelFit;
+use crate::app::work::model_fit::{ComparedModel, ModelFit, NotFitted};
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::{FitResult, JointResult};
 use pbrdf::model::{Model, Parameters, Preset};
@@ -116,21 +116,42 @@ impl Workspace {
     }
 
     /// The fits of a comparison join the history, the first row as the newest; none is shown.
-    pub(super) fn set_model_comparison(&mut self, number: u64, mut fits: Vec<ModelFit>) {
-        let name = self.measurements.get(number).map(|open| open.name.clone());
-        for fit in fits.iter_mut().rev().filter_map(|row| row.result.as_mut().ok()) {
-            let entry = FitEntry::clone(fit);
-            let document = name.clone().unwrap_or_else(|| entry.document.clone());
-            *fit = self.fit_history.push(FitEntry { document, ..entry });
+    pub(super) fn set_model_comparison(&mut self, numbers: &[u64], models: Vec<ComparedModel>) {
+        let mut comparisons: Vec<Vec<ModelFit>> = numbers.iter().map(|_| Vec::new()).collect();
+        for ComparedModel { preset, result } in models.into_iter().rev() {
+            let fits = result.map(|fits| fits.into_iter().map(|fit| self.add_to_history(fit)).collect::<Vec<_>>());
+            for (number, comparison) in numbers.iter().zip(&mut comparisons) {
+                let its = |fits: &Vec<Arc<FitEntry>>| fits.iter().find(|fit| fit.number == *number).cloned();
+                let result = fits.as_ref().map(its).map_err(NotFitted::clone);
+                comparison.extend(result.transpose().map(|result| ModelFit { preset, result }));
+            }
         }
-        self.results.of_mut(number).model_comparison = fits;
+        for (&number, mut comparison) in numbers.iter().zip(comparisons) {
+            comparison.reverse();
+            self.results.of_mut(number).model_comparison = comparison;
+        }
     }
 
-    /// Shows the fit of a row of the comparison, and takes its values.
+    /// The fit in the history, under the name that its measurement has now.
+    fn add_to_history(&mut self, mut fit: FitEntry) -> Arc<FitEntry> {
+        if let Some(open) = self.measurements.get(fit.number) {
+            fit.document.clone_from(&open.name);
+        }
+        self.fit_history.push(fit)
+    }
+
+    /// Shows the fit of a row of the comparison, and takes its values; of a joint fit those of all its measurements.
     pub(super) fn use_model_fit(&mut self, index: usize) {
         let Some(Ok(fit)) = self.model_comparison().get(index).map(|row| row.result.as_ref()) else { return };
         let fit = fit.clone();
         self.take_values(fit.report.parameters, fit.report.model);
+        if fit.joint.is_some() {
+            let parts: Vec<Arc<FitEntry>> = self.fit_history.parts(fit.id).filter(|part| part.number != fit.number).cloned().collect();
+            for part in parts {
+                self.measurements.set_values_of(part.number, part.report.model, part.report.parameters);
+                self.show_fit(part);
+            }
+        }
         self.show_fit(fit);
     }
 

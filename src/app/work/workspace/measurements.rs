@@ -68,6 +68,7 @@ impl Workspace {
 
     pub(super) fn rename(&mut self, number: u64, name: String) {
         if let Some(open) = self.measurements.get_mut(number) {
+            self.settings.panes.results.rename(&open.name, &name);
             open.name = name;
             open.is_placeholder = false;
         }
