@@ -120,7 +120,7 @@ fn errors_carry_the_hint_that_helps() {
         (format!("{head}\nNaN,20,0.1,0.1\n"), None),
         (format!("{head}\n30,5,20,0,1,0,01\n"), Some(Hint::SeparateBySemicolons)),
         (format!("{head}\n30,20\n"), None),
-        ("theta_i;theta_r;brdf\n30;20;1.234,5\n".to_owned(), Some(Hint::NameThousands)),
+        ("theta_i;theta_r;brdf\n30;20;1.234,5\n".to_owned(), Some(Hint::NameThousands('.'))),
         ("t\0h\0e\0".to_owned(), Some(Hint::SaveAsUtf8)),
     ] {
         assert_eq!(Measurement::read(text.as_bytes()).expect_err(&text).hint(), hint, "{text:?}");

@@ -32,8 +32,8 @@ pub struct ImportDialog {
     first: Option<(TableShape, Option<String>)>,
     /// The answers that a table of this shape was opened with, which are offered.
     pub recalled: Option<KeptAnswers>,
-    /// The cells could not be read as these options ask.
-    unreadable: Option<TableOptions>,
+    /// The options that the cells were read for, or could not be read for, at last.
+    asked_for: Option<TableOptions>,
     pub companions: Companions,
 }
 
@@ -63,7 +63,7 @@ impl ImportDialog {
         let sheet = sample_of(&questions).and_then(|sample| sample.sheet.clone());
         let first = TableShape::of(&questions).map(|shape| (shape, sheet));
         let (preview, companions) = (Memo::default(), Companions::default());
-        Self { origin, file, questions, options, slices, preview, error: None, first, recalled: None, unreadable: None, companions }
+        Self { origin, file, questions, options, slices, preview, error: None, first, recalled: None, asked_for: None, companions }
     }
 
     /// The shape of a table as it was first shown.
@@ -93,16 +93,20 @@ impl ImportDialog {
         (self.options.table.sheet, self.options.table.thousands) = (sheet, None);
     }
 
-    /// The options that ask for other cells than the file was read with: another sheet, another thousands separator.
-    pub fn asks_for_other_cells(&self) -> Option<&TableOptions> {
-        let sample = sample_of(&self.questions)?;
-        let table = &self.options.table;
-        let is_read = table.thousands == sample.thousands && (table.sheet.is_none() || table.sheet == sample.sheet);
-        (!is_read && self.unreadable.as_ref() != Some(table)).then_some(table)
+    /// The options that ask for other cells than the file was read with, another sheet or thousands separator, when they do so first.
+    pub fn asks_for_other_cells(&mut self) -> Option<TableOptions> {
+        let is_new = !self.is_read() && self.asked_for.as_ref() != Some(&self.options.table);
+        is_new.then(|| {
+            self.error = None;
+            self.asked_for.insert(self.options.table.clone()).clone()
+        })
     }
 
-    /// Takes the file with its cells read in another way.
-    pub fn reopened(&mut self, result: Result<Option<Box<dyn ForeignFile>>, ImportError>) {
+    /// Takes the file with its cells read as those options ask, if they still do.
+    pub fn reopened(&mut self, options: &TableOptions, result: Result<Option<Box<dyn ForeignFile>>, ImportError>) {
+        if self.options.table != *options {
+            return;
+        }
         match result {
             Ok(None) => {}
             Ok(Some(file)) => {
@@ -117,22 +121,24 @@ impl ImportDialog {
                 self.options.table = TableOptions { sheet, thousands, ..asked };
                 self.preview = Memo::default();
             }
-            Err(error) => {
-                self.unreadable = Some(self.options.table.clone());
-                self.error = Some(error);
-            }
+            Err(error) => self.error = Some(error),
         }
     }
 
     /// Whether the cells are as the options ask for.
     pub fn is_read(&self) -> bool {
-        self.unreadable.as_ref() != Some(&self.options.table) && self.asks_for_other_cells().is_none()
+        let table = &self.options.table;
+        let is_of = |sheet: &Option<String>| table.sheet.is_none() || table.sheet == *sheet;
+        sample_of(&self.questions).is_none_or(|sample| table.thousands == sample.thousands && is_of(&sample.sheet))
     }
 
     /// Before each frame: the preview of the options.
     pub fn refresh(&mut self) {
         if !self.is_read() {
             return;
+        }
+        if self.asked_for.take().is_some() {
+            self.error = None;
         }
         let Self { file, questions, options, slices, preview, error, .. } = self;
         if questions.iter().any(|question| matches!(question, Question::Directions)) {

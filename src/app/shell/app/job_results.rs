@@ -37,8 +37,8 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.dialog, dialog_answered, || tr!("The file dialog ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.files.load, files_loaded, reading_panicked);
     poll(app, |jobs| &mut jobs.files.import, imported, reading_panicked);
-    poll(app, |jobs| &mut jobs.files.reopen, reopened, reading_panicked);
-    poll(app, |jobs| &mut jobs.files.alike, alike_found, reading_panicked);
+    poll(app, |jobs| &mut jobs.files.reopen, reopened, looking_panicked);
+    poll(app, |jobs| &mut jobs.files.alike, alike_found, looking_panicked);
     poll(app, |jobs| &mut jobs.files.session, |app, loaded| session_read(app, &loaded.path, loaded.result), reading_panicked);
     poll(app, |jobs| &mut jobs.files.save, measurement_saved, writing_panicked);
     poll(app, |jobs| &mut jobs.files.export, exported, writing_panicked);
@@ -56,6 +56,10 @@ pub fn poll_jobs(app: &mut App) {
 
 fn reading_panicked() -> String {
     tr!("Reading the file ended unexpectedly; what is open stays.")
+}
+
+fn looking_panicked() -> String {
+    tr!("A look at the file ended unexpectedly; what is open stays.")
 }
 
 fn writing_panicked() -> String {

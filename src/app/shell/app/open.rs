@@ -171,20 +171,17 @@ pub fn alike_found(app: &mut App, Alike { of, paths }: Alike) {
 
 /// Reads the cells anew where the options ask for another sheet or thousands separator.
 pub fn reopen_if_asked(app: &mut App) {
-    if let Some(import) = &app.dialogs.import
-        && let Some(options) = import.asks_for_other_cells()
-        && !app.jobs.files.reopen.is_running()
-        && let Err(sentence) = app.jobs.files.reopen(Arc::clone(&import.file), options.clone())
+    let Some(import) = &mut app.dialogs.import else { return };
+    if let Some(options) = import.asks_for_other_cells()
+        && let Err(sentence) = app.jobs.files.reopen(Arc::clone(&import.file), options)
     {
         app.toasts.error(sentence);
     }
 }
 
-pub fn reopened(app: &mut App, result: Reopened) {
-    if let Some(import) = &mut app.dialogs.import
-        && import.asks_for_other_cells() == Some(&result.options)
-    {
-        import.reopened(result.file);
+pub fn reopened(app: &mut App, Reopened { options, file }: Reopened) {
+    if let Some(import) = &mut app.dialogs.import {
+        import.reopened(&options, file);
     }
 }
 
