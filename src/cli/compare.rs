@@ -3,17 +3,15 @@
 use crate::cli::arguments::CompareArguments;
 use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
+use crate::cli::ladder::ladder_results;
 use crate::cli::problem::{NoProblem, check, fitted, problem_of};
 use crate::cli::sets::{MeasurementSets, NamedMeasurement};
-use crate::cli::verdict::{INTERRUPTED, NOT_REACHED, PAIRS, verdict_text};
+use crate::cli::verdict::{INTERRUPTED, PAIRS, verdict_text};
 use crate::cli::watched::Watched;
 use crate::cli::{compare_joint, interrupt, output};
 use crate::figure::Figure;
 use crate::report::{ComparedMeasurement, English, ResultColumn, ResultTable, comparison_figure, fit_json};
-use pbrdf::fit::{
-    DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Observer, Problem, ProblemError, SpecialCases, ends_text,
-    fit_ladder,
-};
+use pbrdf::fit::{DistributionComparison, EstimateStatus, FitResult, GaussAtFixedSigma, Problem, ProblemError, ends_text};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use serde_json::{Value, json};
@@ -119,26 +117,6 @@ fn problems(
         Err(other) => Err(other.about(sets.path(set), &set.measurement)),
     };
     presets.iter().map(of).collect()
-}
-
-/// The fit of each model by `fit`, in the order of the presets, or why there is none.
-pub fn ladder_results<P: SpecialCases>(
-    presets: &[&'static Preset],
-    problems: Vec<Result<P, String>>,
-    fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
-) -> Vec<(&'static Preset, Result<(P, P::Fitted), String>)> {
-    let posed: Vec<Option<&P>> = problems.iter().map(|problem| problem.as_ref().ok()).collect();
-    let fits = fit_ladder(&posed, |place, problem| {
-        (!interrupt::asked()).then(|| {
-            let watched = Watched::new(presets[place].key);
-            let closures = watched.watch();
-            fit(problem, closures.as_watch())
-        })
-    });
-    let result = |((preset, problem), fit): ((&&'static Preset, Result<P, String>), Option<P::Fitted>)| {
-        (*preset, problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))))
-    };
-    presets.iter().zip(problems).zip(fits).map(result).collect()
 }
 
 /// Gauss against Cauchy, wherever both were fitted.

@@ -1,9 +1,9 @@
 //! `compare --own`: the ladder of models on several measurements together.
 
 use crate::cli::arguments::CompareArguments;
-use crate::cli::compare::ladder_results;
 use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
+use crate::cli::ladder::ladder_results;
 use crate::cli::problem::{fitted_jointly, joint_failure, joint_problem, model, own_among};
 use crate::cli::sets::MeasurementSets;
 use crate::cli::verdict::{INTERRUPTED, PAIRS, verdict_text};

@@ -19,6 +19,7 @@ mod import_command;
 mod input;
 mod interrupt;
 mod joint;
+mod ladder;
 mod metals;
 mod mitsuba;
 mod output;

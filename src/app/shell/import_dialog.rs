@@ -34,12 +34,12 @@ pub struct ImportDialog {
     pub recalled: Option<KeptAnswers>,
     /// The options that the cells were read for, or could not be read for, at last.
     asked_for: Option<TableOptions>,
-    pub companions: Companions,
+    pub alike: AlikeFiles,
 }
 
 /// Files that the same answers may be for.
 #[derive(Debug, Default)]
-pub struct Companions {
+pub struct AlikeFiles {
     /// Of those that were opened with it.
     pub opened: Vec<PathBuf>,
     /// Of its folder.
@@ -48,7 +48,7 @@ pub struct Companions {
     pub are_meant: bool,
 }
 
-impl Companions {
+impl AlikeFiles {
     /// The files that may be meant: others of the folder only where none was opened with it.
     pub fn paths(&self) -> &[PathBuf] {
         if self.opened.is_empty() { &self.folder } else { &self.opened }
@@ -62,8 +62,8 @@ impl ImportDialog {
         let slices = Slices { theta_i: AngleRange::new(15.0, 75.0, 15.0), theta_r: AngleRange::new(-80.0, 80.0, 5.0) };
         let sheet = sample_of(&questions).and_then(|sample| sample.sheet.clone());
         let first = TableShape::of(&questions).map(|shape| (shape, sheet));
-        let (preview, companions) = (Memo::default(), Companions::default());
-        Self { origin, file, questions, options, slices, preview, error: None, first, recalled: None, asked_for: None, companions }
+        let (preview, alike) = (Memo::default(), AlikeFiles::default());
+        Self { origin, file, questions, options, slices, preview, error: None, first, recalled: None, asked_for: None, alike }
     }
 
     /// The shape of a table as it was first shown.

@@ -3,7 +3,7 @@
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::dialogs::Dialogs;
-use crate::app::shell::import_dialog::{Companions, ImportDialog, Slices};
+use crate::app::shell::import_dialog::{AlikeFiles, ImportDialog, Slices};
 use crate::app::shell::import_picture_ui::becomes_ui;
 use crate::app::shell::import_table_ui::{OFFERED_THETA_I, columns_ui};
 use crate::app::text::i18n::translated;
@@ -38,7 +38,7 @@ pub fn import_ui(app: &mut App, ui: &mut Ui) {
         ui.separator();
         let answer = ScrollArea::vertical().id_salt("answer").min_scrolled_height(ANSWER_HEIGHT).max_height(ANSWER_HEIGHT);
         let is_sound = answer.auto_shrink([false; 2]).show(ui, |ui| answer_ui(import, ui)).inner;
-        companions_ui(&mut import.companions, ui);
+        alike_ui(&mut import.alike, ui);
         ui.add_space(6.0);
         ui.horizontal(|ui| {
             if let Some(done) = jobs.files.reading_fraction() {
@@ -80,15 +80,15 @@ fn recalled_ui(import: &mut ImportDialog, ui: &mut Ui) {
 }
 
 /// Whether other files are opened with the same answers.
-fn companions_ui(companions: &mut Companions, ui: &mut Ui) {
+fn alike_ui(alike: &mut AlikeFiles, ui: &mut Ui) {
     const NAMED: usize = 12;
-    let paths = companions.paths();
+    let paths = alike.paths();
     // The line is there in any case: nothing jumps when files are found.
     if paths.is_empty() {
         ui.label("");
         return;
     }
-    let text = if companions.opened.is_empty() {
+    let text = if alike.opened.is_empty() {
         tr!("also apply to the other {} files of this folder", paths.len())
     } else {
         tr!("also apply to the other {} files that were opened with it", paths.len())
@@ -97,7 +97,7 @@ fn companions_ui(companions: &mut Companions, ui: &mut Ui) {
     let mut names: Vec<String> = paths.iter().take(NAMED).map(name).collect();
     names.extend((paths.len() > NAMED).then(|| "…".to_owned()));
     let help = tr!("They have the same columns: {}", names.join(", "));
-    ui.checkbox(&mut companions.are_meant, text).on_hover_text(help);
+    ui.checkbox(&mut alike.are_meant, text).on_hover_text(help);
 }
 
 /// The questions of the file, each in its widgets.

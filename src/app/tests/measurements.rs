@@ -186,7 +186,7 @@ fn foreign_files_ask_one_after_the_other() {
     assert_eq!(names(&mut harness), ["mine.csv"]);
     let asked = |harness: &mut Window| explorer(harness).dialogs.import.as_ref().map(|import| import.origin.name.clone());
     assert_eq!(asked(&mut harness).as_deref(), Some("one.csv"));
-    explorer(&mut harness).dialogs.import.as_mut().expect("a question").companions.are_meant = false;
+    explorer(&mut harness).dialogs.import.as_mut().expect("a question").alike.are_meant = false;
     order(&mut harness, Action::Import);
     assert_eq!(asked(&mut harness).as_deref(), Some("two.csv"));
     order(&mut harness, Action::CancelImport);

@@ -144,9 +144,9 @@ fn ask_next(app: &mut App) {
     if let Some(shape) = import.shape().cloned() {
         import.recall(app.window.imports.recall(&shape));
         let alike = app.dialogs.imports_waiting.iter().filter(|other| other.shape() == Some(&shape));
-        import.companions.opened = alike.filter_map(|other| other.origin.path.clone()).collect();
+        import.alike.opened = alike.filter_map(|other| other.origin.path.clone()).collect();
         // They were chosen together.
-        import.companions.are_meant = !import.companions.opened.is_empty();
+        import.alike.are_meant = !import.alike.opened.is_empty();
         let without = WithoutFiles {
             paths: app.dialogs.imports_waiting.iter().filter_map(|other| other.origin.path.clone()).collect(),
             sha256: app.work.measurements().iter().filter_map(|open| open.sha256.clone()).collect(),
@@ -165,7 +165,7 @@ pub fn alike_found(app: &mut App, Alike { of, paths }: Alike) {
     if let Some(import) = &mut app.dialogs.import
         && import.origin.path.as_ref() == Some(&of)
     {
-        import.companions.folder = paths;
+        import.alike.folder = paths;
     }
 }
 
@@ -209,7 +209,7 @@ pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
             let answers = import.answers();
             answers.iter().for_each(|answers| app.window.imports.keep(answers));
             note_source(&mut imported, &import.origin.name);
-            let alike = if import.companions.are_meant { import.companions.paths().to_vec() } else { Vec::new() };
+            let alike = if import.alike.are_meant { import.alike.paths().to_vec() } else { Vec::new() };
             if let Some(number) = loaded(app, import.origin, imported) {
                 app.work.apply(Edit::Activate(number));
             }

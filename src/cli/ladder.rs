@@ -1,0 +1,27 @@
+//! The ladder of models of `compare`, on one measurement or on several together.
+
+use crate::cli::interrupt;
+use crate::cli::verdict::NOT_REACHED;
+use crate::cli::watched::Watched;
+use pbrdf::fit::{Observer, SpecialCases, fit_ladder};
+use pbrdf::model::Preset;
+
+/// The fit of each model by `fit`, in the order of the presets, or why there is none.
+pub fn ladder_results<P: SpecialCases>(
+    presets: &[&'static Preset],
+    problems: Vec<Result<P, String>>,
+    fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
+) -> Vec<(&'static Preset, Result<(P, P::Fitted), String>)> {
+    let posed: Vec<Option<&P>> = problems.iter().map(|problem| problem.as_ref().ok()).collect();
+    let fits = fit_ladder(&posed, |place, problem| {
+        (!interrupt::asked()).then(|| {
+            let watched = Watched::new(presets[place].key);
+            let closures = watched.watch();
+            fit(problem, closures.as_watch())
+        })
+    });
+    let result = |((preset, problem), fit): ((&&'static Preset, Result<P, String>), Option<P::Fitted>)| {
+        (*preset, problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))))
+    };
+    presets.iter().zip(problems).zip(fits).map(result).collect()
+}
