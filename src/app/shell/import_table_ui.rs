@@ -8,8 +8,10 @@ use pbrdf::measurement::formats::{ImportOptions, TableSample};
 use pbrdf::measurement::{BrdfMeaning, ColumnChoice, Field, MappedColumn, Mapping, Unit, is_not_measured};
 use tr::tr;
 
-/// Height of the rows that are shown.
+/// Height of the rows that are shown, at most and at least, and what the rest of the dialog takes.
 const TABLE_HEIGHT: f32 = 250.0;
+const LEAST_HEIGHT: f32 = 110.0;
+const REST_HEIGHT: f32 = 460.0;
 /// Columns that are shown; a wider table is read whole all the same.
 const SHOWN_COLUMNS: usize = 40;
 
@@ -79,7 +81,8 @@ fn rows_and_answers_ui(options: &mut ImportOptions, table: &TableSample, ui: &mu
     let Some(columns) = table.table.columns.first() else { return };
     let columns = &columns[..columns.len().min(SHOWN_COLUMNS)];
     // As high whatever is chosen: nothing jumps.
-    ScrollArea::both().id_salt("columns").max_height(TABLE_HEIGHT).auto_shrink([false; 2]).show(ui, |ui| {
+    let height = (ui.ctx().content_rect().height() - REST_HEIGHT).clamp(LEAST_HEIGHT, TABLE_HEIGHT);
+    ScrollArea::both().id_salt("columns").max_height(height).auto_shrink([false; 2]).show(ui, |ui| {
         Grid::new("columns").num_columns(columns.len() + 1).spacing([12.0, 2.0]).show(ui, |ui| {
             ui.label("");
             for (index, planned) in columns.iter().enumerate() {
