@@ -2,7 +2,7 @@
 # Installs a Debian package in a clean system, starts the program under a virtual display, opens a session by its MIME type, and removes it
 # without a trace: packaging/test_deb.sh PACKAGE.deb
 #
-# Needs root, debootstrap, and a mirror of Debian (MIRROR; that of apt without).
+# Needs root, debootstrap, and a mirror of Debian (MIRROR; that of apt without). BASE names a folder with a clean system that is copied instead.
 set -euo pipefail
 package=$(realpath "$1")
 source=$(cd "$(dirname "$0")/.." && pwd)
@@ -12,8 +12,12 @@ trap 'umount -q "$root/proc" "$root/dev" 2> /dev/null || true; rm -rf "$root"' E
 step() { printf '== %s\n' "$*"; }
 
 step "a clean system"
-debootstrap --variant=minbase --include=ca-certificates bookworm "$root" "$mirror" > "$root.log" 2>&1 || { tail "$root.log"; exit 1; }
-rm -f "$root.log"
+if [ -n "${BASE:-}" ]; then
+    cp -a "$BASE/." "$root"
+else
+    debootstrap --variant=minbase --include=ca-certificates bookworm "$root" "$mirror" > "$root.log" 2>&1 || { tail "$root.log"; exit 1; }
+    rm -f "$root.log"
+fi
 for file in /etc/resolv.conf /etc/hosts; do cp -L "$file" "$root$file" 2> /dev/null || true; done
 cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2> /dev/null || true
 mount -t proc proc "$root/proc"
@@ -41,16 +45,14 @@ test "$(inside xdg-mime query default "$type")" = pbrdf-explorer.desktop
 inside xvfb-run -a -s "-screen 0 1366x768x24" bash -c '
     xdg-open /home/reader/work.pbrdf.json > /dev/null 2>&1 &
     for _ in $(seq 300); do
-        window=$(xdotool search --name "work.pbrdf.json" 2> /dev/null | head -1)
+        window=$(xdotool search --name "^work .* pbrdf-explorer" 2> /dev/null | head -1)
         [ -n "$window" ] && break
         sleep 0.2
     done
     [ -n "$window" ] || { echo "no window has the name of the session"; xdotool search --name . getwindowname %@; exit 1; }
     xdotool getwindowname "$window"
-    xdotool key --window "$window" ctrl+q
-    sleep 1
-    xdotool windowquit "$window" 2> /dev/null || true
-    sleep 1'
+    kill "$(xdotool getwindowpid "$window")"
+    wait'
 
 step "remove"
 inside apt-get -qq purge -y pbrdf-explorer > /dev/null

@@ -27,7 +27,17 @@ const WINDOW: Option<OpenWindow> = None;
 #[cfg(feature = "cli")]
 #[must_use]
 pub fn run() -> ExitCode {
-    cli::run(WINDOW)
+    cli::run(std::env::args_os(), WINDOW)
+}
+
+/// The same with other arguments, of which the first is the name of the program; returns the number of the exit code. For programs that have
+/// this one within them.
+#[cfg(feature = "cli")]
+#[must_use]
+pub fn run_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    let code = cli::run(arguments, WINDOW);
+    // The standard library tells exit codes apart, but does not say their numbers.
+    (0..=u8::MAX).find(|&number| ExitCode::from(number) == code).unwrap_or(1)
 }
 
 /// The arguments of the program, from which completions of shells and manual pages are made.

@@ -11,6 +11,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The book in `docs/` says what all of this is for: `docs/model.md` every formula, `docs/fits.md` and `docs/intervals.md` what the numbers of a
+//! fit mean, `docs/numerics.md` how exact they are; its chapter `docs/rust.md` leads back here.
+//!
 //! # Tour
 //!
 //! ## Evaluate
@@ -199,3 +202,8 @@ pub mod optics;
 pub use fit::rounding;
 #[cfg(feature = "selftest")]
 pub mod selftest;
+
+/// The code of the book's chapter on Rust runs as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/rust.md")]
+mod book {}

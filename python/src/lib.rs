@@ -11,6 +11,7 @@ mod picture;
 mod pixels;
 mod planning;
 mod posterior;
+mod program;
 mod surface;
 mod watched;
 
@@ -36,6 +37,7 @@ fn _pbrdf(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metals::metals, module)?)?;
     module.add_function(wrap_pyfunction!(picture::picture, module)?)?;
     module.add_function(wrap_pyfunction!(pixels::fit_pixels, module)?)?;
+    module.add_function(wrap_pyfunction!(program::main, module)?)?;
     module.add_function(wrap_pyfunction!(planning::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(planning::choose_angles, module)?)?;
     module.add_class::<posterior::Drawn>()?;

@@ -29,7 +29,7 @@ pub fn run(arguments: &FitArguments) -> Result<ExitCode, Failure> {
     let parameters = model(arguments.model, &arguments.problem).parameters();
     let columns: Vec<String> = KEYS.into_iter().chain(["model"]).map(str::to_owned).chain(row_columns(parameters)).collect();
     let columns: Vec<String> = columns.into_iter().chain(["notices", "error"].map(str::to_owned)).collect();
-    let comments = [("program", export::program()), ("options", options(arguments, std::env::args().skip(1)))];
+    let comments = [("program", export::program()), ("options", options(arguments, std::env::args().skip_while(|word| word != "fit")))];
     let table = BatchTable::open(output, &comments, &columns)?;
     let batch = Batch { arguments, files: &files, columns: columns.len(), course: Mutex::new(Course::new(table, files.len())) };
     batch.work();

@@ -38,6 +38,7 @@ mod watched;
 use arguments::{Arguments, Commands, ExportTarget};
 use clap::{CommandFactory as _, Parser as _};
 use failure::Failure;
+use std::ffi::OsString;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -51,8 +52,8 @@ pub fn command() -> clap::Command {
 }
 
 /// Runs what the arguments say; without a command opens the window, where this build has one.
-pub fn run(open_window: Option<OpenWindow>) -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+pub fn run(arguments: impl IntoIterator<Item = OsString>, open_window: Option<OpenWindow>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => return Failure::usage(sentence(&error)).report(),
         // Help and version are answers.
