@@ -3,11 +3,9 @@
 # as it is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-target=${CARGO_TARGET_DIR:-target}
 case ${1:-} in
     --no-build) ;;
     *) cargo build --release --locked ;;
 esac
-cargo run -q --release --example package_files --no-default-features --features cli -- "$target/package-files"
-# Debian wants them compressed, the same bytes each time.
-cargo deb --no-build --target-dir "$target" -o "$target/debian/"
+cargo run -q --release --example package_files --no-default-features --features cli -- target/package-files
+cargo deb --no-build -o "${CARGO_TARGET_DIR:-target}/debian/"

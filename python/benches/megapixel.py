@@ -1,4 +1,4 @@
-"""A sphere of one megapixel under three lamps: python benches/megapixel.py [SIZE]
+"""A sphere of one megapixel under three lamps: python benches/megapixel.py [SIZE [SEED]]
 
 Simulated with noise of 0.005 of S0 in each Stokes component and one unknown scale of the radiance; says which of the determined parameters
 lie within their 95 % intervals, the time, and the most memory.
@@ -21,15 +21,15 @@ SCALE = 37.0
 
 def main():
     size = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    random = np.random.default_rng(1)
+    random = np.random.default_rng(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     stokes = np.empty((len(LAMPS), 3, size, size))
     for number, lamp in enumerate(LAMPS):
         seen = pbrdf.picture("cauchy", SURFACE, lamp=lamp, size=size)
         stokes[number] = SCALE * (seen.stokes + 0.005 * seen.s0 * random.standard_normal((3, size, size)))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    begun = time.perf_counter()
+    begun, busy = time.perf_counter(), time.process_time()
     found = pbrdf.fit_pixels(stokes, pbrdf.sphere((size, size), center=((size - 1) / 2,) * 2, radius=size / 2), LAMPS)
-    spent = time.perf_counter() - begun
+    spent, busy = time.perf_counter() - begun, time.process_time() - busy
     print(found)
     truth = {**SURFACE, "ks": SCALE, "kd": SCALE * SURFACE["kd"], "kv": SCALE * SURFACE["kv"]}
     for name, estimate in found.parameters.items():
@@ -38,7 +38,7 @@ def main():
             verdict = "within" if low <= truth[name] <= high else "OUTSIDE"
             print(f"{name}: {low:.6g} … {high:.6g}, truth {truth[name]:.6g}: {verdict}")
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    print(f"{found.used.sum()} pixels, {spent:.1f} s, {most / 2**20:.2f} GiB at most ({before / 2**20:.2f} GiB before the fit)")
+    print(f"{found.used.sum()} pixels, {spent:.1f} s ({busy:.1f} s of processor), {most / 2**20:.2f} GiB at most ({before / 2**20:.2f} GiB before the fit)")
 
 
 if __name__ == "__main__":

@@ -285,8 +285,8 @@ def _read(given: Any, key: str, found: str) -> _Item:
         measurements = read_quietly(given)
     except PbrdfError as error:
         return _Item(key, found, [], str(error))
-    several = len(measurements) > 1
-    one = [(item.name if several else "", bytes(item._inner.to_csv()), "; ".join(item.notes)) for item in measurements]
+    own = Path(key).name
+    one = [("" if item.name == own and len(measurements) == 1 else item.name, bytes(item._inner.to_csv()), "; ".join(item.notes)) for item in measurements]
     return _Item(key, found, one)
 
 

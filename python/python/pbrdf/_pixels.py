@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 _QUANTILES = (1.0, 1.959964)
 # A pixel is of the body where it is brighter than this share of the median of the bright ones.
 _FOREGROUND = 0.1
+# Upper bound of a weight where the scale is not known, in medians of S0: a polished surface has a lobe so much brighter than the rest.
+_BRIGHTEST = 1000.0
 # Degrees within which lamps count as standing at one angle from the camera.
 _SAME_ANGLE = 0.5
 
@@ -333,8 +335,12 @@ def fit_pixels(
     options = {**options, "intervals": intervals}
     if scale is not None:
         options["fix"] = {"ks": 1.0, **_fixed(options.get("fix"))}
-    settings = fit_settings(model, **options)
     used = _usable(light, facing, mask, saturation, _checks.number("dark", dark))
+    if not used.any():
+        raise PbrdfError("no pixel is left: each is masked, dark, saturated or beside the body")
+    if scale is None:
+        options = _scaled(options, float(np.median(light[:, 0][used])))
+    settings = fit_settings(model, **options)
     request = SimpleNamespace(
         lamps=directions,
         normals=np.ascontiguousarray(facing, dtype=np.float64).reshape(-1),
@@ -344,8 +350,6 @@ def fit_pixels(
         used=used.reshape(-1),
         max_angle=angle,
     )
-    if not used.any():
-        raise PbrdfError("no pixel is left: each is masked, dark, saturated or beside the body")
     inner, noise, places, (of_s0, of_dolp) = _pbrdf.fit_pixels(request, settings, progress)
     maps = SimpleNamespace(used=np.zeros(used.shape, dtype=bool), s0=np.full(used.shape, np.nan), dolp=np.full(used.shape, np.nan))
     maps.used.flat[places] = True
@@ -354,6 +358,18 @@ def fit_pixels(
     polar = np.array([direction[0] for direction in directions])
     one_angle = float(0.5 * polar.mean()) if np.ptp(polar) <= _SAME_ANGLE else None
     return PixelFit(FitResult(inner), noise, maps, one_angle)
+
+
+def _scaled(options: dict[str, Any], radiance: float) -> dict[str, Any]:
+    """Starts and bounds of the weights in units of what the camera gives, where nothing else is said of them."""
+    start = {"ks": 3.0 * radiance, "kd": radiance, "kv": 0.3 * radiance}
+    bounds = {name: (0.0, _BRIGHTEST * radiance) for name in start}
+    held = set(_fixed(options.get("fix")))
+    tied = set(options.get("tie") or {})
+    free = [name for name in start if name not in held | tied]
+    said = {key: dict(options.get(key) or {}) for key in ("start", "bounds")}
+    of = {"start": start, "bounds": bounds}
+    return {**options, **{key: {**{name: of[key][name] for name in free}, **said[key]} for key in said}}
 
 
 def _fixed(fix: Any) -> dict[str, Any]:
