@@ -6,9 +6,9 @@
 set -euo pipefail
 package=$(realpath "$1")
 source=$(cd "$(dirname "$0")/.." && pwd)
-mirror=${MIRROR:-$(awk '/^(deb|URIs:)/ {for (i = 2; i <= NF; i++) if ($i ~ /^http/) {print $i; exit}}' /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null)}
+mirror=${MIRROR:-$(cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null | sed -nE '/^#/!s#.*(https?://[^ ]*).*#\1#p' | sed -n 1p || true)}
 root=$(mktemp -d "${TMPDIR:-/tmp}/pbrdf-deb.XXXXXX")
-trap 'umount -q "$root/proc" "$root/dev" 2> /dev/null || true; rm -rf "$root"' EXIT
+trap 'for at in dev/pts dev proc; do umount -q "$root/$at" 2> /dev/null || true; done; rm -rf "$root"' EXIT
 step() { printf '== %s\n' "$*"; }
 
 step "a clean system"
@@ -22,6 +22,7 @@ for file in /etc/resolv.conf /etc/hosts; do cp -L "$file" "$root$file" 2> /dev/n
 cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2> /dev/null || true
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+mount -t devpts devpts "$root/dev/pts"
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/home/reader LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 mkdir -p "$root/home/reader"
 inside apt-get -qq update
@@ -45,7 +46,7 @@ test "$(inside xdg-mime query default "$type")" = pbrdf-explorer.desktop
 inside xvfb-run -a -s "-screen 0 1366x768x24" bash -c '
     xdg-open /home/reader/work.pbrdf.json > /dev/null 2>&1 &
     for _ in $(seq 300); do
-        window=$(xdotool search --name "^work .* pbrdf-explorer" 2> /dev/null | head -1)
+        window=$(xdotool search --name "^work .* pBRDF explorer" 2> /dev/null | head -1)
         [ -n "$window" ] && break
         sleep 0.2
     done
