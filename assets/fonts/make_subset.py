@@ -29,7 +29,7 @@ def gb2312_level_1():
 
 
 def used():
-    for path in [*ASSETS.glob("locales/*.po"), *ASSETS.glob("lessons/*.txt")]:
+    for path in [*ASSETS.glob("locales/*.po"), *ASSETS.glob("lessons/*.md")]:
         yield from (c for c in path.read_text(encoding="utf-8") if ord(c) >= 0x2E80)
 
 

@@ -41,6 +41,7 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
             app.toasts.error(notice);
         }
         begin(&mut app);
+        app.dialogs.tour = (!app.window.knows_tour).then_some(0);
         if let Some(folder) = WorkFolder::of_user() {
             keep_work(&mut app, folder, !files.is_empty());
         }

@@ -33,6 +33,12 @@ impl PictureQuantity {
     /// All of them.
     pub const ALL: [Self; 6] = [Self::S0, Self::Dolp, Self::Aop, Self::Analyser, Self::S1, Self::S2];
 
+    /// The quantity of that name in files.
+    pub fn from_key(key: &str) -> Option<Self> {
+        let keys = ["s0", "dolp", "aop", "analyser", "s1", "s2"];
+        Self::ALL.into_iter().zip(keys).find(|(_, own)| *own == key).map(|(quantity, _)| quantity)
+    }
+
     /// Its value in each pixel, row by row from the top; `analyser` is the angle of the analyser in degrees.
     #[must_use]
     pub fn values(self, image: &StokesImage, analyser: f64) -> Vec<f64> {

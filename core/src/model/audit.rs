@@ -115,13 +115,15 @@ impl Finding {
     #[must_use]
     pub fn why(&self) -> &'static str {
         match (self.check, self.pass) {
-            (Check::SpecularReciprocity, true) => "A facet mirrors either way alike, and so do shadowing and masking.",
+            (Check::SpecularReciprocity, true) => {
+                "P, G and the Fresnel reflection stay when the directions change places; tested on the radiance, F00."
+            }
             (Check::SpecularReciprocity, false) => "The specular term should be the same both ways: this is a fault of the program.",
             (Check::DiffuseReciprocity, true) => "cos θi and cos θr enter as a product: they may change places.",
             (Check::DiffuseReciprocity, false) => {
                 "Hyde's balance depends on the angle of incidence alone: seen the other way round it is another."
             }
-            (Check::VolumeReciprocity, true) => "So wide a volume lobe hardly depends on any angle.",
+            (Check::VolumeReciprocity, true) => "The volume lobe is absent, or so wide that it hardly depends on any angle.",
             (Check::VolumeReciprocity, false) => "The volume term depends on the angle of view alone: it cannot be reciprocal.",
             (Check::Reflectance, true) => "No more light leaves the surface than falls on it.",
             (Check::Reflectance, false) => {

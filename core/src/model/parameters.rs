@@ -100,12 +100,12 @@ parameters! {
     K k {
         key: "k", symbol: "k", name: "extinction coefficient", unit: "",
         range: 0.0..=20.0, domain: INDEX, default: 3.0, logarithmic: false,
-        help: "Imaginary part of the complex refractive index N = n + i k. For a good metal it is larger than n, and DoLP knows little more than n/(n² + k²).",
+        help: "Imaginary part of the complex refractive index N = n + i k. For a good metal it is larger than n, and at moderate angles DoLP knows little more than n/(n² + k²).",
     }
     Sigma sigma {
         key: "sigma", symbol: "σ", name: "surface slope", unit: "",
         range: 0.001..=3.0, domain: WIDTH, default: 0.3, logarithmic: true,
-        help: "Scale of the facet slopes: larger is rougher and gives a wider specular lobe. A slope, without unit; not a height in µm.",
+        help: "Scale of the facet slopes: larger is rougher and gives a wider specular lobe. For Gauss it is the rms slope along one direction; for Cauchy there is no rms slope if q ≤ 2. A slope, without unit; not a height in µm.",
     }
     Ks ks {
         key: "ks", symbol: "k_s", name: "specular coefficient", unit: "",

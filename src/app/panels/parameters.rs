@@ -1,19 +1,18 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
+use crate::app::panels::parameter_slider::{DirectionAngle, angle_ui, number_from_text, slider_ui};
 use crate::app::panels::sharing::{shared_of, shared_ui, sharing_ui};
-use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::ties::tie_ui;
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
-use crate::app::views::Cx;
 use crate::app::views::action::{Action, ListAction};
+use crate::app::views::{Cx, note_stop};
 use crate::app::work::edit::{Edit, Switch};
-use crate::app::work::settings::Settings;
 use crate::app::work::surface::{Surface, another};
-use egui::{Align, DragValue, Grid, Layout, Role, Slider, SliderClamping, Ui, WidgetInfo};
+use egui::{Align, DragValue, Grid, Layout, Role, Ui, WidgetInfo};
 use pbrdf::model::{Diffuse, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
@@ -75,18 +74,38 @@ struct Room {
     has_words: bool,
 }
 
+/// Least width of a column, and of a slider, in points.
+const LEAST: f32 = 27.0;
+const SHORTEST_SLIDER: f32 = 56.0;
+/// What a row has beside slider, value and names: lock, reset in words or as an arrow, the switch
+/// between shared and own, the gaps.
+const LOCK: f32 = 58.0;
+const RESET: f32 = 54.0;
+const ARROW: f32 = 27.0;
+const SHARED: f32 = 56.0;
+const GAPS: f32 = 12.0;
+
 impl Room {
-    const ALONE: Self = Self { slider: 100.0, value: 92.0, least: 40.0, has_words: true };
-    /// With the switch between shared and own at the end of the row.
-    const BESIDE_SWITCH: Self = Self { slider: 72.0, value: 84.0, least: 27.0, has_words: false };
+    /// Of a row in a panel of that width: what is left is the slider's.
+    fn of(width: f32, beside_switch: bool) -> Self {
+        let value = if beside_switch { 84.0 } else { 92.0 };
+        let rest = |reset: f32| width - LEAST - value - LOCK - reset - GAPS - if beside_switch { SHARED } else { 0.0 };
+        let has_words = rest(RESET) >= SHORTEST_SLIDER;
+        let slider = rest(if has_words { RESET } else { ARROW }).clamp(SHORTEST_SLIDER, 420.0);
+        Self { slider, value, least: LEAST, has_words }
+    }
 }
+
+/// Height of the list of models, in points: all of them are seen.
+const LIST: f32 = 320.0;
 
 /// The named models; whatever the switches below say, if they match none.
 fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Model"));
         let combo = egui::ComboBox::from_id_salt("preset")
-            .width(288.0)
+            .height(LIST)
+            .width((ui.available_width() - ui.spacing().item_spacing.x).max(120.0))
             .selected_text(current.map_or_else(|| tr!("as switched below"), |preset| translated(preset.name)));
         let response = combo.show_ui(ui, |ui| {
             for preset in &PRESETS {
@@ -96,6 +115,7 @@ fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
                 }
             }
         });
+        note_stop(ui.ctx(), response.response.id);
         response
             .response
             .labelled_by(label.id)
@@ -182,7 +202,7 @@ fn diffuse_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_right(ui, "(cos θi cos θr)^c / π");
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_right(ui, tr!("1/π in all directions: c = 0"));
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
-                .on_hover_right(ui, tr!("k_s (1 − ρ(θi))/π: what the specular lobe of a perfect reflector loses, given back without polarisation; no parameter of its own"));
+                .on_hover_right(ui, tr!("k_s (1 − ρ(θi))/π, where ρ is the share of the light that the specular lobe would send back if its facets reflected all: what is lost comes back without polarisation. The factor k_s is a choice of this program; no parameter of its own"));
         });
         let shown: &[Parameter] = match surface.model.diffuse {
             Diffuse::Absent | Diffuse::Hyde => &[],
@@ -206,58 +226,29 @@ fn volume_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
 
 fn geometry_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     ui.strong(tr!("Lobes are seen at"));
-    let defaults = Settings::default();
-    let before = (cx.work.settings().theta_i, cx.work.settings().dphi);
-    let (mut theta_i, mut dphi) = before;
-    Grid::new("geometry").num_columns(3).show(ui, |ui| {
-        let angles: [(&mut f64, f64, std::ops::RangeInclusive<f64>, &str, String); 2] = [
-            (&mut theta_i, defaults.theta_i, 0.0..=89.9, "θi", tr!("Angle of incidence of the lobes, degrees")),
-            (
-                &mut dphi,
-                defaults.dphi,
-                0.0..=360.0,
-                "Δφ",
-                tr!("Relative azimuth φr − φi, degrees: 180 is the forward side of the plane of incidence"),
-            ),
-        ];
-        for (angle, default, range, name, help) in angles {
-            let label = name_ui(ui, name, &help);
-            let before = *angle;
-            let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
-            let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help);
-            step_with_arrows(ui, &slider, before, angle, &range, SliderStep::Fixed(0.5));
-            if is_double_clicked(ui, &[&label, &slider]) {
-                *angle = default;
-            }
-            ui.add(DragValue::new(angle).range(range).clamp_existing_to_range(false).speed(0.1).max_decimals(3).suffix("°"))
-                .labelled_by(label.id);
+    let before = [cx.work.settings().theta_i, cx.work.settings().dphi];
+    let mut angles = before;
+    let width = Room::of(ui.available_width(), false).slider;
+    Grid::new("geometry").num_columns(3).min_col_width(LEAST).show(ui, |ui| {
+        for (of, angle) in DirectionAngle::ALL.into_iter().zip(&mut angles) {
+            angle_ui(of, angle, width, ui);
             ui.end_row();
         }
     });
-    if (theta_i, dphi) != before {
+    if angles != before {
+        let [theta_i, dphi] = angles;
         cx.edits.push(Edit::SetDirection { theta_i, dphi });
     }
 }
 
-/// The name of a slider; a double click on it resets what it names.
-fn name_ui(ui: &mut Ui, name: &str, help: &str) -> egui::Response {
-    // Clicks alone: a stop on the way of the Tab key would be one too many.
-    ui.add(egui::Label::new(name).selectable(false).sense(egui::Sense::CLICK)).on_hover_right(ui, help)
-}
-
-/// Whether any of them was clicked twice; a slider senses drags alone.
-fn is_double_clicked(ui: &Ui, responses: &[&egui::Response]) -> bool {
-    let twice = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
-    twice && responses.iter().any(|response| response.contains_pointer())
-}
-
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
     let Sliders { surface, shared, show_bounds, refusals, ranges } = sliders;
-    let room = if shared.is_some() { Room::BESIDE_SWITCH } else { Room::ALONE };
+    let room = Room::of(ui.available_width(), shared.is_some());
     Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).min_col_width(room.least).show(ui, |ui| {
-        ui.spacing_mut().slider_width = room.slider;
         for &parameter in parameters {
-            slider_ui(surface, refusals, ranges[parameter].clone(), room, ui, parameter);
+            slider_ui(surface, refusals, ranges[parameter].clone(), [room.slider, room.value], ui, parameter);
+            let is_outside = !ranges[parameter].contains(&surface.parameters[parameter]);
+            lock_and_reset_ui(surface, is_outside, room, ui, parameter);
             shared.iter_mut().for_each(|shared| shared_ui(shared, parameter, ui));
             ui.end_row();
             if *show_bounds {
@@ -268,84 +259,6 @@ fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Pa
             }
         }
     });
-}
-
-/// Name, slider, typed value with unit; lock and reset.
-fn slider_ui(surface: &mut Surface, refusals: &mut Vec<String>, range: RangeInclusive<f64>, room: Room, ui: &mut Ui, parameter: Parameter) {
-    let outside = !range.contains(&surface.parameters[parameter]);
-    let help = tr!(
-        "{0} {1}: {2}\nSlider from {3} to {4}; a double click resets it, arrow keys step it, with Shift by a tenth.",
-        translated(parameter.name()),
-        parameter.symbol(),
-        translated(parameter.help()),
-        range.start(),
-        range.end()
-    );
-    let label = name_ui(ui, parameter.symbol(), &help);
-
-    let tie = surface.tie_of(parameter);
-    let value = &mut surface.parameters[parameter];
-    let before = *value;
-    let mut slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
-    if parameter.is_logarithmic() {
-        slider = slider.logarithmic(true).smallest_positive(1e-3);
-    }
-    let is_tied = tie.is_some();
-    let slider = ui.add_enabled(!is_tied, slider).labelled_by(label.id).on_hover_right(ui, help.as_str());
-    let step = if parameter.is_logarithmic() { SliderStep::OfSize } else { SliderStep::over(&range) };
-    step_with_arrows(ui, &slider, before, value, &range, step);
-    if is_double_clicked(ui, &[&label, &slider]) {
-        *value = parameter.default_value();
-    }
-
-    // What the formulas do not allow is not taken; what only the slider cannot show is.
-    let domain = parameter.domain();
-    let speed = (0.005 * value.abs()).max(1e-4);
-    let refused = RefCell::new(None);
-    let refuse = |found: &str| {
-        *refused.borrow_mut() = Some(tr!("{0}: found {1}, expected {2}.", parameter.symbol(), format!("{found:?}"), domain.localized()));
-    };
-    let typed = DragValue::from_get_set(|new| {
-        match new {
-            // Text as it was shown means the value as it was, with all its digits.
-            Some(new) if significant(new) == significant(*value) => {}
-            Some(new) if domain.contains(new) => *value = new,
-            Some(new) => refuse(&new.to_string()),
-            None => {}
-        }
-        *value
-    });
-    let parse = |text: &str| {
-        let parsed = number_from_text(text, parameter.unit());
-        if parsed.is_none() {
-            refuse(text);
-        }
-        parsed
-    };
-    let unit = parameter.unit();
-    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let typed = typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false);
-    ui.scope(|ui| {
-        if is_tied {
-            ui.disable();
-        }
-        ui.add_sized([room.value, 20.0], typed.suffix(suffix))
-    })
-    .inner
-    .labelled_by(label.id)
-    .on_hover_right(
-        ui,
-        if outside {
-            tr!("outside the slider's range {0} to {1}", range.start(), range.end())
-        } else {
-            tr!("type a value: {}", domain.localized())
-        },
-    );
-
-    if let Some(sentence) = refused.into_inner() {
-        refusals.push(sentence);
-    }
-    lock_and_reset_ui(surface, outside, room, ui, parameter);
 }
 
 /// Whether a fit leaves the parameter alone, and the way back to its default.
@@ -366,11 +279,7 @@ fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut 
 
     let is_default = surface.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
-    let text = match outside {
-        _ if !room.has_words => "←".to_owned(),
-        true => tr!("outside"),
-        false => tr!("reset"),
-    };
+    let text = if room.has_words { tr!("reset") } else { "←".to_owned() };
     let text = egui::RichText::new(text).color(color);
     let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_right(
         ui,
@@ -438,35 +347,5 @@ fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, room: Room, ui: 
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         surface.reset_bounds(parameter);
-    }
-}
-
-/// A number as a person types it: with a decimal comma or point, with or without its unit.
-fn number_from_text(text: &str, unit: &str) -> Option<f64> {
-    // The window shows a typographic minus.
-    let text = text.trim().trim_end_matches(unit).trim().replace('−', "-");
-    let number = if text.contains('.') { text.parse() } else { text.replacen(',', ".", 1).parse() };
-    number.ok().filter(|number: &f64| number.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::number_from_text;
-
-    #[test]
-    fn numbers_are_read_as_people_type_them() {
-        for (text, expected) in [
-            ("0,25", Some(0.25)),
-            (" 0.25 rad", Some(0.25)),
-            ("−3", Some(-3.0)),
-            ("1e5", Some(1e5)),
-            ("0.25abc", None),
-            ("abc", None),
-            ("1.2,3", None),
-            ("inf", None),
-            ("", None),
-        ] {
-            assert_eq!(number_from_text(text, "rad"), expected, "{text:?}");
-        }
     }
 }

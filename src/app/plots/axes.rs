@@ -36,6 +36,11 @@ impl Axes {
         self.by_hand
     }
 
+    /// Where the horizontal axis was seen last.
+    pub fn seen_x(&self) -> Option<Range> {
+        self.seen.map(|seen| Range { low: seen.min()[0], high: seen.max()[0] }).filter(|range| range.low < range.high)
+    }
+
     /// Notices panning and zooming, and tells screen readers what is drawn; call it with what the
     /// plot answered.
     pub fn track_interaction<R>(&mut self, response: &PlotResponse<R>, name: &str, ui: &Ui) {

@@ -61,9 +61,9 @@ pub fn decades(input: &GridInput, spread: f64) -> Vec<GridMark> {
     if !(wanted.is_finite() && wanted > 0.0 && wanted <= third) {
         return marks(input, spread, 1.0);
     }
-    if input.bounds.1 - input.bounds.0 < third {
+    if input.bounds.1 - input.bounds.0 < 2.0 * third {
         // A closer look than these marks allow.
-        return marks(input, spread, 0.0);
+        return round_values(input, wanted);
     }
     let mut all = Vec::new();
     let mut decade = input.bounds.0.floor();
@@ -77,6 +77,16 @@ pub fn decades(input: &GridInput, spread: f64) -> Vec<GridMark> {
     all
 }
 
+/// Marks of a decimal logarithm at values that are 1, 2 or 5 times a power of ten apart.
+fn round_values(input: &GridInput, wanted: f64) -> Vec<GridMark> {
+    let (low, high) = (libm::exp10(input.bounds.0), libm::exp10(input.bounds.1));
+    // Marks are closest at the upper end.
+    let least = high * (1.0 - libm::exp10(-wanted));
+    let of_values = GridInput { bounds: (low, high), base_step_size: least };
+    let at = |mark: GridMark| GridMark { value: libm::log10(mark.value), step_size: std::f64::consts::LOG10_2 };
+    marks(&of_values, 1.0, 0.0).into_iter().filter(|mark| mark.value > 0.0).map(at).collect()
+}
+
 /// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer
 /// than decades.
 pub fn logarithmic(exponent: f64, step_size: f64) -> String {
@@ -84,8 +94,12 @@ pub fn logarithmic(exponent: f64, step_size: f64) -> String {
         return power_of_ten(exponent, step_size);
     }
     let value = libm::exp10(exponent);
-    let text = if (1e-3..1e4).contains(&value) { format!("{value:.5}") } else { return format!("{value:.2e}").replace(".00", "") };
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let short = |digits: &str| digits.trim_end_matches('0').trim_end_matches('.').to_owned();
+    if (1e-3..1e4).contains(&value) {
+        return short(&format!("{value:.5}"));
+    }
+    let scientific = format!("{value:.2e}");
+    scientific.split_once('e').map_or_else(|| scientific.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
 }
 
 /// A power of ten.
@@ -108,5 +122,7 @@ mod tests {
         assert_eq!(labels(-1.1, 1.1, 0.02), ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
         assert_eq!(labels(4.0, 5.0, 0.02), ["1e4", "2e4", "5e4", "1e5"]);
         assert_eq!(labels(-16.0, 1.0, 1.0), ["1e-15", "1e-10", "1e-5", "1e0"]);
+        // Closer than those marks: round values, not values of round logarithms.
+        assert_eq!(labels(-3.46, -3.29, 0.005), ["3.5e-4", "4e-4", "4.5e-4", "5e-4"]);
     }
 }

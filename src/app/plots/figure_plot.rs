@@ -11,7 +11,7 @@ use crate::app::plots::plot_item::{PlotItem, coordinates};
 use crate::app::plots::range::Range;
 use crate::app::plots::theme;
 use crate::figure::{Figure, Panel};
-use egui::{Align2, FontId, Role, TextureHandle, Ui, Vec2, WidgetInfo, vec2};
+use egui::{Align2, FontId, Rect, Role, TextureHandle, Ui, Vec2, WidgetInfo, vec2};
 use egui_plot::{AxisHints, HoverPosition, PlotResponse};
 use tr::tr;
 
@@ -46,6 +46,11 @@ impl<K: PartialEq> FigurePlot<K> {
     #[cfg(test)]
     pub fn is_fresh(&self) -> bool {
         self.panels.iter().any(PanelPlot::is_fresh)
+    }
+
+    /// The part of the horizontal axis of its first panel that is on screen, in coordinates of the plot.
+    pub fn seen_x(&self) -> Option<Range> {
+        self.panels.first()?.axes.seen_x()
     }
 
     /// A panel of it.
@@ -91,12 +96,25 @@ pub struct PanelStyle<'a> {
     pub left: f32,
     /// Between marks of the vertical axis, in units of egui's smallest spacing.
     pub spread: f64,
+    pub place: PanelPlace,
+}
+
+/// Whether a panel stands alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PanelPlace {
+    #[default]
+    Alone,
+    /// Over a strip that has the numbers along the horizontal axis.
+    OverStrip,
+    /// The strip: what is along its vertical axis stands in its corner, and it is moved by the panel
+    /// above.
+    Strip,
 }
 
 impl<'a> PanelStyle<'a> {
     /// With the usual axes.
     pub fn new(id: &'a str, height: f32, hover: &'a dyn Fn(&str, f64, f64) -> String) -> Self {
-        Self { id, height, name: None, hover, left: 72.0, spread: 5.0 }
+        Self { id, height, name: None, hover, left: 72.0, spread: 5.0, place: PanelPlace::Alone }
     }
 
     /// With what a screen reader says of it.
@@ -160,7 +178,9 @@ impl PanelPlot {
         let dark = ui.visuals().dark_mode;
         let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
         let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(40.0);
-        let y_axis = axis(AxisHints::new_y(), ui, &y.title, |at, step| y.label(at, step)).min_thickness(style.left);
+        let is_strip = style.place == PanelPlace::Strip;
+        let y_axis =
+            axis(AxisHints::new_y(), ui, if is_strip { "" } else { &y.title }, |at, step| y.label(at, step)).min_thickness(style.left);
         let ranges =
             if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, style.height - 40.0) } else { [x.range, y.range] };
         let figure = plot(style.id, ui, style.height, x_axis, y_axis)
@@ -175,12 +195,17 @@ impl PanelPlot {
                 _ => None,
             });
         let figure = if *equal_aspect { figure.data_aspect(1.0) } else { figure };
+        let figure = if is_strip { figure.allow_drag(false).allow_zoom(false).allow_boxed_zoom(false) } else { figure };
+        let figure = figure.show_axes([style.place != PanelPlace::OverStrip, true]);
         let response = figure.show(ui, |plot| {
             axes.apply(plot, Some(ranges[0]), Some(ranges[1]));
             map.zip(texture.as_ref()).into_iter().for_each(|(map, texture)| map.draw(plot, texture));
             items.iter().for_each(|item| item.draw(plot, dark, map.is_some()));
         });
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
+        if is_strip {
+            corner_title(&y.title, response.response.rect, Align2::LEFT_TOP, ui);
+        }
         axes.track_interaction(&response, &name, ui);
         map.into_iter().for_each(|map| map.bar_ui(response.response.rect, ui));
         Some(response)
@@ -205,17 +230,22 @@ impl PanelPlot {
             items.iter().for_each(|item| item.draw(plot, dark, false));
         });
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", y.title, x.title)));
-        let title = ui.painter().layout_no_wrap(y.title.clone(), FontId::proportional(11.0), ui.visuals().text_color());
         // Away from where the curve begins.
         let high = 0.25 * y.range.low + 0.75 * y.range.high;
         let is_below = items.iter().find_map(PlotItem::first_height).is_some_and(|height| height > high);
         let anchor = if is_below { Align2::LEFT_BOTTOM } else { Align2::LEFT_TOP };
-        let corner = anchor.anchor_size(anchor.pos_in_rect(&response.response.rect.shrink2(vec2(4.0, 2.0))), title.size());
-        ui.painter().rect_filled(corner.expand(1.0), 2.0, theme::plate(dark));
-        ui.painter().galley(corner.min, title, ui.visuals().text_color());
+        corner_title(&y.title, response.response.rect, anchor, ui);
         let at = response.response.hover_pos()?;
         Some(x.value(response.transform.value_from_position(at).x))
     }
+}
+
+/// What is along the vertical axis, in a corner of the plot.
+fn corner_title(title: &str, plot: Rect, anchor: Align2, ui: &Ui) {
+    let title = ui.painter().layout_no_wrap(title.to_owned(), FontId::proportional(11.0), ui.visuals().text_color());
+    let corner = anchor.anchor_size(anchor.pos_in_rect(&plot.shrink2(vec2(4.0, 2.0))), title.size());
+    ui.painter().rect_filled(corner.expand(1.0), 2.0, theme::plate(ui.visuals().dark_mode));
+    ui.painter().galley(corner.min, title, ui.visuals().text_color());
 }
 
 /// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of

@@ -2,6 +2,7 @@
 //! is told from a whole one.
 
 use crate::figure::Symbol;
+use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use egui_plot::LineStyle;
 use std::collections::BTreeSet;
@@ -69,9 +70,24 @@ pub fn symbol_shapes(symbol: Symbol, at: Pos2, color: Color32) -> Vec<Shape> {
     }
 }
 
+/// Below this height of plot and names in points, the plot has the room, and names that do not fit on one
+/// line scroll.
+const LOW: f32 = 330.0;
+
+/// Names one after the other, on as many lines as there is room for.
+fn lines_ui(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    if ui.available_height() < LOW {
+        // The wheel moves it: a bar would lie over the names.
+        let names = egui::ScrollArea::horizontal().id_salt("names of lines");
+        names.scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(ui, |ui| ui.horizontal(content));
+    } else {
+        ui.horizontal_wrapped(content);
+    }
+}
+
 /// Names with samples of their lines; none is torn at the end of a line.
 pub fn key_line_ui(entries: &[KeyEntry], ui: &mut Ui) {
-    ui.horizontal_wrapped(|ui| {
+    lines_ui(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
         for entry in entries {
             let response = entry.allocate_ui(Sense::hover(), ui);
@@ -87,7 +103,7 @@ const HIDDEN: f32 = 0.35;
 /// The same, where a click on a name takes its lines out of the plot or puts them back. Each line
 /// is known by a key.
 pub fn switching_key_line_ui<K: Ord + Copy>(entries: &[(K, KeyEntry)], hidden: &mut BTreeSet<K>, ui: &mut Ui) {
-    ui.horizontal_wrapped(|ui| {
+    lines_ui(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(BETWEEN, 0.0);
         for (key, entry) in entries {
             let response = entry.allocate_ui(Sense::click(), ui).on_hover_cursor(CursorIcon::PointingHand);

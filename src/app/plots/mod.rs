@@ -16,7 +16,7 @@ mod range;
 pub mod theme;
 
 pub use color_scale::{BAR_ROOM, ColorScale, color_bar};
-pub use figure_plot::{FigurePlot, PanelPlot, PanelStyle};
+pub use figure_plot::{FigurePlot, PanelPlace, PanelPlot, PanelStyle};
 pub use key_line::{KeyEntry, key_line_ui, switching_key_line_ui, symbol_shapes};
 pub use plot_axis::PlotAxis;
 pub use polyline::{Polyline, finite, line};

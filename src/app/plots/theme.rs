@@ -83,6 +83,16 @@ pub fn correlation(r: f64, dark: bool) -> Color32 {
     series(if r < 0.0 { 1 } else { 0 }, dark).gamma_multiply(0.55 * strength)
 }
 
+/// The one colour of what is chosen: marked rows, the filled part of sliders, what the tour frames.
+pub fn accent(dark: bool) -> Color32 {
+    pick(dark, (120, 190, 205), (16, 96, 116))
+}
+
+/// Lines between panels.
+pub fn separator(dark: bool) -> Color32 {
+    pick(dark, (218, 218, 218), (52, 52, 52))
+}
+
 /// Text that wants attention.
 pub fn warning(dark: bool) -> Color32 {
     pick(dark, (160, 60, 0), (255, 170, 80))

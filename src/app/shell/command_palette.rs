@@ -38,7 +38,9 @@ pub fn palette_ui(app: &mut App, ui: &mut Ui) {
             palette.chosen = 0;
         }
         let mut clicked = None;
-        egui::ScrollArea::vertical().max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
+        // The least height as well: a list that was short once is not kept short.
+        let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 160.0);
+        egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink([false, true]).show(ui, |ui| {
             for (i, found) in items.iter().enumerate() {
                 let row = row_ui(found, i == palette.chosen, ui);
                 if i == palette.chosen && (down > 0 || up > 0) {

@@ -15,7 +15,7 @@ use crate::app::views::spec;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::EXAMPLES;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::Theme;
+use crate::app::work::settings::{SidePanel, Theme};
 use crate::app::work::sharing::Sharing;
 use crate::report::TableFormat;
 use egui::{Key, KeyboardShortcut, Modifiers};
@@ -34,6 +34,8 @@ pub enum Menu {
     Measurement,
     Fit,
     Pane,
+    /// Panes that judge the program itself.
+    Program,
     View,
     Theme,
     Language,
@@ -55,6 +57,7 @@ impl Menu {
             Self::Measurement => tr!("Measurements"),
             Self::Fit => tr!("Fitting"),
             Self::Pane => tr!("Panes"),
+            Self::Program => tr!("The program itself"),
             Self::View => tr!("View"),
             Self::Theme => tr!("Theme"),
             Self::Language => tr!("Language"),
@@ -252,13 +255,24 @@ static ENTRIES: &[Entry] = &[
         |app| only_if(app.jobs.fits.is_scanning())),
     row(Action::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
         "Fixed parameters follow their sliders, the others are fitted again at once", None, |app| switch(app.work.settings().refit_live)),
-    row(Action::ResetLayout, Menu::View, "Reset layout", "All panes where they were at first", None, always),
+    row(Action::Present, Menu::View, "Presentation", "Full screen and large: the panes on screen, at most four, with a few sliders; Escape leads back",
+        plain(Key::F11), |app| switch(app.dock.is_presented())),
+    row(Action::ToggleSpotlight, Menu::View, "Spotlight of the pointer", "In a presentation all but the surroundings of the pointer is dimmed", None,
+        |app| switch(app.window.talk.spotlight)),
+    row(Action::TogglePanel(SidePanel::Parameters), Menu::View, "Panel of parameters", "Sliders and measurements beside the plots", ctrl(Key::B),
+        |app| switch(app.window.panels.parameters)),
+    row(Action::TogglePanel(SidePanel::Fit), Menu::View, "Panel of fits", "Fits and what they say beside the plots", ctrl(Key::J),
+        |app| switch(app.window.panels.fit)),
+    row(Action::Zoom(1), Menu::View, "Zoom in", "Letters and lines larger", ctrl(Key::Plus), always),
+    row(Action::Zoom(-1), Menu::View, "Zoom out", "Letters and lines smaller", ctrl(Key::Minus), always),
+    row(Action::Zoom(0), Menu::View, "Zoom 100 %", "Letters and lines of their own size", ctrl(Key::Num0), always),
+    row(Action::ResetLayout, Menu::View, "Reset layout", "All panes and panels where they were at first", None, always),
     row(Action::Toggle(Switch::LogBrdf), Menu::View, "Logarithmic lobes", "BRDF against a logarithmic axis", ctrl(Key::L),
         |app| switch(app.work.settings().log_brdf)),
     row(Action::Toggle(Switch::Limit), Menu::View, "Show Fresnel limit", "DoLP without any depolarising term", None,
         |app| switch(app.work.settings().show_limit)),
     row(Action::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
-        ctrl(Key::B), |app| switch(app.work.settings().show_backscatter)),
+        ctrl_shift(Key::B), |app| switch(app.work.settings().show_backscatter)),
     row(Action::ToggleFrameTimes, Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |app| switch(app.window.show_frame_times)),
     row(Action::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
@@ -266,6 +280,7 @@ static ENTRIES: &[Entry] = &[
     row(Action::KeepLesson, Menu::Lesson, "Keep what the lesson shows", "Close the lesson and go on from here; your work of before is given up",
         None, |app| only_if(app.lessons.session.is_some())),
     row(Action::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
+    row(Action::ShowTour(0), Menu::Help, "Tour…", "Sliders, plots, fits and lessons in four steps", None, always),
     row(Action::ShowHelp(Help::FirstSteps), Menu::Help, "First steps…", "From a file to a fit, step by step", plain(Key::F1), always),
     row(Action::ShowHelp(Help::Words), Menu::Help, "Words…", "What the words and signs of this window mean", None, always),
     row(Action::ShowHelp(Help::About), Menu::Help, "About pbrdf-explorer…", "Version, licence, the paper of the model, and where settings are kept",
@@ -392,11 +407,21 @@ pub fn items(app: &App) -> Vec<Command> {
     let panes = PaneId::ALL.iter().map(|&pane| Command {
         shortcut: spec(pane).shortcut.and_then(ctrl),
         ..item(
-            Action::TogglePane(pane),
-            Menu::Pane,
+            Action::ShowPane(pane),
+            if pane.judges_program() { Menu::Program } else { Menu::Pane },
             translated(spec(pane).title).into(),
             translated(spec(pane).tooltip).into(),
             switch(on_screen.contains(&pane)),
+        )
+    });
+    let fill = on_screen.first().map(|&pane| Command {
+        shortcut: ctrl(Key::M),
+        ..item(
+            Action::FillWindow(pane),
+            Menu::View,
+            tr!("Fill the window with one pane").into(),
+            tr!("Also with a double click on its name; once more, and all is where it was").into(),
+            switch(app.dock.is_filled()),
         )
     });
     let current = app.work.preset().map(|preset| preset.key);
@@ -421,6 +446,7 @@ pub fn items(app: &App) -> Vec<Command> {
         .chain(lessons)
         .chain(recent_files(app))
         .chain(panes)
+        .chain(fill)
         .chain(models)
         .chain(finishes())
         .chain(themes)
@@ -445,6 +471,17 @@ pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
     // The longer shortcut first: egui takes the shorter one for a part of it.
     items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
     let hit = |item: &Command| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));
-    let item = items.iter().find(|item| hit(item))?;
+    let Some(item) = items.iter().find(|item| hit(item)) else {
+        let leaves = !is_covered && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        return leaves.then(|| leaving_stage(app)).flatten();
+    };
     (item.status != Availability::Impossible).then(|| item.action.clone())
+}
+
+/// What Escape does where nothing else wants it.
+fn leaving_stage(app: &App) -> Option<Action> {
+    if app.dock.is_presented() {
+        return Some(Action::Present);
+    }
+    app.dock.on_screen().first().filter(|_| app.dock.is_filled()).map(|pane| Action::FillWindow(*pane))
 }

@@ -23,6 +23,8 @@ pub struct Dialogs {
     pub overwrite: Option<OverwritePrompt>,
     pub path_entry: PathEntry,
     pub lists: Lists,
+    /// The step of the tour that is shown.
+    pub tour: Option<usize>,
 }
 
 /// The lists above the sliders, with the names that are being typed.

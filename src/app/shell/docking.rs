@@ -1,9 +1,10 @@
 //! The tiles that the panes in the middle lie in.
 
+use crate::app::shell::stage::{LEAST_FOR_TWO, MOST_PRESENTED, Stage, presented_ui, show_menu_ui, single_ui};
 use crate::app::shell::tiles::{layout_of, tree_of};
 use crate::app::text::i18n::translated;
 use crate::app::views::action::Action;
-use crate::app::views::{Cx, Views, spec};
+use crate::app::views::{Cx, Views, note_stop, spec};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
 use egui::{Ui, WidgetText};
@@ -19,6 +20,11 @@ pub struct Dock {
     drawn: Vec<PaneId>,
     /// Those whose tabs are being brought into view, and for how many frames still.
     scrolling: Vec<(PaneId, u8)>,
+    stage: Option<Stage>,
+    /// The pane that was brought to the front last: where there is room for one, it has it.
+    front: Option<PaneId>,
+    /// Whether the frame before had room for panes one above the other.
+    is_low: bool,
 }
 
 /// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of
@@ -27,7 +33,19 @@ const SCROLLING: u8 = 4;
 
 impl Dock {
     pub fn new(layout: &Layout) -> Self {
-        Self { tree: tree_of(layout), is_edited: false, drawn: Vec::new(), scrolling: Vec::new() }
+        Self { tree: tree_of(layout), is_edited: false, drawn: Vec::new(), scrolling: Vec::new(), stage: None, front: None, is_low: false }
+    }
+
+    /// Another arrangement in the place of this one; a presentation goes on with what is on screen in
+    /// it.
+    pub fn rearrange(&mut self, other: Self) {
+        let is_presented = self.is_presented();
+        let is_low = self.is_low;
+        *self = Self { is_low, ..other };
+        if is_presented {
+            self.activate_tabs();
+            self.present();
+        }
     }
 
     /// The arrangement; none where all panes are closed.
@@ -43,7 +61,64 @@ impl Dock {
 
     /// Those that the next frame draws.
     pub fn on_screen(&self) -> Vec<PaneId> {
+        if let Some(stage) = &self.stage {
+            return stage.panes().to_vec();
+        }
+        let tiled = self.on_tiles();
+        match self.front.filter(|front| tiled.contains(front)).or(tiled.first().copied()) {
+            Some(front) if self.is_low && self.is_stacked() => vec![front],
+            _ => tiled,
+        }
+    }
+
+    /// Those that the tiles show.
+    fn on_tiles(&self) -> Vec<PaneId> {
         self.tree.active_tiles().into_iter().filter_map(|tile| self.tree.tiles.get_pane(&tile).copied()).collect()
+    }
+
+    /// All that are open, in their order.
+    pub fn open(&self) -> Vec<PaneId> {
+        self.layout().map_or_else(Vec::new, |layout| layout.panes())
+    }
+
+    /// Whether any lie one above the other.
+    fn is_stacked(&self) -> bool {
+        self.layout().is_some_and(|layout| layout.is_stacked())
+    }
+
+    /// Whether one pane fills the window.
+    pub fn is_filled(&self) -> bool {
+        matches!(self.stage, Some(Stage::Filled(_)))
+    }
+
+    /// Whether panes are presented.
+    pub fn is_presented(&self) -> bool {
+        matches!(self.stage, Some(Stage::Presented(_)))
+    }
+
+    /// Lets a pane fill the window; once more, and all lie where they lay.
+    pub fn fill(&mut self, pane: PaneId) {
+        let is_filled = self.is_filled();
+        self.stage = None;
+        self.show(pane);
+        if !is_filled {
+            self.stage = Some(Stage::Filled(pane));
+        }
+    }
+
+    /// Presents what is on screen; where nothing is, the first pane.
+    pub fn present(&mut self) {
+        let mut panes = if self.is_filled() { self.on_screen() } else { self.on_tiles() };
+        panes.truncate(MOST_PRESENTED);
+        if panes.is_empty() {
+            panes.push(PaneId::ALL[0]);
+        }
+        self.stage = Some(Stage::Presented(panes));
+    }
+
+    /// Back to the tiles.
+    pub fn leave_stage(&mut self) {
+        self.stage = None;
     }
 
     /// Gives every group of tabs an active one, so that [`Dock::on_screen`] knows it before it is
@@ -68,6 +143,7 @@ impl Dock {
         self.drawn = on_screen;
     }
 
+    #[cfg(test)]
     pub fn is_on_screen(&self, pane: PaneId) -> bool {
         self.on_screen().contains(&pane)
     }
@@ -78,7 +154,16 @@ impl Dock {
             self.insert(pane);
         }
         self.is_edited = true;
+        self.front = Some(pane);
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(other) if *other == pane));
+        match &mut self.stage {
+            Some(Stage::Filled(filled)) => *filled = pane,
+            Some(Stage::Presented(panes)) if !panes.contains(&pane) => {
+                panes.truncate(MOST_PRESENTED - 1);
+                panes.push(pane);
+            }
+            _ => {}
+        }
     }
 
     /// Puts panes on screen side by side: one that lies behind another of them moves to a group of
@@ -98,6 +183,7 @@ impl Dock {
             self.show(*pane);
             taken.extend(self.group(*pane));
         }
+        self.front = panes.first().copied().or(self.front);
     }
 
     /// The tabs that a pane is one of.
@@ -126,7 +212,18 @@ impl Dock {
         parent.or_else(|| self.tree.active_tiles().into_iter().find(|tile| is_tabs(tiles, *tile)))
     }
 
+    /// Takes a pane off the screen; of a presentation it stays open behind.
     pub fn close(&mut self, pane: PaneId) {
+        match &mut self.stage {
+            Some(Stage::Presented(panes)) => {
+                if panes.len() > 1 {
+                    panes.retain(|other| *other != pane);
+                }
+                return;
+            }
+            Some(Stage::Filled(filled)) if *filled == pane => self.stage = None,
+            _ => {}
+        }
         if let Some(tile) = self.tree.tiles.find_pane(&pane) {
             self.tree.remove_recursively(tile);
             self.is_edited = true;
@@ -149,15 +246,41 @@ fn is_tabs(tiles: &Tiles<PaneId>, tile: TileId) -> bool {
     matches!(tiles.get(tile), Some(Tile::Container(Container::Tabs(_))))
 }
 
+/// The title of a pane, or of a group of panes the titles of those that it shows.
+fn title_of(tiles: &Tiles<PaneId>, tile: TileId) -> String {
+    match tiles.get(tile) {
+        Some(Tile::Pane(pane)) => translated(spec(*pane).title),
+        Some(Tile::Container(Container::Tabs(tabs))) => tabs.active.map_or_else(String::new, |active| title_of(tiles, active)),
+        Some(Tile::Container(container)) => container.children().map(|child| title_of(tiles, *child)).collect::<Vec<_>>().join(" | "),
+        None => String::new(),
+    }
+}
+
 /// Draws the panes.
 pub fn panes_ui(dock: &mut Dock, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui) {
-    if dock.on_screen().is_empty() {
+    let is_low = ui.available_height() < LEAST_FOR_TWO;
+    if std::mem::replace(&mut dock.is_low, is_low) != is_low {
+        // What comes to the screen is made before a frame.
+        ui.ctx().request_repaint();
+    }
+    let on_screen = dock.on_screen();
+    if let Some(Stage::Presented(panes)) = &dock.stage {
+        presented_ui(panes, views, cx, ui);
+        return;
+    }
+    if let [pane] = on_screen[..]
+        && (dock.is_filled() || dock.on_tiles().len() > 1)
+    {
+        single_ui(pane, dock.is_filled(), dock.open(), views, cx, ui);
+        return;
+    }
+    if on_screen.is_empty() {
         ui.centered_and_justified(|ui| ui.label(tr!("All panes are closed. The View menu opens them again.")));
         return;
     }
     dock.note_fresh_tabs();
     let Dock { tree, is_edited, scrolling, .. } = dock;
-    tree.ui(&mut PaneBehavior { views, cx, is_edited, scrolling }, ui);
+    tree.ui(&mut PaneBehavior { views, cx, is_edited, scrolling, seen: on_screen }, ui);
 }
 
 /// How tiles look and behave.
@@ -166,6 +289,8 @@ struct PaneBehavior<'a, 'c> {
     cx: &'a mut Cx<'c>,
     is_edited: &'a mut bool,
     scrolling: &'a mut Vec<(PaneId, u8)>,
+    /// The panes on screen.
+    seen: Vec<PaneId>,
 }
 
 impl PaneBehavior<'_, '_> {
@@ -201,6 +326,12 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     fn on_tab_button(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId, response: egui::Response) -> egui::Response {
         let Some(pane) = tiles.get_pane(&tile) else { return response };
         self.scroll_tab_into_view(*pane, &response);
+        if self.seen.contains(pane) {
+            note_stop(&response.ctx, response.id);
+        }
+        if response.double_clicked() {
+            self.cx.actions.push(Action::FillWindow(*pane));
+        }
         response.on_hover_text(translated(spec(*pane).tooltip))
     }
 
@@ -218,16 +349,12 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     fn top_bar_right_ui(&mut self, tiles: &Tiles<PaneId>, ui: &mut Ui, _tile: TileId, tabs: &egui_tiles::Tabs, _scroll: &mut f32) {
         let active = tabs.active.and_then(|tile| tiles.get_pane(&tile)).filter(|pane| spec(**pane).has_options);
         if let Some(pane) = active {
-            // A switch is seldom set alone.
-            let config = egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-            let button = egui::containers::menu::MenuButton::new(tr!("Show")).config(config);
-            let (button, _) = button.ui(ui, |ui| self.views.of(*pane).options_ui(self.cx, ui));
-            let name = tr!("Show in {}", translated(spec(*pane).title));
-            button
-                .on_hover_text(tr!("Switches for what is drawn in this pane"))
-                .on_hover_text(tr!("In the plot: drag to move, Ctrl+wheel to zoom, a double click shows all"))
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            show_menu_ui(*pane, self.views, self.cx, ui);
         }
+    }
+
+    fn tab_title_for_tile(&mut self, tiles: &Tiles<PaneId>, tile: TileId) -> WidgetText {
+        title_of(tiles, tile).into()
     }
 
     fn on_edit(&mut self, _action: EditAction) {
@@ -272,8 +399,11 @@ mod tests {
                 all.activate_tabs();
                 assert!(panes.iter().all(|pane| all.is_on_screen(*pane)), "{panes:?}, {closed}");
                 // None is there twice and none is lost.
+                let mut wanted = Layout::default().panes();
+                wanted.extend(panes);
+                let wanted = PaneId::ALL.iter().filter(|pane| wanted.contains(pane)).count();
                 let there = PaneId::ALL.iter().filter(|pane| all.tree.tiles.find_pane(pane).is_some()).count();
-                assert_eq!((there, all.tree.tiles.tiles().filter(|tile| tile.is_pane()).count()), (PaneId::ALL.len(), PaneId::ALL.len()));
+                assert_eq!((there, all.tree.tiles.tiles().filter(|tile| tile.is_pane()).count()), (wanted, wanted));
             }
         }
     }

@@ -244,7 +244,9 @@ fn constants_ui(mapping: &mut Mapping, ui: &mut Ui) {
         });
         ui.add_space(12.0);
         ui.add_enabled_ui(dphi_is_free, |ui| {
-            let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
+            let label = ui
+                .label("Δφ")
+                .on_hover_text(tr!("180° (forward) and 0° (backward) lie in the plane of incidence; other values outside of it"));
             let mut degrees = mapping.dphi.unwrap_or(180.0);
             let value = DragValue::new(&mut degrees).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°");
             if ui.add(value).labelled_by(label.id).changed() {

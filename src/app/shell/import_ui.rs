@@ -169,7 +169,8 @@ fn slices_ui(Slices { theta_i, theta_r }: &mut Slices, options: &mut ImportOptio
         // holds to its range.
         let least = if *dphi == 180.0 { -89.9 } else { 0.0 };
         span_ui(theta_r, "θr", least, ui);
-        let label = ui.label("Δφ").on_hover_text(tr!("180° is the plane of incidence; other values lie outside of it"));
+        let label =
+            ui.label("Δφ").on_hover_text(tr!("180° (forward) and 0° (backward) lie in the plane of incidence; other values outside of it"));
         ui.add(DragValue::new(dphi).range(0.0..=360.0).speed(0.5).max_decimals(3).suffix("°")).labelled_by(label.id);
         ui.end_row();
     });

@@ -1,6 +1,9 @@
 //! The open lesson, under the panes that it speaks of: what to move, what to watch, why.
 
 use crate::app::shell::app::App;
+use crate::app::shell::docking::panes_ui;
+use crate::app::shell::readout_ui::readout_ui;
+use crate::app::shell::status_bar::toasts_ui;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
 use crate::app::work::lesson::Wording;
@@ -10,15 +13,24 @@ use tr::tr;
 /// Height of the panel before the user changes it.
 const HEIGHT: f32 = 172.0;
 
+/// The lesson that is open, over it the panes, and notices.
+pub fn lesson_and_panes_ui(app: &mut App, ui: &mut Ui) {
+    lesson_panel_ui(app, ui);
+    let room = ui.available_rect_before_wrap();
+    let (mut cx, views, dock) = app.split();
+    panes_ui(dock, views, &mut cx, ui);
+    toasts_ui(app, ui, room);
+}
+
 /// The panel, while a lesson is open.
-pub fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
+fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
     if app.lessons.current().is_some() {
         egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(app, ui));
     }
 }
 
 fn lesson_ui(app: &mut App, ui: &mut Ui) {
-    let App { lessons, actions, .. } = app;
+    let App { lessons, actions, dock, derived, .. } = app;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open()) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
@@ -32,13 +44,9 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
         });
     });
     buttons_ui(number, index, count, actions, ui);
-    ui.horizontal(|ui| {
-        ui.weak(tr!("Your own work comes back when you close the lesson."));
-        let help = tr!("Close the lesson and go on from here; your work of before is given up");
-        if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
-            actions.push(Action::KeepLesson);
-        }
-    });
+    if !dock.is_presented() {
+        readout_ui(derived, ui);
+    }
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
@@ -54,7 +62,7 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
 
 /// Forth, back, and out.
 fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
             actions.push(Action::ShowStep(lesson, step - 1));
         }
@@ -69,6 +77,11 @@ fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action
         if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
             actions.push(Action::CloseLesson);
         }
+        let help = tr!("Close the lesson and go on from here; your work of before is given up");
+        if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
+            actions.push(Action::KeepLesson);
+        }
+        ui.weak(tr!("Your own work comes back when you close the lesson."));
     });
 }
 

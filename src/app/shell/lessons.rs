@@ -14,19 +14,27 @@ use std::path::Path;
 use tr::tr;
 
 /// The bundled lessons, in their order; a test sees to it that none of the folder is missing.
-const BUNDLED: [&str; 12] = [
-    include_str!("../../../assets/lessons/01-pseudo-brewster.txt"),
-    include_str!("../../../assets/lessons/02-fresnel-limit.txt"),
-    include_str!("../../../assets/lessons/03-what-dolp-forgets.txt"),
-    include_str!("../../../assets/lessons/04-ratios-only.txt"),
-    include_str!("../../../assets/lessons/05-what-q-does.txt"),
-    include_str!("../../../assets/lessons/06-ggx-and-beckmann.txt"),
-    include_str!("../../../assets/lessons/07-three-angles.txt"),
-    include_str!("../../../assets/lessons/08-masking-shadowing.txt"),
-    include_str!("../../../assets/lessons/09-not-reciprocal.txt"),
-    include_str!("../../../assets/lessons/10-minnaert-and-energy.txt"),
-    include_str!("../../../assets/lessons/11-out-of-plane.txt"),
-    include_str!("../../../assets/lessons/12-colour-of-copper.txt"),
+const BUNDLED: [&str; 20] = [
+    include_str!("../../../assets/lessons/01-pseudo-brewster.md"),
+    include_str!("../../../assets/lessons/02-fresnel-limit.md"),
+    include_str!("../../../assets/lessons/03-what-dolp-forgets.md"),
+    include_str!("../../../assets/lessons/04-ratios-only.md"),
+    include_str!("../../../assets/lessons/05-what-q-does.md"),
+    include_str!("../../../assets/lessons/06-ggx-and-beckmann.md"),
+    include_str!("../../../assets/lessons/07-three-angles.md"),
+    include_str!("../../../assets/lessons/08-masking-shadowing.md"),
+    include_str!("../../../assets/lessons/09-not-reciprocal.md"),
+    include_str!("../../../assets/lessons/10-minnaert-and-energy.md"),
+    include_str!("../../../assets/lessons/11-out-of-plane.md"),
+    include_str!("../../../assets/lessons/12-colour-of-copper.md"),
+    include_str!("../../../assets/lessons/13-depolarised-sphere.md"),
+    include_str!("../../../assets/lessons/14-analyser.md"),
+    include_str!("../../../assets/lessons/15-second-brewster-ring.md"),
+    include_str!("../../../assets/lessons/16-when-the-error-lies.md"),
+    include_str!("../../../assets/lessons/17-gauss-or-cauchy.md"),
+    include_str!("../../../assets/lessons/18-eq-17-as-printed.md"),
+    include_str!("../../../assets/lessons/19-brdf-column.md"),
+    include_str!("../../../assets/lessons/20-psi-and-delta.md"),
 ];
 
 /// Own lessons that are read at most, and the largest file that is taken for one.
@@ -57,7 +65,10 @@ impl Lessons {
         let mut faults = Vec::new();
         for path in own.map(text_files).unwrap_or_default() {
             match std::fs::read_to_string(&path).map_err(|error| error.localized()).and_then(|text| lesson(&text)) {
-                Ok(lesson) => all.push(lesson),
+                Ok(lesson) => {
+                    faults.extend(lesson.notes.iter().map(|note| tr!("{0}: {1}.", path.display(), note.localized())));
+                    all.push(lesson);
+                }
                 Err(reason) => faults.push(tr!("{0} is no lesson: {1}.", path.display(), reason)),
             }
         }
@@ -104,7 +115,8 @@ fn lesson(text: &str) -> Result<Lesson, String> {
 fn text_files(folder: &Path) -> Vec<std::path::PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let is_text = |entry: &std::fs::DirEntry| {
-        entry.path().extension().is_some_and(|extension| extension == "txt") && entry.metadata().is_ok_and(|data| data.len() <= LARGEST)
+        entry.path().extension().is_some_and(|extension| extension == "md" || extension == "txt")
+            && entry.metadata().is_ok_and(|data| data.len() <= LARGEST)
     };
     let mut paths: Vec<_> = entries.filter(is_text).map(|entry| entry.path()).take(MOST).collect();
     paths.sort();
@@ -141,9 +153,13 @@ mod tests {
         std::fs::write(folder.path().join("a.txt"), "title: Mine\nstep: One\nset: n=1.5\n").expect("a file");
         std::fs::write(folder.path().join("b.txt"), "title: Mine\nstep: One\nset: n=x\n").expect("a file");
         std::fs::write(folder.path().join("c.csv"), "theta_i").expect("a file");
+        let unknown = "---\ntitle: Odd\n---\n## One\n- example: my steel\n- panes: dolp, dlop\n";
+        std::fs::write(folder.path().join("d.md"), unknown).expect("a file");
         let (lessons, faults) = Lessons::load(Some(folder.path()));
-        assert_eq!(lessons.all.len(), BUNDLED.len() + 1);
-        assert_eq!(faults.len(), 1);
+        assert_eq!(lessons.all.len(), BUNDLED.len() + 2);
+        assert_eq!(faults.len(), 3);
+        assert!(faults[1].contains("line 5") && faults[1].contains("my steel"), "{faults:?}");
+        assert!(faults[2].contains("line 6") && faults[2].contains("dlop"), "{faults:?}");
         assert!(faults[0].contains("b.txt") && faults[0].contains("line 3"), "{faults:?}");
     }
 }

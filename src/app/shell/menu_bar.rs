@@ -6,30 +6,44 @@ use crate::app::shell::commands::{Availability, Command, Menu};
 use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::path_entry::path_in;
 use crate::app::views::action::Action;
+use crate::app::views::note_stop;
 use egui::containers::menu::MenuConfig;
-use egui::{Id, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
+use egui::{Id, Key, Modifiers, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
 use tr::tr;
+
+/// The letter that opens a menu together with Alt, in every language.
+const LETTERS: [(Menu, Key); 7] = [
+    (Menu::File, Key::F),
+    (Menu::Edit, Key::E),
+    (Menu::Measurement, Key::M),
+    (Menu::Fit, Key::I),
+    (Menu::View, Key::V),
+    (Menu::Lesson, Key::L),
+    (Menu::Help, Key::H),
+];
 
 pub fn menu_ui(app: &mut App, ui: &mut Ui) {
     egui::MenuBar::new().ui(ui, |ui| {
-        bar_menu_ui(tr!("File"), ui, |ui| file_ui(app, ui));
-        for (name, menu) in [Menu::Edit, Menu::Measurement, Menu::Fit].map(|menu| (menu.name(), menu)) {
-            bar_menu_ui(name, ui, |ui| {
-                let items = commands::items(app);
-                items_ui(&items, menu, &mut app.actions, ui);
+        for (menu, letter) in LETTERS {
+            let f10 = menu == Menu::File && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F10));
+            let by_key = f10 || ui.input_mut(|input| input.consume_key(Modifiers::ALT, letter));
+            let button = bar_menu_ui(menu.name(), by_key, ui, |ui| match menu {
+                Menu::File => file_ui(app, ui),
+                Menu::View => view_ui(app, ui),
+                _ => {
+                    let items = commands::items(app);
+                    items_ui(&items, menu, &mut app.actions, ui);
+                }
             });
+            if menu == Menu::File {
+                note_stop(ui.ctx(), button);
+            }
         }
-        bar_menu_ui(tr!("View"), ui, |ui| view_ui(app, ui));
-        bar_menu_ui(tr!("Lessons"), ui, |ui| {
-            let items = commands::items(app);
-            items_ui(&items, Menu::Lesson, &mut app.actions, ui);
-        });
-        bar_menu_ui(tr!("Help"), ui, |ui| {
-            let items = commands::items(app);
-            items_ui(&items, Menu::Help, &mut app.actions, ui);
-        });
     });
 }
+
+/// Of a menu to the lower edge of the window, in points.
+const MARGIN: f32 = 24.0;
 
 /// The menu of the bar that is open.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,16 +53,21 @@ struct Open {
     by_hover: bool,
 }
 
-/// A menu of the bar, as egui's own, except that a click on the title of one that opened under the
+/// A menu of the bar with the id of its title, as egui's own, except that a click on the title of one that opened under the
 /// pointer does not close it again: the click was meant to open it.
-fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+fn bar_menu_ui(title: String, by_key: bool, ui: &mut Ui, content: impl FnOnce(&mut Ui)) -> Id {
     let button = ui.button(title);
+    if by_key {
+        // The arrows go on from here into the menu.
+        button.request_focus();
+    }
     let popup = Popup::menu(&button);
     let (menu, bar) = (popup.get_id(), Id::unique("menu bar"));
     let before: Option<Open> = ui.data(|data| data.get_temp(bar)).filter(|open: &Open| Popup::is_id_open(ui.ctx(), open.menu));
     let stays = button.clicked() && before == Some(Open { menu, by_hover: true });
     let opens = !button.clicked() && button.hovered() && before.is_some_and(|open| open.menu != menu);
     let set = match button.clicked() {
+        _ if by_key => Some(SetOpenCommand::Toggle),
         true if !stays => Some(SetOpenCommand::Toggle),
         _ => (stays || opens).then_some(SetOpenCommand::Bool(true)),
     };
@@ -59,7 +78,12 @@ fn bar_menu_ui(title: String, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     let behavior = if stays { PopupCloseBehavior::IgnoreClicks } else { PopupCloseBehavior::CloseOnClickOutside };
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let info = UiStackInfo::new(UiKind::Menu).with_tag_value(MenuConfig::MENU_CONFIG_TAG, config);
-    popup.open_memory(set).close_behavior(behavior).info(info).show(content);
+    popup.open_memory(set).close_behavior(behavior).info(info).show(|ui| {
+        // Many lessons in a low window: the last ones are reached by the wheel.
+        let room = ui.ctx().content_rect().bottom() - button.rect.bottom() - MARGIN;
+        egui::ScrollArea::vertical().max_height(room).show(ui, content)
+    });
+    button.id
 }
 
 fn file_ui(app: &mut App, ui: &mut Ui) {
@@ -110,8 +134,8 @@ fn is_entered(field: &egui::Response, ui: &Ui) -> bool {
 
 fn view_ui(app: &mut App, ui: &mut Ui) {
     let items = commands::items(app);
-    ui.weak(tr!("Panes"));
-    items_ui(&items, Menu::Pane, &mut app.actions, ui);
+    ui.menu_button(Menu::Pane.name(), |ui| items_ui(&items, Menu::Pane, &mut app.actions, ui));
+    ui.menu_button(Menu::Program.name(), |ui| items_ui(&items, Menu::Program, &mut app.actions, ui));
     ui.separator();
     items_ui(&items, Menu::View, &mut app.actions, ui);
     ui.separator();

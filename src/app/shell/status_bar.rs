@@ -17,6 +17,10 @@ use tr::tr;
 /// Widest and highest that sentences get.
 const WIDTH: f32 = 640.0;
 const HEIGHT: f32 = 96.0;
+/// From the upper right corner of the panes to the notices: within the first plot, under its names.
+const CORNER: egui::Vec2 = egui::vec2(-16.0, 66.0);
+/// What is left of a plot, where its axis has numbers and a title.
+const LEFT_OF_PLOT: f32 = 110.0;
 
 /// What is open, and ΔE of the sliders.
 pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
@@ -67,11 +71,11 @@ pub fn toasts_ui(app: &mut App, ui: &egui::Ui, room: egui::Rect) {
     if toasts.is_empty() && fault.is_none() {
         return;
     }
-    let width = WIDTH.min(room.width() - 40.0);
+    let width = WIDTH.min(room.width() - LEFT_OF_PLOT);
     let id = egui::Id::unique("toasts");
     let before = egui::AreaState::load(ui.ctx(), id).and_then(|state| state.size);
-    let area = egui::Area::new(id).order(egui::Order::Middle).pivot(egui::Align2::CENTER_BOTTOM);
-    let area = area.fixed_pos(room.center_bottom() - egui::vec2(0.0, 8.0)).constrain_to(room);
+    let area = egui::Area::new(id).order(egui::Order::Middle).pivot(egui::Align2::RIGHT_TOP);
+    let area = area.fixed_pos(room.right_top() + CORNER).constrain_to(room);
     let shown = area.show(ui.ctx(), |ui| {
         let warning = theme::warning(ui.visuals().dark_mode);
         let transient = fault.is_none() && toasts.iter().all(|toast| toast.transient);
@@ -92,23 +96,23 @@ pub fn toasts_ui(app: &mut App, ui: &egui::Ui, room: egui::Rect) {
     }
 }
 
-/// The sentences, and the button that sends them away.
+/// The sentences, each with what sends it away.
 fn sentences_ui(toasts: &Toasts, actions: &mut Vec<Action>, ui: &mut egui::Ui) {
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
-        if ui.button(tr!("Dismiss")).on_hover_text(tr!("Also with Escape")).clicked() {
-            actions.push(Action::DismissToasts);
-        }
-        ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
-            // The newest is in sight; several do not cover the window.
-            egui::ScrollArea::vertical().max_height(HEIGHT).stick_to_bottom(true).auto_shrink([false, true]).show(ui, |ui| {
-                for toast in toasts.iter() {
-                    let label = ui.add(Label::new(RichText::new(&toast.text).color(toast.color(ui.visuals()))).wrap());
-                    // Read out without being asked for.
-                    ui.ctx().accesskit_node_builder(label.id, |node| {
-                        node.set_live(if toast.transient { Live::Polite } else { Live::Assertive });
-                    });
+    // The newest is in sight; several do not cover the window.
+    egui::ScrollArea::vertical().max_height(HEIGHT).stick_to_bottom(true).auto_shrink([false, true]).show(ui, |ui| {
+        for (place, toast) in toasts.iter().enumerate() {
+            ui.horizontal_top(|ui| {
+                let close = ui.add(egui::Button::new("×").small().frame(false)).on_hover_text(tr!("Dismiss; Escape dismisses all"));
+                close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, tr!("Dismiss")));
+                if close.clicked() {
+                    actions.push(Action::DismissToast(place));
                 }
+                let label = ui.add(Label::new(RichText::new(&toast.text).color(toast.color(ui.visuals()))).wrap());
+                // Read out without being asked for.
+                ui.ctx().accesskit_node_builder(label.id, |node| {
+                    node.set_live(if toast.transient { Live::Polite } else { Live::Assertive });
+                });
             });
-        });
+        }
     });
 }

@@ -1,5 +1,6 @@
 //! Fonts and sizes of the window.
 
+use crate::app::plots;
 use crate::app::work::settings::Theme;
 use crate::figure::CJK;
 
@@ -12,12 +13,32 @@ pub fn set(ctx: &egui::Context, theme: Theme) {
     });
 }
 
+/// Sizes of letters in points, the only ones of panels and dialogs; plots have their own.
+const SIZES: [(egui::TextStyle, f32); 5] = [
+    (egui::TextStyle::Small, 11.0),
+    (egui::TextStyle::Body, 13.0),
+    (egui::TextStyle::Button, 13.0),
+    (egui::TextStyle::Monospace, 12.0),
+    (egui::TextStyle::Heading, 17.0),
+];
+
 /// Sets fonts, text sizes and colours of both themes.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
+    // A step of the wheel is a sixth, not a third.
+    ctx.options_mut(|options| options.input_options.scroll_zoom_speed = 1.0 / 400.0);
     for theme in [egui::Theme::Light, egui::Theme::Dark] {
         ctx.style_mut_of(theme, |style| {
             style.spacing.slider_width = 100.0;
+            for (text, size) in SIZES {
+                if let Some(font) = style.text_styles.get_mut(&text) {
+                    font.size = size;
+                }
+            }
+            let dark = theme == egui::Theme::Dark;
+            style.visuals.selection.bg_fill = plots::theme::accent(dark);
+            style.visuals.slider_trailing_fill = true;
+            style.visuals.widgets.noninteractive.bg_stroke.color = plots::theme::separator(dark);
             style.spacing.item_spacing = egui::vec2(6.0, 4.0);
             // The default text of both themes is fainter than small print should be.
             style.visuals.override_text_color =

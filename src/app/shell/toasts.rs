@@ -62,6 +62,13 @@ impl Toasts {
         self.all.is_empty()
     }
 
+    /// Dismisses the one at that place.
+    pub fn dismiss(&mut self, place: usize) {
+        if place < self.all.len() {
+            self.all.remove(place);
+        }
+    }
+
     pub fn clear(&mut self) {
         self.all.clear();
     }

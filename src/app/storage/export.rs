@@ -262,8 +262,8 @@ fn picture(work: &Workspace) -> Result<Write, String> {
                 let (shown, axis) = (scene.shown(&options), options.quantity.axis());
                 write_colors(&picture_map(&shown.values, PICTURE_SIZE, axis.between(shown.range.0, shown.range.1), shown.colors), out)
             }
-            StokesFileKind::Exr => write_exr(&scene.joined(), out),
-            StokesFileKind::Csv => write_table(&scene.picture, &scene.joined(), lamp.as_ref(), has_sky, out),
+            StokesFileKind::Exr => write_exr(&scene.exported(&options), out),
+            StokesFileKind::Csv => write_table(&scene.picture, &scene.exported(&options), lamp.as_ref(), has_sky, out),
         };
         write_file(path, body).map_err(|error| failure(path, &error))
     }))

@@ -10,7 +10,7 @@ use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Audit));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Audit));
     wait(&mut harness);
     harness
 }

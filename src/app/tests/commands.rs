@@ -39,7 +39,7 @@ fn every_command_can_be_carried_out() {
             && !explorer(&mut harness).dock.is_on_screen(pane)
         {
             // Until then the command is grey.
-            explorer(&mut harness).actions.push(Action::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::ShowPane(pane));
             wait(&mut harness);
         }
         explorer(&mut harness).actions.push(command.clone());

@@ -287,7 +287,7 @@ fn a_fit_has_a_band_that_can_be_hidden_and_goes_with_its_measurement() {
     explorer(&mut harness).work.settings_mut().show_band = true;
     let rows = (*explorer(&mut harness).work.active().measurement).clone();
     take(explorer(&mut harness), "another".to_owned(), rows);
-    harness.run();
+    wait(&mut harness);
     assert!(bands(&mut harness).is_empty());
 }
 
@@ -333,7 +333,7 @@ fn fewer_values_than_free_parameters_are_said_before_and_after_a_fit() {
 #[test]
 fn stated_standard_deviations_are_offered_as_weights() {
     let mut harness = harness();
-    let offer = "The file states standard deviations: use them as weights";
+    let offer = "Weight by the stated standard deviations";
     harness.get_by_label(offer).click();
     harness.run();
     assert_eq!(explorer(&mut harness).work.settings().fit_options.weights, Weights::Sigma);

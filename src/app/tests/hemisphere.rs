@@ -15,7 +15,7 @@ use pbrdf::optics::{Facet, Geometry};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Hemisphere));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Hemisphere));
     wait(&mut harness);
     harness
 }

@@ -32,7 +32,7 @@ fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
     explorer(&mut harness).work.settings_mut().starts = Starts::One;
     order(&mut harness, Action::StartFit);
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
     harness.run_steps(4);
     // In an unoptimised build its maps take half a minute: nobody waits for them.
     for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {

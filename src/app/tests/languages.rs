@@ -31,7 +31,7 @@ fn alone(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     for other in PaneId::ALL.iter().copied() {
         explorer(harness).actions.push(Action::ClosePane(other));
     }
-    explorer(harness).actions.push(Action::TogglePane(pane));
+    explorer(harness).actions.push(Action::ShowPane(pane));
     if pane == PaneId::Landscape {
         // In an unoptimised build its maps take half a minute: nobody waits for them.
         harness.run_steps(4);

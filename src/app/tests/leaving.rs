@@ -49,7 +49,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
 /// Brings a pane to the front.
 fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     if !explorer(harness).dock.is_on_screen(pane) {
-        order(harness, Action::TogglePane(pane));
+        order(harness, Action::ShowPane(pane));
     }
     wait(harness);
 }

@@ -14,7 +14,7 @@ fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).work.settings_mut().metal_selection =
         MetalSelection { metal: metal.to_owned(), wavelength_nm, ..MetalSelection::default() };
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Metals));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Metals));
     wait(&mut harness);
     harness
 }

@@ -12,7 +12,7 @@ use pbrdf::optics::{Geometry, Mueller};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Mueller));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Mueller));
     wait(&mut harness);
     harness
 }

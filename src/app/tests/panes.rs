@@ -21,7 +21,7 @@ fn every_pane_opens_alone_and_beside_the_others() {
         }
         wait(&mut harness);
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::ShowPane(pane));
         }
         wait(&mut harness);
         assert_eq!(explorer(&mut harness).dock.on_screen(), [pane]);
@@ -29,7 +29,7 @@ fn every_pane_opens_alone_and_beside_the_others() {
         explorer(&mut harness).actions.push(Action::ResetLayout);
         wait(&mut harness);
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::ShowPane(pane));
             wait(&mut harness);
         }
         assert!(explorer(&mut harness).dock.is_on_screen(pane), "{}", spec(pane).title);
@@ -41,7 +41,7 @@ fn every_show_menu_opens() {
     for pane in PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_options) {
         let mut harness = harness();
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::TogglePane(pane));
+            explorer(&mut harness).actions.push(Action::ShowPane(pane));
             wait(&mut harness);
         }
         harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
@@ -61,7 +61,7 @@ fn what_is_not_on_screen_is_not_computed() {
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Lobes));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Lobes));
     harness.run();
     assert_ne!(explorer(&mut harness).derived.curves.key().cloned(), before);
 }
@@ -82,7 +82,7 @@ fn a_closed_pane_stays_closed_after_a_restart() {
 fn shown(pane: PaneId) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::App>> {
     let mut harness = harness();
     if !explorer(&mut harness).dock.is_on_screen(pane) {
-        explorer(&mut harness).actions.push(Action::TogglePane(pane));
+        explorer(&mut harness).actions.push(Action::ShowPane(pane));
     }
     wait(&mut harness);
     harness
@@ -165,7 +165,7 @@ fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen().expect("axes");
     explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Landscape));
     wait(&mut harness);
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen(), Some(before));
 }

@@ -17,7 +17,7 @@ use pbrdf::optics::Facet;
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::TogglePane(PaneId::Picture));
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Picture));
     wait(&mut harness);
     harness
 }

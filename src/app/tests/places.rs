@@ -36,7 +36,7 @@ fn the_tab_of_a_pane_that_is_shown_is_in_view() {
     // From the first to the last and back, so that bars are scrolled to either side.
     for &pane in PaneId::ALL.iter().chain(PaneId::ALL.iter().rev()) {
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            order(&mut harness, Action::TogglePane(pane));
+            order(&mut harness, Action::ShowPane(pane));
         }
         let tab = harness.query_all_by_label(spec(pane).title).next().expect("a tab").rect();
         let bar = bar(&harness, tab);

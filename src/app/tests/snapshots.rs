@@ -133,7 +133,7 @@ fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)>
     }
     let mut shown = |pane: PaneId| {
         if !explorer(harness).dock.is_on_screen(pane) {
-            order(harness, Action::TogglePane(pane));
+            order(harness, Action::ShowPane(pane));
         }
         wait(harness);
         (pane, explorer(harness).figure(pane).expect("a plot"))

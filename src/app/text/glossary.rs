@@ -29,7 +29,7 @@ pub const OPEN: Entry = Entry {
 };
 pub const AT_BOUND: Entry = Entry {
     word: "at bound",
-    meaning: "It rests on the end of its range: a better value may lie outside. There it has no linear error, and its interval is open on that side.",
+    meaning: "It rests on the end of its range: a better value may lie outside. There it has no linear error, and its interval is open on that side; the linear errors of the others hold only with it kept there.",
 };
 pub const INTERVAL: Entry = Entry {
     word: "interval",
@@ -43,7 +43,7 @@ pub const AICC: Entry = Entry {
 };
 
 /// All words, in the order of the help.
-pub const GLOSSARY: [Entry; 15] = [
+pub const GLOSSARY: [Entry; 23] = [
     Entry {
         word: "DoLP",
         meaning: "Degree of linear polarisation of what is reflected when the light that falls in is not polarised: 0 is none, 1 is all, Eq. (17).",
@@ -73,7 +73,32 @@ pub const GLOSSARY: [Entry; 15] = [
     },
     Entry { word: "landscape", meaning: "ΔE, or whatever else is minimised, over two parameters: a fit looks for its lowest place." },
     AICC,
+    PROFILE,
+    Entry {
+        word: "bootstrap",
+        meaning: "The fit repeated on many sets of data that are made from it and its residuals: how far the values scatter.",
+    },
+    Entry {
+        word: "loss",
+        meaning: "How much a residual counts: squared, or less for large ones, so that a few wrong points do not lead the fit.",
+    },
+    Entry {
+        word: "standard error",
+        meaning: "Half of the range that holds the value in about two of three repetitions of the measurement, if the misfit is a parabola around its lowest place.",
+    },
+    Entry { word: "ladder", meaning: "The models from the simplest to the one with all nine parameters, fitted to the same data." },
+    Entry { word: "start", meaning: "A set of values that a fit begins at; several look for several lowest places." },
+    Entry { word: "box", meaning: "The bounds of all parameters together: fits stay inside." },
+    Entry {
+        word: "DoLP_s, half at …°",
+        meaning: "DoLP_s is that of the facets alone, the Fresnel limit. Half at: the tilt of facets that half of all stay below.",
+    },
 ];
+
+pub const PROFILE: Entry = Entry {
+    word: "profile",
+    meaning: "The lowest misfit at each value of one parameter, all others fitted again: the values where it is low enough are the interval.",
+};
 
 /// What ΔE is.
 pub fn delta_e_help() -> String {

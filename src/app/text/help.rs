@@ -20,7 +20,7 @@ impl Help {
 
 /// From a file to a fit, and where the other language is.
 pub const FIRST_STEPS: [&str; 6] = [
-    "Open: drop CSV files on the window, or choose File › Open measurements…; each needs the columns theta_i and theta_r in degrees and dolp or brdf, and comes to the list at the left.",
+    "Open: drop files on the window, or choose File › Open measurements…; a table of another program asks what its columns are. Each comes to the list at the left.",
     "Bring the curves near the points by eye with the sliders on the left; ΔE at the lower left says how near they are.",
     "Fix: tick “fixed” beside every value that you know.",
     "Fit: press Fit on the right, or F5, and read there the values with their standard errors and what the data leave open.",

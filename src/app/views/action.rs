@@ -4,10 +4,12 @@ use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::text::help::Help;
 use crate::app::text::i18n::Language;
+use crate::app::views::pointing::PickedDirection;
 use crate::app::work::edit::Switch;
 use crate::app::work::pane_id::PaneId;
-use crate::app::work::settings::Theme;
+use crate::app::work::settings::{SidePanel, Theme};
 use crate::app::work::sharing::Sharing;
+use crate::app::work::talk::TalkSlider;
 use crate::report::TableFormat;
 use pbrdf::model::Parameter;
 use std::path::PathBuf;
@@ -110,14 +112,32 @@ pub enum Action {
     Toggle(Switch),
     /// Whether what the data determine is on screen.
     ShowOutlook(bool),
+    /// A direction that was picked in the picture, degrees: marked in plots against θr.
+    MarkDirection(PickedDirection),
     ToggleFrameTimes,
-    /// A pane to the screen, or off it.
-    TogglePane(PaneId),
+    /// A pane to the screen.
+    ShowPane(PaneId),
+    /// A pane alone in the window, and back.
+    FillWindow(PaneId),
+    /// The presentation begins or ends.
+    Present,
+    /// A slider into the strip of the presentation, or out of it.
+    ChooseTalkSlider(TalkSlider),
+    ToggleSpotlight,
+    /// A panel beside the plots, and away.
+    TogglePanel(SidePanel),
+    /// All larger (1), smaller (−1), or as it is by itself (0).
+    Zoom(i8),
     ClosePane(PaneId),
     ResetLayout,
     SetTheme(Theme),
     SetLanguage(Language),
     OpenPalette,
+    /// The tour at the step of that number.
+    ShowTour(usize),
+    EndTour,
+    /// Away with the notice of that place.
+    DismissToast(usize),
     ShowHelp(Help),
     CloseHelp,
     Quit,

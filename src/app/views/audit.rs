@@ -184,7 +184,7 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let headings = [
         (tr!("check"), tr!("What was looked at, and why it is as it is")),
-        (tr!("number"), tr!("The largest over a mesh of directions")),
+        (tr!("number"), tr!("The worst over a mesh of directions or angles of incidence; of admissibility the smallest eigenvalue")),
         (tr!("limit"), tr!("What the number must keep for the check to pass")),
         (tr!("direction"), tr!("The direction that the number belongs to: θi, θr, Δφ")),
     ];

@@ -5,9 +5,12 @@ use crate::app::jobs::memo::Memo;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::localized::Localized;
+use crate::app::text::numbers::short;
 use crate::app::views::companions::Companions;
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet};
+use crate::app::views::pointing::PickedDirection;
 use crate::app::work::fit_setup::{fit_problem, is_joint, joint_problem};
+use crate::app::work::lesson_stage::ReadoutPlace;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
@@ -15,7 +18,9 @@ use pbrdf::fit::{
     FitOptions, FitRange, JointUnknown, Loss, Problem, Tie, Uncertainty, UndeterminedDirection, UnknownName, Weights, is_determined,
 };
 use pbrdf::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
+use pbrdf::optics::{Facet, Geometry};
 use std::collections::BTreeMap;
+use tr::tr;
 
 /// Everything derived that has more than one reader; a pane keeps what it alone shows.
 #[derive(Default)]
@@ -37,6 +42,40 @@ pub struct Derived {
     /// Whether the panel of fits shows what the data determine.
     pub is_outlook_shown: bool,
     outlook: Memo<OutlookKey, Option<Identifiability>>,
+    readout: Memo<ReadoutKey, Option<String>>,
+    /// What was picked in the picture last.
+    pub picked: Option<PickedDirection>,
+}
+
+/// What the read-out depends on; angles in degrees.
+#[derive(Clone, PartialEq)]
+struct ReadoutKey {
+    surface: (Model, Parameters),
+    direction: [f64; 2],
+    readings: Vec<ReadoutPlace>,
+    pointer: Option<f64>,
+    language: Language,
+}
+
+/// DoLP and BRDF at each place, and where the pointer is.
+fn readout(key: &ReadoutKey) -> Option<String> {
+    let surface = Pbrdf::new(key.surface.0, key.surface.1).ok()?;
+    let [theta_i, dphi] = key.direction;
+    let at = |theta_r: f64, dphi: f64| {
+        let reflection = surface.reflection(&Facet::new(Geometry::new(theta_i, theta_r.abs(), dphi).ok()?));
+        Some(tr!("DoLP = {0}, BRDF = {1} sr⁻¹", format!("{:.4}", reflection.dolp), short(reflection.brdf)))
+    };
+    let side = |theta_r: f64| if theta_r < 0.0 { dphi - 180.0 } else { dphi };
+    let of_reading = |reading: &ReadoutPlace| match *reading {
+        ReadoutPlace::Mirror => at(theta_i, 180.0).map(|said| tr!("Mirror direction θr = θi = {0}°: {1}", theta_i, said)),
+        ReadoutPlace::ThetaR(theta_r) => at(theta_r, side(theta_r)).map(|said| format!("θr = {theta_r}°: {said}")),
+    };
+    let readings = key.readings.iter().filter_map(of_reading);
+    let pointed = key.pointer.and_then(|theta_r| {
+        let said = at(theta_r, side(theta_r))?;
+        Some(tr!("Pointer θr = {0}°: {1}", format!("{theta_r:.1}"), said))
+    });
+    Some(readings.chain(pointed).collect::<Vec<_>>().join("   ")).filter(|text| !text.is_empty())
 }
 
 /// What the problem of a surface depends on: the generation of the data, model, ties and range.
@@ -102,6 +141,29 @@ impl Derived {
         } else {
             self.outlook.clear();
         }
+    }
+
+    /// What the model says at these places and at the angle of view that the pointer is at in a plot.
+    pub fn refresh_readout(&mut self, work: &Workspace, readings: Vec<ReadoutPlace>, pointer: Option<f64>) {
+        let (surface, settings) = (work.surface(), work.settings());
+        let key = ReadoutKey {
+            surface: (surface.model, surface.parameters),
+            direction: [settings.theta_i, settings.dphi],
+            readings,
+            pointer,
+            language: i18n::current(),
+        };
+        self.readout.refresh(key, readout);
+    }
+
+    /// The same, in words.
+    pub fn readout(&self) -> Option<&str> {
+        self.readout.get()?.as_deref()
+    }
+
+    /// The angle of view of the picked pixel, while lobes are looked at under its angles.
+    pub fn picked_theta_r(&self, work: &Workspace) -> Option<f64> {
+        self.picked?.theta_r_at(work.settings())
     }
 
     /// ΔE of the sliders.

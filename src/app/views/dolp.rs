@@ -3,14 +3,17 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
-use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, Range, nice_ceiling, switching_key_line_ui, theme};
+use crate::app::plots::{
+    AutoRange, FigurePlot, KeyEntry, PanelPlace, PanelStyle, Polyline, Range, nice_ceiling, switching_key_line_ui, theme,
+};
 use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, translated};
+use crate::app::text::i18n::Language;
 use crate::app::views::companions::{CompanionId, Look};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, band_name, dolp_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn, figure_title};
-use crate::app::views::picking::{MASK_HINT, clicked_mask};
+use crate::app::views::picking::{clicked_mask, mask_hint};
+use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::residuals::ResidualStrip;
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
@@ -51,8 +54,8 @@ pub struct DolpView {
 }
 
 /// What the figure depends on: curves, points, other distribution, band and companions, each
-/// by its stamp; what is shown and what hidden; the axis; the language.
-type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
+/// by its stamp; what is shown and what hidden; the axis; the picked pixel; the language.
+type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
 
 /// Another surface than the sliders', the state of the document, whether the backscatter side
 /// is drawn.
@@ -63,6 +66,12 @@ impl DolpView {
     #[cfg(test)]
     pub fn range(&self) -> Option<Range> {
         self.range.get()
+    }
+
+    /// The parts of θr that the plot and the strip under it show.
+    #[cfg(test)]
+    pub fn seen(&self) -> [Option<Range>; 2] {
+        [self.plot.seen_x(), self.residuals.seen_x()]
     }
 
     fn shows(&self, line: Line) -> bool {
@@ -127,6 +136,8 @@ impl DolpView {
             self.push_share(&mut series, &curves.own, &names, FOREGROUND, cx.work.settings());
             series.push(Series::line(&names.own, curves.own.dolp.clone()).colored(FOREGROUND));
         }
+        let picked = cx.derived.picked_theta_r(cx.work).zip(self.range.get());
+        series.extend(picked.map(|(theta_r, range)| mark(theta_r, range.low, range.high)));
         let (x, y) = (key.x().on(Axis::linear("θr", "°")), self.range.on(Axis::linear("DoLP", "")));
         Figure { title: figure_title(cx.work), panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
     }
@@ -169,24 +180,29 @@ impl View for DolpView {
             cx.work.settings().show_limit,
             self.hidden.clone(),
             self.range.get(),
+            derived.picked_theta_r(cx.work),
             i18n::current(),
         );
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| Some(self.describe(curves, key, marks, cx)));
         self.plot = plot;
+        // Where the user has moved the plot, the strip follows.
+        let is_moved = self.plot.panel(0).is_some_and(|panel| panel.is_moved());
+        let moved = self.plot.seen_x().filter(|_| is_moved);
         let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
         let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id)));
-        self.residuals.refresh(key, marks, hidden, &companions.collect::<Vec<_>>(), cx);
+        self.residuals.refresh(moved.unwrap_or(key.x()), marks, hidden, &companions.collect::<Vec<_>>(), cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let room = ui.available_height();
         if self.residuals.is_there() && room > 220.0 {
-            let strip = (STRIP * room).max(80.0);
-            self.curves_ui(cx, ui, room - strip - ui.spacing().item_spacing.y);
+            let strip = (STRIP * room).max(LEAST_STRIP);
+            self.curves_ui(cx, ui, room - strip - BETWEEN, PanelPlace::OverStrip);
+            ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
             self.residuals.ui(ui, strip);
         } else {
-            self.curves_ui(cx, ui, room);
+            self.curves_ui(cx, ui, room, PanelPlace::Alone);
         }
     }
 
@@ -212,7 +228,7 @@ impl View for DolpView {
         ui.separator();
         cx.switch_ui(Switch::Band, tr!("Confidence band"), ui).on_hover_text(tr!("One standard error of the fitted curve to either side"));
         cx.switch_ui(Switch::Limit, tr!("Fresnel limit"), ui)
-            .on_hover_text(tr!("DoLP without any depolarising term: no point can lie above it"));
+            .on_hover_text(tr!("DoLP without any depolarising term: no curve of this n and k can lie above it; a point that does says that n and k, or the data, are wrong"));
         cx.switch_ui(Switch::Backscatter, tr!("Backscatter side"), ui).on_hover_text(tr!("Negative θr, also where nothing was measured"));
     }
 
@@ -222,7 +238,7 @@ impl View for DolpView {
 }
 
 impl DolpView {
-    fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32) {
+    fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32, place: PanelPlace) {
         let Some(marks) = cx.derived.marks.get() else { return };
         // The curve of a measured series is that of the sliders where both have one θi.
         let series = cx.derived.curves.get().and_then(|curves| marks.series.get(curves.own_is_series?));
@@ -231,9 +247,11 @@ impl DolpView {
         let top = ui.cursor().top();
         switching_key_line_ui(&entries, &mut self.hidden, ui);
         let height = height - (ui.cursor().top() - top);
-        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\nDoLP = {y:.5}\n{}", translated(MASK_HINT));
-        let style = PanelStyle::new("dolp", height, &hover).named(tr!("Plot: DoLP against θr"));
+        let hint = mask_hint(cx.work.active());
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\nDoLP = {y:.5}{hint}");
+        let style = PanelStyle { place, ..PanelStyle::new("dolp", height, &hover) }.named(tr!("Plot: DoLP against θr"));
         let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };
+        note_theta_r(&response, ui);
         // What is not drawn cannot be meant.
         let mask = clicked_mask(
             &response,
@@ -301,6 +319,10 @@ const ROOM_FOR_LIMIT: f64 = 1.25;
 
 /// Share of the height that the residuals have.
 const STRIP: f32 = 0.25;
+/// Points that they have at least, with the axis of θr.
+const LEAST_STRIP: f32 = 96.0;
+/// Between plot and strip, in points: numbers at their ends are not to meet.
+const BETWEEN: f32 = 10.0;
 
 /// What can be hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

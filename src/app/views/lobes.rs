@@ -5,12 +5,13 @@ use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Range, nice_ceiling, switching_key_line_ui, theme};
 use crate::app::text::i18n;
-use crate::app::text::i18n::{Language, translated};
+use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, CompanionId, Companions};
 use crate::app::views::confidence_band::{Band, BandKey, band_key, band_name, brdf_bands};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
-use crate::app::views::picking::{MASK_HINT, clicked_mask};
+use crate::app::views::picking::{clicked_mask, mask_hint};
+use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::settings::ViewOptions;
@@ -45,7 +46,7 @@ pub struct LobesView {
 
 /// What the figure depends on: curves, points, band and companions by their stamps; what is shown and what
 /// hidden; the axis; the language.
-type FigureKey = ([u64; 4], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Language);
+type FigureKey = ([u64; 4], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
 
 /// A curve of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -127,6 +128,8 @@ impl LobesView {
         if self.shows(Line::Total) {
             series.push(Series::stroke(tr!("total"), curves.own.total.clone(), TOTAL, Dash::Solid).colored(FOREGROUND));
         }
+        let picked = cx.derived.picked_theta_r(cx.work).zip(y.range);
+        series.extend(picked.map(|(theta_r, (low, high))| mark(theta_r, low, high)));
         let title = tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
         let panel = Panel { title, x: key.x().on(Axis::linear("θr", "°")), y, series, ..Panel::default() };
         Some(Figure { title: cx.work.active().title(), panels: vec![panel], ..Figure::default() })
@@ -174,8 +177,15 @@ impl View for LobesView {
             _ => Vec::new(),
         });
         let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp(), derived.companions.stamp()];
-        let figure_key =
-            (stamps, cx.work.settings().view_options, cx.work.settings().log_brdf, self.hidden.clone(), self.range.get(), i18n::current());
+        let figure_key = (
+            stamps,
+            cx.work.settings().view_options,
+            cx.work.settings().log_brdf,
+            self.hidden.clone(),
+            self.range.get(),
+            derived.picked_theta_r(cx.work),
+            i18n::current(),
+        );
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| self.describe(curves, key, marks, cx));
         self.plot = plot;
@@ -186,9 +196,11 @@ impl View for LobesView {
         switching_key_line_ui(&Self::key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
         let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
         let quantity = quantity(times_cosine);
-        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr\n{}", translated(MASK_HINT));
+        let hint = mask_hint(cx.work.active());
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr{hint}");
         let style = PanelStyle::new("lobes", ui.available_height(), &hover).named(tr!("Plot: BRDF against θr"));
         let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };
+        note_theta_r(&response, ui);
         let place = |theta_r, brdf| {
             let value = drawn_brdf(theta_r, brdf, times_cosine);
             Some(if log { libm::log10(value) } else { value }).filter(|y| y.is_finite())

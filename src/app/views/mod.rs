@@ -18,6 +18,7 @@ pub mod derived;
 mod dolp;
 mod error_vs_time;
 mod facets;
+mod focus_stops;
 mod hemisphere;
 mod landscape;
 mod lobes;
@@ -27,6 +28,7 @@ mod mueller;
 pub mod picking;
 mod picture;
 mod planner;
+mod pointing;
 mod polar_lobes;
 mod report;
 mod residuals;
@@ -37,8 +39,10 @@ mod stability;
 
 pub use context::{Cx, PaneSpec, View};
 pub use data::table_text;
+pub use focus_stops::{follow_f6, note_stop};
 pub use metals::values;
 pub use models::running_model_ui;
+pub use pointing::pointed_theta_r;
 pub use series_choice::choice_menu_ui;
 
 #[cfg(test)]

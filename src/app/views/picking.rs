@@ -1,5 +1,6 @@
 //! Clicks on measured points.
 
+use crate::app::text::i18n::translated;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use egui::Ui;
@@ -9,7 +10,12 @@ use egui_plot::{PlotPoint, PlotResponse};
 const NEAR: f32 = 12.0;
 
 /// What hovering a point says of it.
-pub const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
+const MASK_HINT: &str = "Ctrl+click: mask or unmask · with Shift: the whole series";
+
+/// The same in the language of the window; nothing where nothing is measured.
+pub fn mask_hint(document: &OpenMeasurement) -> String {
+    if document.measurement.rows.is_empty() { String::new() } else { format!("\n{}", translated(MASK_HINT)) }
+}
 
 /// Ctrl+click on a measured point masks it or takes it back; with Shift its whole series. `marks`
 /// gives the points that are drawn of a series, by its place in the measurement, and `coordinate` their height in the

@@ -2,12 +2,12 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::MUTED;
-use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range, nice_ceiling};
+use crate::app::plots::{AutoRange, FigurePlot, PanelPlace, PanelStyle, Range, nice_ceiling};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, CompanionId};
 use crate::app::views::context::Cx;
-use crate::app::views::curves::{CurveKey, MOST_POINTS, MarkSet, drawn, is_fitted};
+use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn, is_fitted};
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::app::work::surface::Surface;
 use crate::figure::{Axis, Figure, Panel, Series};
@@ -38,7 +38,8 @@ type PlotKey = (u64, Vec<bool>, (u64, Vec<CompanionId>), Range, Option<Range>, L
 const EXACT: f64 = 0.01;
 
 impl ResidualStrip {
-    pub fn refresh(&mut self, curves: &CurveKey, marks: &MarkSet, hidden: Vec<bool>, companions: &[Companion<'_>], cx: &Cx<'_>) {
+    /// Along the part of θr that the plot above shows.
+    pub fn refresh(&mut self, x: Range, marks: &MarkSet, hidden: Vec<bool>, companions: &[Companion<'_>], cx: &Cx<'_>) {
         let (surface, document) = (cx.work.surface(), cx.work.active());
         let range = cx.work.settings().fit_options.range;
         let key = (surface.parameters, surface.model, document.plotted, range);
@@ -57,7 +58,7 @@ impl ResidualStrip {
         }
         let range = &self.range;
         let beside = (cx.derived.companions.stamp(), companions.iter().map(|companion| companion.id).collect());
-        let key = (self.of_series.stamp(), hidden, beside, curves.x(), range.get(), i18n::current());
+        let key = (self.of_series.stamp(), hidden, beside, x, range.get(), i18n::current());
         self.plot.refresh(key, |(_, hidden, _, x, ..)| {
             let mut series = vec![Series::level("", 0.0).colored(MUTED)];
             series.extend(companions.iter().filter_map(|companion| companion.residuals(&companion.drawn.dolp_residuals, false)));
@@ -65,7 +66,7 @@ impl ResidualStrip {
             for ((residuals, marks), _) in all.filter(|((residuals, _), hidden)| !residuals.is_empty() && !**hidden) {
                 series.push(Series::points(&marks.name, residuals.iter().copied()).colored(marks.ink));
             }
-            let (x, y) = (x.on(Axis::default()), range.on(Axis::linear(tr!("model − meas."), "")));
+            let (x, y) = (x.on(Axis::linear("θr", "°")), range.on(Axis::linear(tr!("model − meas."), "")));
             Some(Figure { panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() })
         });
     }
@@ -75,10 +76,15 @@ impl ResidualStrip {
         self.is_there && self.range.get().is_some()
     }
 
+    #[cfg(test)]
+    pub fn seen_x(&self) -> Option<Range> {
+        self.plot.seen_x()
+    }
+
     pub fn ui(&mut self, ui: &mut Ui, height: f32) {
         let hover = |name: &str, x: f64, y: f64| tr!("{0}\nθr = {1}°\nresidual = {2}", name, format!("{x:.2}"), format!("{y:.2e}"));
         let spread = if height < LOW { 2.2 } else { 3.5 };
-        let style = PanelStyle { spread, ..PanelStyle::new("residuals", height, &hover) };
+        let style = PanelStyle { spread, place: PanelPlace::Strip, ..PanelStyle::new("residuals", height, &hover) };
         let style = style.named(tr!("Plot: residuals of DoLP against θr"));
         if let Some(panel) = self.plot.panel(0) {
             panel.ui(&style, ui);

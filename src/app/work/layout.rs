@@ -20,10 +20,10 @@ pub enum Layout {
 }
 
 impl Default for Layout {
-    /// Two groups of tabs, one above the other.
+    /// Two groups of tabs, one above the other, with the panes that most want; the menu has the others.
     fn default() -> Self {
         let tabs = |area| {
-            let parts = PaneId::ALL.iter().filter(|pane| pane.area() == area).map(|pane| Self::Pane(*pane));
+            let parts = PaneId::ALL.iter().filter(|pane| pane.opens_first() && pane.area() == area).map(|pane| Self::Pane(*pane));
             Self::Tabs { active: 0, parts: parts.collect() }
         };
         Self::Rows(vec![(1.2, tabs(DockArea::Upper)), (1.0, tabs(DockArea::Lower))])
@@ -46,6 +46,23 @@ impl Layout {
     pub fn is_sound(&self) -> bool {
         let mut panes = Vec::new();
         self.collect(&mut panes) && !panes.is_empty()
+    }
+
+    /// The panes in their order.
+    pub fn panes(&self) -> Vec<PaneId> {
+        let mut panes = Vec::new();
+        self.collect(&mut panes);
+        panes
+    }
+
+    /// Whether any lie one above the other.
+    pub fn is_stacked(&self) -> bool {
+        match self {
+            Self::Pane(_) => false,
+            Self::Tabs { active, parts } => parts.get(*active).is_some_and(Self::is_stacked),
+            Self::Columns(parts) => parts.iter().any(|(_, part)| part.is_stacked()),
+            Self::Rows(parts) => parts.len() > 1 || parts.iter().any(|(_, part)| part.is_stacked()),
+        }
     }
 
     fn collect(&self, panes: &mut Vec<PaneId>) -> bool {

@@ -1,8 +1,6 @@
 //! A guided experiment: settings of the model in steps, with what to move, what to watch and why.
 //!
-//! A lesson is a plain text file of lines `key: text`; an indented line goes on with the text of
-//! the line before, a line that begins with `#` is a comment. Texts may be given in further
-//! languages under the key with the language behind a dot (`title.zh`).
+//! [`crate::app::work::lesson_text`] says how a lesson is written down.
 //!
 //! A lesson begins with the program's default settings and with a measurement of its own: the first
 //! bundled example, if it does not name one; `example: none` is for lessons that points in the
@@ -22,15 +20,22 @@
 //! | `metal` | step | symbol or name of the tabulated metal to look at, such as `Cu` |
 //! | `wavelength` | step | vacuum wavelength in nm at which to look at it |
 //! | `panes` | step | names of the views to bring to the front |
+//! | `simulate` | step | a measurement to simulate, such as `seed=1, noise=0.005, theta_i=30:50:10, theta_r=20:60:5, n=2` |
+//! | `picture` | step | what the picture shows, such as `shape=sphere, show=dolp, polar=60, sky=no` |
+//! | `pin` | step | surfaces to pin: `other`, `none`, or parameters that differ; `;` between them |
+//! | `readout` | step | `mirror`, or angles of view at which the model is read out |
+//! | `formula` | step | Eq. (17): `consistent` or `printed` |
 //! | `move`, `watch`, `why` | step | what to do, what to look at, and the reason |
 
-use crate::app::text::i18n::translated;
-use crate::app::text::localized::Localized;
-use crate::app::text::messages::quoted;
+use crate::app::work::lesson_error::{LessonError, LessonErrorKind};
+use crate::app::work::lesson_stage::{LessonSimulation, Staging};
+use crate::app::work::lesson_text::{LessonEntry, entries};
+use crate::app::work::open_measurement::EXAMPLES;
+use crate::app::work::pane_id::PaneId;
+use crate::app::work::talk::TalkSlider;
 use pbrdf::model::{AssignmentError, Parameter, Preset, assignment_from_text, assignments_from_text};
 use pbrdf::optics;
 use pbrdf::optics::{Geometry, Metal};
-use tr::tr;
 
 /// A text in one language or more.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -80,6 +85,8 @@ pub enum Data {
     Nothing,
     /// A bundled example, by name.
     Example(String),
+    /// One that is simulated.
+    Simulated(Box<LessonSimulation>),
 }
 
 /// One step of a lesson; what is not set stays as it is.
@@ -107,12 +114,35 @@ pub struct Step {
     pub wavelength_nm: Option<f64>,
     /// The views to bring to the front, by name.
     pub panes: Vec<String>,
+    /// What it shows besides sliders and panes.
+    pub staging: Staging,
     /// What to move.
     pub action: Wording,
     /// What to look at.
     pub watch: Wording,
     /// The reason.
     pub why: Wording,
+}
+
+impl Step {
+    /// What the setting of that key names and there is not.
+    fn missed(&self, key: Option<&String>) -> Vec<LessonErrorKind> {
+        match (key.map(String::as_str), &self.data) {
+            (Some("panes"), _) => {
+                let unknown = self.panes.iter().filter(|name| PaneId::try_from((*name).clone()).is_err());
+                unknown.map(|name| LessonErrorKind::Pane(name.clone())).collect()
+            }
+            (Some("example"), Some(Data::Example(name))) if EXAMPLES.iter().all(|example| example.name != name) => {
+                vec![LessonErrorKind::Example(name.clone())]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The sliders that the step speaks of: those with ends of their own.
+    pub fn sliders(&self) -> Vec<TalkSlider> {
+        self.ranges.iter().map(|(parameter, ..)| TalkSlider::Of(*parameter)).collect()
+    }
 }
 
 /// A lesson.
@@ -124,115 +154,12 @@ pub struct Lesson {
     pub about: Wording,
     /// Its steps, at least one.
     pub steps: Vec<Step>,
-}
-
-/// Why a text is no lesson, and where.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LessonError {
-    /// Line of the file, from 1.
-    pub line: usize,
-    /// What is wrong there.
-    pub kind: LessonErrorKind,
-}
-
-/// What is wrong with a line of a lesson.
-#[derive(Debug, Clone, PartialEq)]
-pub enum LessonErrorKind {
-    /// Neither `key: text` nor an indented line.
-    Form(String),
-    /// A key that means nothing here.
-    Key {
-        /// The key.
-        found: String,
-        /// What may stand there.
-        expected: &'static str,
-    },
-    /// A key given twice in one step.
-    Twice(String),
-    /// A key without a text.
-    Empty(String),
-    /// A language where there is nothing to translate.
-    Language(String),
-    /// No such model.
-    Model(String),
-    /// No such parameter, or a value that it cannot have.
-    Set(AssignmentError),
-    /// No `name=low..high`.
-    Range(String),
-    /// Ends in the wrong order.
-    Order {
-        /// The lower end.
-        low: f64,
-        /// The upper end.
-        high: f64,
-    },
-    /// Not an angle in its range.
-    Angle {
-        /// What stands there.
-        found: String,
-        /// What is allowed.
-        expected: &'static str,
-    },
-    /// No such metal.
-    Metal(String),
-    /// Not a wavelength.
-    Wavelength(String),
-    /// Neither yes nor no.
-    YesOrNo(String),
-    /// A lesson needs a title.
-    NoTitle,
-    /// A lesson needs a step.
-    NoStep,
-}
-
-impl From<AssignmentError> for LessonErrorKind {
-    fn from(error: AssignmentError) -> Self {
-        Self::Set(error)
-    }
-}
-
-impl Localized for LessonError {
-    fn localized(&self) -> String {
-        tr!("line {0}: {1}", self.line, self.kind.localized())
-    }
-}
-
-impl Localized for LessonErrorKind {
-    fn localized(&self) -> String {
-        match self {
-            Self::Form(found) => {
-                tr!("expected key: text, or an indented line that goes on with the text before, found {}", quoted(found))
-            }
-            Self::Key { found, expected } => tr!("{0} is not a key; expected one of {1}", quoted(found), expected),
-            Self::Twice(found) => tr!("{} is given twice", quoted(found)),
-            Self::Empty(found) => tr!("{} has no text", quoted(found)),
-            Self::Language(found) => tr!("{} is not in a language of its own", quoted(found)),
-            Self::Model(found) => tr!("{} is no model", quoted(found)),
-            Self::Set(error) => error.localized(),
-            Self::Range(found) => tr!("expected name=low..high, such as k=0..3, found {}", quoted(found)),
-            Self::Order { low, high } => tr!("a slider from {0} to {1}: the first must be below the second", low, high),
-            Self::Angle { found, expected } => tr!("{0} is no angle: expected {1}", quoted(found), translated(expected)),
-            Self::Metal(found) => tr!("{} is no tabulated metal", quoted(found)),
-            Self::Wavelength(found) => {
-                tr!("{} is no wavelength: expected a positive number of nanometres", quoted(found))
-            }
-            Self::YesOrNo(found) => tr!("expected yes or no, found {}", quoted(found)),
-            Self::NoTitle => tr!("the lesson has no title"),
-            Self::NoStep => tr!("the lesson has no step"),
-        }
-    }
+    /// What it names and there is not, which it goes on without.
+    pub notes: Vec<LessonError>,
 }
 
 const HEAD_KEYS: &str = "title, about, step";
-const STEP_KEYS: &str = "step, model, set, range, theta_i, dphi, log, example, metal, wavelength, panes, move, watch, why";
-
-/// A line with its continuations.
-struct Entry {
-    line: usize,
-    key: String,
-    language: Option<String>,
-    text: String,
-}
+const STEP_KEYS: &str = "step, model, set, range, theta_i, dphi, log, example, simulate, metal, wavelength, panes, picture, pin, readout, formula, move, watch, why";
 
 impl Lesson {
     /// Reads a lesson.
@@ -241,7 +168,7 @@ impl Lesson {
         let mut seen: Vec<String> = Vec::new();
         let mut last = 1;
         for entry in entries(text)? {
-            let Entry { line, ref key, ref language, .. } = entry;
+            let LessonEntry { line, ref key, ref language, .. } = entry;
             let at = |kind| LessonError { line, kind };
             last = line;
             let whole = language.as_ref().map_or_else(|| key.clone(), |language| format!("{key}.{language}"));
@@ -261,6 +188,9 @@ impl Lesson {
                 None => lesson.take(entry),
             }
             .map_err(at)?;
+            if let Some(step) = lesson.steps.last() {
+                lesson.notes.extend(step.missed(seen.last()).into_iter().map(at));
+            }
         }
         let missing = |kind| LessonError { line: last, kind };
         if lesson.title.is_empty() {
@@ -272,7 +202,7 @@ impl Lesson {
         Ok(lesson)
     }
 
-    fn take(&mut self, entry: Entry) -> Result<(), LessonErrorKind> {
+    fn take(&mut self, entry: LessonEntry) -> Result<(), LessonErrorKind> {
         let wording = match entry.key.as_str() {
             "title" => &mut self.title,
             "about" => &mut self.about,
@@ -284,8 +214,8 @@ impl Lesson {
 }
 
 impl Step {
-    fn take(&mut self, entry: Entry) -> Result<(), LessonErrorKind> {
-        let Entry { key, language, text, .. } = entry;
+    fn take(&mut self, entry: LessonEntry) -> Result<(), LessonErrorKind> {
+        let LessonEntry { key, language, text, .. } = entry;
         let wording = match key.as_str() {
             "step" => &mut self.heading,
             "move" => &mut self.action,
@@ -318,7 +248,9 @@ impl Step {
                 let stated = text.parse().ok().filter(|nm: &f64| nm.is_finite() && *nm > 0.0);
                 self.wavelength_nm = Some(stated.ok_or(LessonErrorKind::Wavelength(text))?);
             }
+            "simulate" => self.data = Some(Data::Simulated(Box::new(LessonSimulation::from_text(&text)?))),
             "panes" => self.panes = text.split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect(),
+            _ if self.staging.take(&key, &text)? => {}
             _ => return Err(LessonErrorKind::Key { found: key, expected: STEP_KEYS }),
         }
         Ok(())
@@ -348,33 +280,6 @@ fn ranges(text: &str) -> Result<Vec<(Parameter, f64, f64)>, LessonErrorKind> {
 
 fn angle(text: String, expected: &'static str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, LessonErrorKind> {
     text.parse().ok().filter(|&angle| is_allowed(angle)).ok_or(LessonErrorKind::Angle { found: text, expected })
-}
-
-/// The lines with their continuations, comments and blank lines left out.
-fn entries(text: &str) -> Result<Vec<Entry>, LessonError> {
-    let mut entries: Vec<Entry> = Vec::new();
-    for (number, raw) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let line = number + 1;
-        let trimmed = raw.trim();
-        if trimmed.is_empty() || trimmed.starts_with('#') {
-            continue;
-        }
-        let form = || LessonError { line, kind: LessonErrorKind::Form(trimmed.to_owned()) };
-        if raw.starts_with([' ', '\t']) {
-            let entry = entries.last_mut().ok_or_else(form)?;
-            // Chinese has no blanks between words, and none where a line is broken.
-            let glue = if entry.text.is_empty() || entry.text.ends_with(|c: char| c >= '\u{2e80}') { "" } else { " " };
-            entry.text = format!("{}{glue}{trimmed}", entry.text);
-            continue;
-        }
-        let (key, text) = trimmed.split_once(':').ok_or_else(form)?;
-        let (key, language) = match key.split_once('.') {
-            Some((key, language)) => (key, Some(language.trim().to_owned())),
-            None => (key, None),
-        };
-        entries.push(Entry { line, key: key.trim().to_owned(), language, text: text.trim().to_owned() });
-    }
-    Ok(entries)
 }
 
 #[cfg(test)]
@@ -439,5 +344,15 @@ mod tests {
             assert!(error.localized().contains(expected), "{text:?}: {error:?}");
         }
         assert_eq!(Lesson::from_text("").map_err(|error| error.kind), Err(LessonErrorKind::NoTitle));
+    }
+
+    const MARKDOWN: &str = "---\ntitle: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\n---\n\n## Glass\n\n- step.zh: 玻璃\n- model: fresnel\n- set: n=1.5, k=0\n\n<!-- nobody reads this -->\n**Watch** the maximum,\nwhich is 1\n\n**Watch.zh** 极大值，\n为 1\n\n## Metal\n- set: k=3\n";
+    const PLAIN: &str = "title: Brewster\ntitle.zh: 布儒斯特\nabout: Where it sits\nstep: Glass\nstep.zh: 玻璃\nmodel: fresnel\nset: n=1.5, k=0\nwatch: the maximum, which is 1\nwatch.zh: 极大值，为 1\nstep: Metal\nset: k=3\n";
+
+    #[test]
+    fn both_forms_say_the_same() {
+        let [one, other] = [MARKDOWN, PLAIN].map(|text| Lesson::from_text(text).expect("a lesson"));
+        assert_eq!(one, other);
+        assert_eq!(Lesson::from_text(&MARKDOWN.replace('\n', "\r\n")), Ok(one));
     }
 }

@@ -6,6 +6,7 @@ use crate::app::work::open_measurement::{EXAMPLES, Mask, OpenMeasurement};
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
 use crate::app::work::workspace::Workspace;
+use pbrdf::measurement::Measurement;
 
 impl Workspace {
     /// Sets up the last of these steps of a lesson, which `begins` if no step of it was shown
@@ -27,19 +28,20 @@ impl Workspace {
     /// Data and settings of the last of these steps. Where a lesson begins, open data of the same
     /// name may be the user's own.
     fn set_up_step(&mut self, steps: &[Step], begins: bool) {
-        let (name, text) = match steps.iter().rev().find_map(|step| step.data.as_ref()) {
-            Some(Data::Nothing) => ("", None),
+        let simulated = |name: String, measurement: Option<Measurement>| (name, measurement.unwrap_or_default());
+        let read = |text: &str| Measurement::read(text.as_bytes()).ok();
+        let (name, measurement): (String, Measurement) = match steps.iter().rev().find_map(|step| step.data.as_ref()) {
+            Some(Data::Nothing) => (String::new(), Measurement::default()),
+            Some(Data::Simulated(simulation)) => simulated(simulation.name(), simulation.measurement()),
             Some(Data::Example(name)) => {
                 let example = EXAMPLES.iter().find(|example| example.name == name).unwrap_or(&EXAMPLES[0]);
-                (example.name, Some(example.text))
+                // A test reads every bundled example.
+                simulated(example.name.to_owned(), read(example.text))
             }
-            None => (EXAMPLES[0].name, Some(EXAMPLES[0].text)),
+            None => simulated(EXAMPLES[0].name.to_owned(), read(EXAMPLES[0].text)),
         };
         if begins || self.active().name != name {
-            let read = |text: &str| pbrdf::measurement::Measurement::read(text.as_bytes());
-            // A test reads every bundled example.
-            let measurement = text.and_then(|text| read(text).ok()).unwrap_or_default();
-            self.open_alone(OpenMeasurement::new(name.to_owned(), measurement));
+            self.open_alone(OpenMeasurement::new(name, measurement));
         }
         let mut settings = Settings::default();
         settings.adapt_to(self.active());
@@ -47,6 +49,8 @@ impl Workspace {
         steps.iter().for_each(|step| apply(step, &mut settings, &mut surface));
         // No file of an example masks a row.
         self.set_up(settings, surface, &Mask::default());
+        let pins = steps.iter().rev().find_map(|step| step.staging.pins.as_ref());
+        self.pin_alone(pins.into_iter().flatten().map(|pin| pin.of(self.surface())).collect());
     }
 }
 
@@ -57,6 +61,8 @@ fn apply(step: &Step, settings: &mut Settings, surface: &mut Surface) {
     for &(parameter, value) in &step.set {
         surface.parameters[parameter] = value;
     }
+    surface.model = surface.model.with_dolp_formula(step.staging.formula.unwrap_or(surface.model.dolp_formula));
+    step.staging.picture.iter().for_each(|setting| setting.apply(&mut settings.panes.picture));
     settings.theta_i = step.theta_i.unwrap_or(settings.theta_i);
     settings.dphi = step.dphi.unwrap_or(settings.dphi);
     settings.log_brdf = step.log.unwrap_or(settings.log_brdf);

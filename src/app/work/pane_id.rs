@@ -63,6 +63,18 @@ macro_rules! declare_panes {
 }
 with_panes!(declare_panes);
 
+impl PaneId {
+    /// Whether it is on a tab before the user opens it.
+    pub fn opens_first(self) -> bool {
+        matches!(self, Self::Dolp | Self::Picture | Self::Lobes | Self::Data | Self::Models)
+    }
+
+    /// Whether it is about the program rather than about a surface.
+    pub fn judges_program(self) -> bool {
+        matches!(self, Self::ErrorVsTime | Self::Stability | Self::Cost | Self::Convergence)
+    }
+}
+
 /// Where a pane lies until the user moves it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DockArea {

@@ -102,6 +102,17 @@ impl Scene {
         joined
     }
 
+    /// What is written into files of numbers: as [`Self::joined`], or the companion less the surface of the sliders where the
+    /// difference is shown.
+    pub fn exported(&self, options: &PictureOptions) -> StokesImage {
+        let Some(other) = self.other.as_ref().filter(|_| options.difference) else { return self.joined() };
+        let less = |one: &[f64], own: &[f64]| one.iter().zip(own).map(|(one, own)| one - own).collect();
+        let mut apart = self.image.clone();
+        (apart.s0, apart.s1, apart.s2) =
+            (less(&other.s0, &self.image.s0), less(&other.s1, &self.image.s1), less(&other.s2, &self.image.s2));
+        apart
+    }
+
     /// The Stokes vector of a pixel of [`Self::joined`]; none beside the shape.
     pub fn joined_at(&self, row: usize, column: usize) -> Option<Stokes> {
         let is_right = column >= self.image.size / 2;
@@ -163,6 +174,9 @@ mod tests {
         let pixel = 16 * 32 + 10;
         assert!((shown.values[pixel] - (other.dolp()[pixel] - own.dolp()[pixel])).abs() < 1e-15);
         assert!(shown.range.0 == -shown.range.1);
+        let exported = made.exported(&PictureOptions { difference: true, ..beside });
+        assert_eq!((exported.s0[pixel], exported.s2[pixel]), (other.s0[pixel] - own.s0[pixel], other.s2[pixel] - own.s2[pixel]));
+        assert_eq!(made.exported(&beside).s1[pixel], made.joined().s1[pixel]);
         // Under the lamp alone both polarise in one direction: no difference of angles, also across 0° and 180°.
         let lamp = PictureOptions { quantity: PictureQuantity::Aop, difference: true, sky: false, azimuth: 90.0, ..beside };
         let shown = scene(lamp, Some(&made)).shown(&lamp);

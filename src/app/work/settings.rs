@@ -8,6 +8,7 @@ use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::results_options::ResultsOptions;
 use crate::app::work::settings_error::SettingsError;
+use crate::app::work::talk::{Talk, is_zoom};
 use pbrdf::fit::{FitOptions, Starts};
 use pbrdf::model::Parameter;
 use pbrdf::optics::{Geometry, Metal};
@@ -295,6 +296,52 @@ pub struct WindowSettings {
     pub recent: Vec<PathBuf>,
     /// How the last foreign tables were read.
     pub imports: ImportMemory,
+    /// Points of the screen for a point of the window.
+    pub zoom: f32,
+    pub panels: SidePanels,
+    #[serde(deserialize_with = "Talk::lenient")]
+    pub talk: Talk,
+    /// Whether the tour of the first start was shown or skipped.
+    pub knows_tour: bool,
+}
+
+/// A panel beside the plots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SidePanel {
+    #[default]
+    Parameters,
+    Fit,
+}
+
+/// Which panels are beside the plots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SidePanels {
+    pub parameters: bool,
+    pub fit: bool,
+    /// The one that is seen where there is room for one alone.
+    pub front: SidePanel,
+}
+
+impl Default for SidePanels {
+    fn default() -> Self {
+        Self { parameters: true, fit: true, front: SidePanel::Parameters }
+    }
+}
+
+impl SidePanels {
+    /// Hides a panel, or shows it again.
+    pub fn toggle(&mut self, panel: SidePanel) {
+        let shown = match panel {
+            SidePanel::Parameters => &mut self.parameters,
+            SidePanel::Fit => &mut self.fit,
+        };
+        *shown = !*shown;
+        if *shown {
+            self.front = panel;
+        }
+    }
 }
 
 /// Recent files that are kept.
@@ -310,14 +357,18 @@ impl Default for WindowSettings {
             show_frame_times: false,
             recent: Vec::new(),
             imports: ImportMemory::default(),
+            zoom: 1.0,
+            panels: SidePanels::default(),
+            talk: Talk::default(),
+            knows_tour: false,
         }
     }
 }
 
 impl WindowSettings {
-    /// Whether a window can have this size.
+    /// Whether a window can have this size and zoom.
     pub fn is_sound(&self) -> bool {
-        self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
+        is_zoom(self.zoom) && self.size.iter().all(|side| (100.0..=20_000.0).contains(side))
     }
 
     /// Puts a file in front of the recent ones.

@@ -10,8 +10,8 @@ mod scans;
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
 use crate::app::text::glossary;
-use crate::app::views::Cx;
 use crate::app::views::action::Action;
+use crate::app::views::{Cx, note_stop};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{free, free_together, is_joint};
@@ -27,7 +27,8 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     let work = cx.work;
     let (surface, document) = (work.surface(), work.active());
     let jobs = cx.jobs;
-    egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
+    // A table that is wider than the panel scrolls: the panel does not grow by itself.
+    egui::ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
         buttons_ui(cx, ui);
         let scope = Scope::of(cx);
@@ -85,6 +86,7 @@ fn buttons_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     let list = cx.work.measurements();
     ui.horizontal(|ui| {
         let fit = ui.add_enabled(!running, Button::new(RichText::new(tr!("Fit")).strong()).min_size(vec2(84.0, 26.0)));
+        note_stop(ui.ctx(), fit.id);
         let help = if is_joint(list) {
             tr!("All measurements together, from their sliders, all parameters that are not fixed")
         } else {
@@ -152,7 +154,7 @@ fn sigmas_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         let mut used = fit_options.weights == Weights::Sigma;
         let help =
             tr!("Every residual is then divided by its stated standard deviation, and the sum of squares is χ²; without, ΔE is minimised.");
-        if ui.checkbox(&mut used, tr!("The file states standard deviations: use them as weights")).on_hover_text(help).changed() {
+        if ui.checkbox(&mut used, tr!("Weight by the stated standard deviations")).on_hover_text(help).changed() {
             let weights = if used { Weights::Sigma } else { Weights::None };
             cx.edits.push(Edit::SetFitOptions(FitOptions { weights, ..fit_options }));
         }

@@ -16,6 +16,9 @@ use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, 
 use pbrdf::rounding;
 use tr::tr;
 
+/// Width of what the summary says, in points: longer sentences break.
+const SUMMARY: f32 = 200.0;
+
 /// Minima that are listed at most.
 const MOST_MINIMA: usize = 8;
 
@@ -84,7 +87,11 @@ fn summary_ui(fit: &FitEntry, ui: &mut Ui) {
         ] {
             if !value.is_empty() {
                 ui.label(name).on_hover_text(help.as_str());
-                ui.label(value).on_hover_text(help);
+                let value = |ui: &mut Ui| {
+                    ui.set_max_width(SUMMARY);
+                    ui.add(egui::Label::new(value).wrap())
+                };
+                ui.scope(value).inner.on_hover_text(help);
                 ui.end_row();
             }
         }
@@ -112,7 +119,7 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
     let own = fit.joint.as_ref().map(|part| part.of.problem.own());
     let is_own = |estimate: &&Estimate| own.is_none_or(|own| own.contains(estimate.parameter));
     let is_final = report.course.intervals_complete.is_some();
-    Grid::new("fit result").num_columns(5).striped(true).min_col_width(44.0).show(ui, |ui| {
+    Grid::new("fit result").num_columns(5).spacing([12.0, 4.0]).striped(true).min_col_width(44.0).show(ui, |ui| {
         ui.label("");
         for (heading, help) in [
             ("start", "The slider before the fit"),

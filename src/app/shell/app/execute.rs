@@ -8,6 +8,7 @@ use crate::app::shell::app::open::{cancel_import, open, open_files, start_import
 use crate::app::shell::dialogs::OverwritePrompt;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::file_dialogs::request_for;
+use crate::app::shell::presentation;
 use crate::app::shell::theme;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
@@ -19,6 +20,7 @@ use crate::app::work::layout::Layout;
 use crate::app::work::open_measurement::{EXAMPLES, OpenMeasurement};
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
+use crate::app::work::settings::{SidePanel, SidePanels};
 use crate::report::TableFormat;
 use egui::ViewportCommand;
 use pbrdf::model::{FINISHES, PRESETS, Parameters};
@@ -55,7 +57,10 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Import => start_import(app)?,
         Action::CancelImport => cancel_import(app),
         Action::CancelLoading => app.jobs.files.cancel_load(),
-        Action::StartFit => start_fit(app)?,
+        Action::StartFit => {
+            app.window.panels.front = SidePanel::Fit;
+            start_fit(app)?;
+        }
         Action::FitEach => fit_each(app)?,
         Action::CancelFit => app.jobs.fits.fit.cancel(),
         Action::FindIntervals => find_intervals(app)?,
@@ -88,16 +93,36 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::UseModel(key) => use_model(app, key),
         Action::CopyParameters => ctx.copy_text(parameter_text::text(&app.work.surface().parameters)),
         Action::RequestPaste => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
-        Action::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
-        Action::TogglePane(pane) if app.dock.is_on_screen(pane) => app.dock.close(pane),
-        Action::TogglePane(pane) => app.dock.show(pane),
-        Action::ClosePane(pane) => app.dock.close(pane),
-        Action::ResetLayout => reset_layout(app),
+        Action::MarkDirection(picked) => app.derived.picked = Some(picked),
         Action::ShowOutlook(is_shown) => app.derived.is_outlook_shown = is_shown,
+        of_window => execute_window(app, ctx, of_window),
+    }
+    Ok(())
+}
+
+/// The actions that change how the window stands and nothing of the work.
+fn execute_window(app: &mut App, ctx: &egui::Context, action: Action) {
+    match action {
+        Action::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
+        Action::ShowPane(pane) => app.dock.show(pane),
+        Action::ClosePane(pane) => app.dock.close(pane),
+        Action::FillWindow(pane) => app.dock.fill(pane),
+        Action::Present => presentation::toggle(app, ctx),
+        Action::ChooseTalkSlider(slider) => app.window.talk.toggle(slider),
+        Action::ToggleSpotlight => app.window.talk.spotlight = !app.window.talk.spotlight,
+        Action::TogglePanel(panel) => app.window.panels.toggle(panel),
+        Action::Zoom(step) => zoom(ctx, step),
+        Action::ResetLayout => reset_layout(app),
         Action::ForgetRecent => app.window.recent.clear(),
         Action::OpenPalette => app.dialogs.palette.open(),
         Action::ShowHelp(page) => app.dialogs.help = Some(page),
         Action::CloseHelp => app.dialogs.help = None,
+        Action::ShowTour(step) => app.dialogs.tour = Some(step),
+        Action::EndTour => {
+            app.dialogs.tour = None;
+            app.window.knows_tour = true;
+        }
+        Action::DismissToast(place) => app.toasts.dismiss(place),
         Action::DismissToasts => app.toasts.clear(),
         Action::SetLanguage(language) => app.window.language = language,
         Action::SetTheme(theme) => {
@@ -105,8 +130,9 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
             theme::set(ctx, theme);
         }
         Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        // Those of the work are carried out above.
+        _ => {}
     }
-    Ok(())
 }
 
 /// Into the file that the session came from or went to last; asks where there is none.
@@ -168,8 +194,18 @@ fn copy_table(app: &mut App, ctx: &egui::Context) {
 
 fn reset_layout(app: &mut App) {
     let layout = Layout::default();
-    app.dock = Dock::new(&layout);
+    app.dock.rearrange(Dock::new(&layout));
     app.work.apply(Edit::SetLayout(layout));
+    app.window.panels = SidePanels::default();
+}
+
+/// As the keys of the toolkit do it.
+fn zoom(ctx: &egui::Context, step: i8) {
+    match step {
+        0 => ctx.set_zoom_factor(1.0),
+        1.. => egui::gui_zoom::zoom_in(ctx),
+        _ => egui::gui_zoom::zoom_out(ctx),
+    }
 }
 
 /// Sliders, terms and angles of a case of the stability gallery; of a fit, its data as well.

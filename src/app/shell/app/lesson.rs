@@ -61,7 +61,7 @@ fn set_up_step(app: &mut App, steps: &[Step], begins: bool) {
     }
     // An arrangement that is right already keeps what the user has unfolded in it.
     if dock.layout() != app.dock.layout() {
-        app.dock = dock;
+        app.dock.rearrange(dock);
     }
 }
 

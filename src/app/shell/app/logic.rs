@@ -11,6 +11,8 @@ use crate::app::shell::app::title::show_title;
 use crate::app::shell::commands;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
+use crate::app::views::pointed_theta_r;
+use crate::app::work::lesson_stage::ReadoutPlace;
 use std::path::PathBuf;
 
 /// Before each frame.
@@ -36,7 +38,7 @@ pub fn logic(app: &mut App, ctx: &egui::Context) {
         app.work.record_step();
     }
     reopen_if_asked(app);
-    refresh(app);
+    refresh(app, ctx);
     show_title(app, ctx);
     remember_window(app, ctx);
     save_when_rested(app, ctx);
@@ -44,10 +46,13 @@ pub fn logic(app: &mut App, ctx: &egui::Context) {
 }
 
 /// Makes anew what is on screen and has other inputs than before.
-fn refresh(app: &mut App) {
+fn refresh(app: &mut App, ctx: &egui::Context) {
     app.derived.refresh_status(&app.work);
     let free = app.free();
     app.derived.refresh_outlook(&app.work, free);
+    let readings = readings(app);
+    let pointer = pointed_theta_r(ctx, !readings.is_empty());
+    app.derived.refresh_readout(&app.work, readings, pointer);
     if let Some(import) = &mut app.dialogs.import {
         import.refresh();
     }
@@ -59,6 +64,13 @@ fn refresh(app: &mut App) {
     let (mut cx, views, _) = app.split();
     views.refresh(&on_screen, &mut cx);
     app.apply_edits();
+}
+
+/// Where the read-out reads: where the step of the lesson says; in a presentation in the mirror direction
+/// at least.
+fn readings(app: &App) -> Vec<ReadoutPlace> {
+    let of_lesson = app.lessons.current().map_or_else(Vec::new, |(_, step)| step.staging.readings.clone());
+    if of_lesson.is_empty() && app.dock.is_presented() { vec![ReadoutPlace::Mirror] } else { of_lesson }
 }
 
 fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
@@ -73,9 +85,17 @@ fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
 }
 
 fn remember_window(app: &mut App, ctx: &egui::Context) {
+    let zoom = ctx.zoom_factor();
+    if app.dock.is_presented() {
+        // The size is the screen's, and the zoom the talk's.
+        app.window.talk.zoom = zoom;
+        return;
+    }
+    app.window.zoom = zoom;
     let (size, maximized) = ctx.input(|input| (input.viewport().inner_rect.map(|rect| rect.size()), input.viewport().maximized));
     app.window.maximized = maximized.unwrap_or(false);
     if let Some(size) = size.filter(|_| !app.window.maximized) {
-        app.window.size = [size.x.round(), size.y.round()];
+        // Windows begin at zoom 1.
+        app.window.size = [(zoom * size.x).round(), (zoom * size.y).round()];
     }
 }

@@ -67,6 +67,7 @@ impl App {
         let SettingsFile { settings: SavedSettings { settings, surface }, layout, window } = stored;
         theme::install(ctx);
         theme::set(ctx, window.theme);
+        ctx.set_zoom_factor(window.zoom);
         i18n::install();
         i18n::set(window.language);
         let repaint = ctx.clone();
@@ -144,7 +145,7 @@ impl App {
 
     /// Shows other work from the beginning, with its panes where they lay.
     pub fn show_work(&mut self, work: Workspace) -> Workspace {
-        self.dock = Dock::new(work.layout());
+        self.dock.rearrange(Dock::new(work.layout()));
         self.dialogs.import = None;
         self.dialogs.imports_waiting.clear();
         self.views = Views::default();

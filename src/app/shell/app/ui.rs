@@ -3,36 +3,93 @@
 use crate::app::panels;
 use crate::app::shell::app::App;
 use crate::app::shell::command_palette::palette_ui;
-use crate::app::shell::docking::panes_ui;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_ui::import_ui;
-use crate::app::shell::lesson_ui::lesson_panel_ui;
+use crate::app::shell::lesson_ui::lesson_and_panes_ui;
 use crate::app::shell::menu_bar::menu_ui;
 use crate::app::shell::overwrite_ui::overwrite_ui;
-use crate::app::shell::status_bar::{status_ui, toasts_ui};
-use egui::{CentralPanel, Frame, Panel, Ui};
+use crate::app::shell::presentation::presentation_ui;
+use crate::app::shell::status_bar::status_ui;
+use crate::app::shell::tour::tour_ui;
+use crate::app::views::follow_f6;
+use crate::app::work::settings::SidePanel;
+use egui::{CentralPanel, Frame, Panel, Role, Ui, WidgetInfo};
+use tr::tr;
 
 /// One frame.
 pub fn ui(app: &mut App, ui: &mut Ui) {
-    Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
-    Panel::bottom("status").show(ui, |ui| status_ui(app, ui));
-    Panel::left("parameters").exact_size(366.0).resizable(false).show(ui, |ui| parameters_ui(app, ui));
-    Panel::right("fit")
-        .default_size(if ui.ctx().content_rect().width() < 1200.0 { 270.0 } else { 320.0 })
-        .min_size(250.0)
-        .show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
-    CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| {
-        lesson_panel_ui(app, ui);
-        let room = ui.available_rect_before_wrap();
-        let (mut cx, views, dock) = app.split();
-        panes_ui(dock, views, &mut cx, ui);
-        toasts_ui(app, ui, room);
-    });
+    if app.dock.is_presented() {
+        presentation_ui(app, ui);
+    } else {
+        Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
+        Panel::bottom("status").show(ui, |ui| status_ui(app, ui));
+        side_panels_ui(app, ui);
+        CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| lesson_and_panes_ui(app, ui));
+    }
     palette_ui(app, ui);
     import_ui(app, ui);
     overwrite_ui(app, ui);
     help_ui(app, ui);
+    tour_ui(app, ui);
+    follow_f6(ui.ctx());
     app.apply_edits();
+}
+
+/// Widths in points: below the first one panel is seen at a time; what the panels have by themselves
+/// and at least.
+const NARROW: f32 = 1100.0;
+const PARAMETERS: f32 = 366.0;
+const FIT: f32 = 320.0;
+const LEAST: f32 = 240.0;
+/// What the frames of a panel take besides.
+const FRAME: f32 = 20.0;
+
+/// The panels beside the plots, which have half of the window at least.
+fn side_panels_ui(app: &mut App, ui: &mut Ui) {
+    if app.dock.is_filled() {
+        return;
+    }
+    let width = ui.ctx().content_rect().width();
+    let half = 0.5 * width;
+    // A lesson without data has nothing to fit.
+    let has_fit = app.window.panels.fit && (app.lessons.session.is_none() || app.work.measurements().has_rows());
+    let has_parameters = app.window.panels.parameters;
+    if width < NARROW {
+        if has_parameters || has_fit {
+            let panel = Panel::left("side").resizable(false).exact_size(PARAMETERS.min(half));
+            panel.show(ui, |ui| {
+                let is_fit = if has_parameters && has_fit { front_ui(app, ui) == SidePanel::Fit } else { has_fit };
+                if is_fit { panels::fit_ui(&mut app.split().0, ui) } else { parameters_ui(app, ui) }
+            });
+        }
+        return;
+    }
+    let mut left = 0.0;
+    if has_parameters {
+        let most = if has_fit { half - LEAST - FRAME } else { half - FRAME };
+        let panel = Panel::left("parameters").default_size(PARAMETERS.min(most)).size_range(PARAMETERS.min(most)..=most);
+        left = panel.show(ui, |ui| parameters_ui(app, ui)).response.rect.width();
+    }
+    if has_fit {
+        let most = (half - left - FRAME).max(LEAST);
+        let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(LEAST..=most);
+        panel.show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
+    }
+}
+
+/// Which of the two panels is seen.
+fn front_ui(app: &mut App, ui: &mut Ui) -> SidePanel {
+    let front = &mut app.window.panels.front;
+    ui.horizontal(|ui| {
+        for (panel, name) in [(SidePanel::Parameters, tr!("Parameters")), (SidePanel::Fit, tr!("Fitting"))] {
+            let button = ui.selectable_label(*front == panel, &name);
+            button.widget_info(|| WidgetInfo::selected(Role::Tab, true, *front == panel, &name));
+            if button.clicked() {
+                *front = panel;
+            }
+        }
+    });
+    *front
 }
 
 fn parameters_ui(app: &mut App, ui: &mut Ui) {

@@ -68,7 +68,9 @@ pub fn quoted(found: &str) -> String {
 impl Localized for Finding {
     fn localized(&self) -> String {
         match (self.check, self.pass) {
-            (Check::SpecularReciprocity, true) => tr!("A facet mirrors either way alike, and so do shadowing and masking."),
+            (Check::SpecularReciprocity, true) => {
+                tr!("P, G and the Fresnel reflection stay when the directions change places; tested on the radiance, F00.")
+            }
             (Check::SpecularReciprocity, false) => {
                 tr!("The specular term should be the same both ways: this is a fault of the program.")
             }
@@ -76,7 +78,7 @@ impl Localized for Finding {
             (Check::DiffuseReciprocity, false) => {
                 tr!("Hyde's balance depends on the angle of incidence alone: seen the other way round it is another.")
             }
-            (Check::VolumeReciprocity, true) => tr!("So wide a volume lobe hardly depends on any angle."),
+            (Check::VolumeReciprocity, true) => tr!("The volume lobe is absent, or so wide that it hardly depends on any angle."),
             (Check::VolumeReciprocity, false) => tr!("The volume term depends on the angle of view alone: it cannot be reciprocal."),
             (Check::Reflectance, true) => tr!("No more light leaves the surface than falls on it."),
             (Check::Reflectance, false) => tr!(

@@ -73,7 +73,7 @@ impl HemisphereQuantity {
             Self::Dolp => [tr!("DoLP"), tr!("Degree of linear polarisation for unpolarised light in, Eq. (17)")],
             Self::Angle => [
                 tr!("Angle of polarisation"),
-                tr!("½ atan2(F20, F10): how far the electric vector is turned from s, which is horizontal, towards p"),
+                tr!("½ atan2(F20, F10): how far the electric vector is turned from s, which is parallel to the surface, towards p"),
             ],
             Self::Brdf => [tr!("BRDF"), tr!("F00, Eq. (14), on a logarithmic scale")],
             Self::SpecularShare => [tr!("Specular share"), tr!("The specular lobe's part of the radiance")],

@@ -139,7 +139,11 @@ fn metals(key: &MarksKey) -> (Noted, Vec<([f64; 2], &'static str)>) {
 }
 
 pub fn way_name(age: usize) -> String {
-    if age == 0 { tr!("way of the last fit") } else { tr!("way {} fits before", age) }
+    match age {
+        0 => tr!("way of the last fit"),
+        1 => tr!("way of the fit before"),
+        _ => tr!("way {} fits back", age),
+    }
 }
 
 /// The name of a metal on the map: chemical symbols are the same in all languages, names of alloys

@@ -10,8 +10,10 @@ mod painted;
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::text::numbers::significant;
+use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
+use crate::app::views::pointing::PickedDirection;
 use crate::app::work::edit::Edit;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::picture_options::PictureOptions;
@@ -98,13 +100,14 @@ impl PictureView {
     }
 
     /// The angles of a place that was clicked, for all other plots.
-    fn direction(&self, [x, y]: [f64; 2]) -> Option<Edit> {
+    fn direction(&self, [x, y]: [f64; 2]) -> Option<PickedDirection> {
         let scene = &self.made()?.scene;
         let (row, column) = canvas::pixel([x, y], scene.image.size)?;
         let geometry = scene.key.lamp?.geometry(scene.picture.normal(row, column)?)?;
         let round = |degrees: f64| (degrees * 100.0).round() / 100.0;
         let theta_i = round(geometry.theta_i().0).min(89.99);
-        Some(Edit::SetDirection { theta_i, dphi: round(geometry.dphi().0.rem_euclid(360.0)) })
+        let theta_r = round(geometry.theta_r().0);
+        Some(PickedDirection { theta_i, theta_r, dphi: round(geometry.dphi().0.rem_euclid(360.0)) })
     }
 
     /// What the picture teaches under this light.
@@ -192,11 +195,14 @@ impl View for PictureView {
             }
             if let Some(at) = touched.clicked {
                 self.chosen = Some(at);
-                cx.edits.extend(self.direction(at));
+                if let Some(picked) = self.direction(at) {
+                    cx.edits.push(Edit::SetDirection { theta_i: picked.theta_i, dphi: picked.dphi });
+                    cx.actions.push(Action::MarkDirection(picked));
+                }
             }
         }
         let reading = pointer.and_then(|at| self.reading(at, &options));
-        let hint = || tr!("The pointer reads a pixel; a click takes its θi and Δφ to the other plots; dragging moves the lamp.");
+        let hint = || tr!("The pointer reads a pixel; a click takes its θi, θr and Δφ to the other plots; dragging moves the lamp.");
         ui.add(egui::Label::new(reading.unwrap_or_else(hint)).truncate());
         if let Some(lesson) = self.lesson() {
             ui.add(egui::Label::new(egui::RichText::new(&lesson).weak()).truncate()).on_hover_text(lesson);

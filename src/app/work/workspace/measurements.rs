@@ -85,6 +85,12 @@ impl Workspace {
         self.pinned.push(PinnedSurface::new(name, model, parameters, &self.pinned, &colors));
     }
 
+    /// These surfaces pinned, and no others.
+    pub(in crate::app::work) fn pin_alone(&mut self, surfaces: Vec<(String, Model, Parameters)>) {
+        self.pinned.clear();
+        surfaces.into_iter().for_each(|(name, model, parameters)| self.pin(&name, model, parameters));
+    }
+
     pub(super) fn set_pin(&mut self, place: usize, pin: PinnedSurface) {
         if let Some(pinned) = self.pinned.get_mut(place) {
             *pinned = pin;
