@@ -2,6 +2,8 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, take, wait};
+use crate::app::views::action::Action;
+use crate::app::work::pane_id::PaneId;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -10,8 +12,8 @@ use pbrdf::model::{Parameter, Preset};
 
 fn planner() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    harness.get_by_label("Angle planner").click();
-    harness.run();
+    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Planner));
+    wait(&mut harness);
     harness
 }
 
