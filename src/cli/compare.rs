@@ -3,6 +3,7 @@
 use crate::cli::arguments::CompareArguments;
 use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
+use crate::cli::ladder;
 use crate::cli::ladder::ladder_results;
 use crate::cli::problem::{NoProblem, check, fitted, problem_of};
 use crate::cli::sets::{MeasurementSets, NamedMeasurement};
@@ -18,8 +19,8 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// A model with its fit, or why there is none.
-type ModelResult = (&'static Preset, Result<(Problem, FitResult), String>);
+/// A model with its fit to one measurement, or why there is none.
+type ModelResult = ladder::ModelResult<Problem>;
 
 pub fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     interrupt::watch();

@@ -3,6 +3,7 @@
 use crate::cli::arguments::CompareArguments;
 use crate::cli::documents::write_figure;
 use crate::cli::failure::Failure;
+use crate::cli::ladder;
 use crate::cli::ladder::ladder_results;
 use crate::cli::problem::{fitted_jointly, joint_failure, joint_problem, model, own_among};
 use crate::cli::sets::MeasurementSets;
@@ -11,14 +12,14 @@ use crate::cli::watched::Watched;
 use crate::cli::{interrupt, output};
 use crate::figure::Figure;
 use crate::report::{ComparedMeasurement, English, ResultColumn, ResultTable, TableFormat, comparison_figure, joint_json};
-use pbrdf::fit::{DistributionComparison, FitError, GaussAtFixedSigma, JointError, JointProblem, JointResult, ProblemError};
+use pbrdf::fit::{DistributionComparison, FitError, GaussAtFixedSigma, JointError, JointProblem, ProblemError};
 use pbrdf::model::{PRESETS, Preset};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A model with its joint fit, or why there is none.
-type JointModelResult = (&'static Preset, Result<(JointProblem, JointResult), String>);
+type JointModelResult = ladder::ModelResult<JointProblem>;
 
 pub fn run(arguments: &CompareArguments, sets: &MeasurementSets) -> Result<ExitCode, Failure> {
     let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };

@@ -6,12 +6,15 @@ use crate::cli::watched::Watched;
 use pbrdf::fit::{Observer, SpecialCases, fit_ladder};
 use pbrdf::model::Preset;
 
+/// A model with its problem and its fit, or why there is none.
+pub type ModelResult<P> = (&'static Preset, Result<(P, <P as SpecialCases>::Fitted), String>);
+
 /// The fit of each model by `fit`, in the order of the presets, or why there is none.
 pub fn ladder_results<P: SpecialCases>(
     presets: &[&'static Preset],
     problems: Vec<Result<P, String>>,
     fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
-) -> Vec<(&'static Preset, Result<(P, P::Fitted), String>)> {
+) -> Vec<ModelResult<P>> {
     let posed: Vec<Option<&P>> = problems.iter().map(|problem| problem.as_ref().ok()).collect();
     let fits = fit_ladder(&posed, |place, problem| {
         (!interrupt::asked()).then(|| {
@@ -20,8 +23,6 @@ pub fn ladder_results<P: SpecialCases>(
             fit(problem, closures.as_watch())
         })
     });
-    let result = |((preset, problem), fit): ((&&'static Preset, Result<P, String>), Option<P::Fitted>)| {
-        (*preset, problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))))
-    };
-    presets.iter().zip(problems).zip(fits).map(result).collect()
+    let fitted = problems.into_iter().zip(fits).map(|(problem, fit)| problem.and_then(|problem| Ok((problem, fit.ok_or(NOT_REACHED)?))));
+    presets.iter().copied().zip(fitted).collect()
 }

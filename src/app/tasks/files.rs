@@ -327,7 +327,7 @@ const MOST_BYTES_OF_ALIKE: u64 = 64 << 20;
 
 /// The files beside that one, with the same ending, that are tables of its shape.
 fn alike(of: &Path, shape: &TableShape, without: &WithoutFiles, context: &JobContext) -> Vec<PathBuf> {
-    let ending = |path: &Path| path.extension().map(|extension| extension.to_ascii_lowercase());
+    let ending = |path: &Path| path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     let files = of.parent().and_then(|folder| measurements_in(folder).ok()).unwrap_or_default();
     let is_candidate = |path: &PathBuf| path != of && ending(path) == ending(of) && !without.paths.contains(path);
     let mut progress = |_| if context.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

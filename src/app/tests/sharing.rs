@@ -6,6 +6,7 @@ use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::model_fit::ModelFit;
 use crate::app::work::sharing::Sharing;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
@@ -292,7 +293,7 @@ fn models_are_compared_on_all_measurements_together_where_they_share_something()
         assert_eq!((part.of.result.sets.len(), row.objective()), (3, part.of.result.objective));
     }
     // A model that holds another one as a special case is never worse.
-    let delta_e = |key: &str| rows.iter().find(|row| row.preset.key == key).and_then(|row| row.objective()).expect("a ΔE");
+    let delta_e = |key: &str| rows.iter().find(|row| row.preset.key == key).and_then(ModelFit::objective).expect("a ΔE");
     assert!(delta_e("cauchy") <= delta_e("specular") * (1.0 + 1e-9));
     let row = rows.iter().position(|row| row.preset.key == "specular-gauss").expect("a row");
     // Every measurement has its part, and a click on a row takes the values of all.

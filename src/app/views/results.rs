@@ -13,7 +13,8 @@ use crate::app::work::open_measurement::{OpenMeasurement, title_of};
 use crate::app::work::results_options::{ResultColumnId, ResultRow, ResultsOptions};
 use crate::app::work::workspace::Workspace;
 use crate::report::{ResultCells, ResultColumn, ResultTable, TableFormat};
-use egui::{Button, Grid, RichText, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Button, Grid, PopupCloseBehavior, RichText, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 use pbrdf::model::{PRESETS, Parameter, Preset};
 use std::sync::Arc;
 use tr::tr;
@@ -178,7 +179,9 @@ fn models_ui(all: &[ResultColumnId], options: &mut ResultsOptions, ui: &mut Ui) 
     if models.len() < 2 {
         return;
     }
-    ui.menu_button(tr!("Models"), |ui| {
+    // It stays open while boxes are ticked.
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    MenuButton::new(tr!("Models")).config(config).ui(ui, |ui| {
         for model in models {
             let name = Preset::from_key(model).map_or_else(|| model.to_owned(), |preset| translated(preset.name));
             let of_model = || all.iter().filter(|column| column.model == model);
