@@ -95,6 +95,7 @@ pub use local::solver::{Effort, fit_local, minimise};
 pub use many::{on_one_thread, thread_count};
 pub use multistart::basin::{Basin, MultistartResult};
 pub use multistart::search::{Starts, multistart};
+pub use multistart::stopping_rule::StoppingRule;
 pub use objective::Problem;
 pub use observer::{Observer, TracePoint};
 pub use options::{BrdfResiduals, FitOptions, FitRange, Intervals, Loss, Weights};

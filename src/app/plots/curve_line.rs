@@ -13,7 +13,7 @@ pub struct CurveLine<'a> {
 }
 
 /// How far a line may pass by a point that is left out, in points of the screen.
-const TOLERANCE: f32 = 0.1;
+const TOLERANCE: f32 = 0.2;
 
 impl<'a> CurveLine<'a> {
     pub fn new(name: &str, points: &'a [PlotPoint], width: f32, color: Color32) -> Self {

@@ -29,7 +29,7 @@ pub const RADIUS: f32 = 3.0;
 /// Half the width of a cap in points.
 const CAP: f32 = 2.5;
 /// Half the edge of the picture of a symbol in points: the symbol and what its rim fades over.
-const HALF: f32 = 4.5;
+const HALF: f32 = 4.0;
 /// Width of the lines of open symbols in points.
 const LINE: f32 = 1.0;
 /// A bar up to this length lies under a disc with its caps: `2 sqrt(RADIUS² − CAP²)`.
@@ -215,7 +215,7 @@ mod tests {
                 image[(index * image.size[1] + place(x), place(y))].a()
             };
             // The middle, between the middle and the rim, and a corner of the picture.
-            let seen = |index| [at(index, 0.1, 0.1), at(index, 0.1, -2.9), at(index, 4.0, 4.0)].map(|alpha| alpha > 60);
+            let seen = |index| [at(index, 0.1, 0.1), at(index, 0.1, -2.9), at(index, 3.7, 3.7)].map(|alpha| alpha > 60);
             assert_eq!(
                 [0, 1, 2, 3].map(seen),
                 [[true, true, false], [false, true, false], [true, false, false], [true, false, false]],

@@ -147,7 +147,7 @@ fn settings_view(settings: &Settings, surface: &Surface) -> Value {
         "loss_scale": settings.fit_options.loss_scale,
         "dolp_formula": formula(surface.model.dolp_formula),
         "dolp_only": settings.fit_options.dolp_only,
-        "starts": match settings.starts { Starts::One => json!("one"), Starts::Automatic => json!("automatic"), Starts::Exactly(n) => json!(n) },
+        "starts": match settings.starts { Starts::One => json!("one"), Starts::Automatic => json!("automatic"), Starts::Exactly(n) => json!(n), Starts::Until(rule) => json!(rule) },
         "seed": settings.seed,
         "planned_theta_i": settings.design.theta_i.iter().flat_map(|span| span.angles()).collect::<Vec<f64>>(),
         "planned_theta_r": settings.design.theta_r.iter().flat_map(|span| span.angles()).collect::<Vec<f64>>(),

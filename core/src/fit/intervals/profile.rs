@@ -14,7 +14,8 @@ use crate::fit::intervals::quantile::{chi_squared_quantile, f_quantile};
 use crate::fit::intervals::walk::{Landmarks, ProfileFit};
 use crate::fit::local::solution::LocalFit;
 use crate::fit::local::solver::{Effort, fit_local};
-use crate::fit::multistart::basin::{Basin, MultistartResult};
+use crate::fit::multistart::basin::{Basin, MultistartResult, is_same};
+use crate::fit::multistart::search::{Patience, Starts, multistart_with};
 use crate::fit::objective::Problem;
 use crate::fit::observer::Observer;
 use crate::fit::options::Weights;
@@ -33,6 +34,8 @@ const ROUNDING: f64 = 1e-26;
 const MOST_MINIMA: usize = 4;
 /// Better points of a round that are followed to their minima.
 const POLISHED: usize = 6;
+/// Seed of the search that looks once more: no usual choice for the first one.
+const SECOND_SEED: u64 = 0x9e37_79b9;
 /// First guesses that fits at a limit are started from.
 const GUESSES: usize = 4;
 /// Other minima that fits at a limit are started from, at most.
@@ -88,6 +91,7 @@ pub(crate) fn profile_all<P: FitProblem>(
     observer: Observer<'_>,
 ) -> (Analysis<P>, Option<Vec<[Interval; 2]>>) {
     let begin = (observer.clock)();
+    analysis = searched_again(problem, analysis, observer);
     let mut intervals = None;
     for round in 1..=MOST_MINIMA {
         let fitted = analysis.fitted(problem);
@@ -177,6 +181,25 @@ fn rises<P: FitProblem>(problem: &P, analysis: &Analysis<P>, sum_of_squares: f64
         };
         inflation * rise
     })
+}
+
+/// The same fit, or the better one that a second search with other starts finds. Where the first met several minima, a narrow one may
+/// have been missed; the intervals take longer than a search, and are worth nothing about the wrong minimum.
+fn searched_again<P: FitProblem>(problem: &P, analysis: Analysis<P>, observer: Observer<'_>) -> Analysis<P> {
+    let fitted = analysis.fitted(problem);
+    let is_settled = analysis.course.minima.len() < 2 || problem.is_composed();
+    if is_settled || fitted.residual_count() == 0 || fitted.names().is_empty() {
+        return analysis;
+    }
+    let quiet = Observer { progress: &|_| {}, ..observer };
+    let start = fitted.starting_at(&fitted.point_at(&analysis.x));
+    let again = multistart_with(&start, Starts::Automatic, SECOND_SEED, Patience::SECOND, quiet);
+    let before = fitted.sum_of_squares_at(&analysis.x).unwrap_or(f64::INFINITY);
+    let is_better = |basin: &Basin<P::Point>| basin.local_fit.sum_of_squares < before && !is_same(basin.local_fit.sum_of_squares, before);
+    let better: Vec<ProfileFit> = (again.basins.iter().filter(|basin| is_better(basin)))
+        .map(|Basin { local_fit, .. }| ProfileFit { x: fitted.unknowns_of(&local_fit.parameters), sum_of_squares: local_fit.sum_of_squares })
+        .collect();
+    if better.is_empty() { analysis } else { with_better_minimum(&fitted, analysis, &better, observer) }
 }
 
 /// The same fit from the better points.

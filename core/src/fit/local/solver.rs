@@ -23,6 +23,8 @@ pub enum Effort {
     Thorough,
     /// From a far start until another start is worth more: MINPACK until progress is slow, then the bounded solver.
     Coarse,
+    /// The same with more of MINPACK: another way down, which may end in another minimum.
+    Careful,
     /// From near a minimum to the minimum: the bounded solver alone.
     Polish,
     /// The same, to be given up where the way is long.
@@ -43,9 +45,11 @@ const COARSE_TOLERANCE: f64 = 1e-8;
 /// The same for MINPACK, whose creeping along curved valleys is left to the bounded solver.
 const MINPACK: MinpackLimits = MinpackLimits { patience: 30, tolerance: 1e-5 };
 /// The same for one start among many, which is handed over earlier.
-const COARSE_MINPACK: MinpackLimits = MinpackLimits { tolerance: 1e-3, ..MINPACK };
+const COARSE_MINPACK: MinpackLimits = MinpackLimits { tolerance: 1e-2, ..MINPACK };
+/// The same, handed over less early: another way down, which may end in another minimum.
+const CAREFUL_MINPACK: MinpackLimits = MinpackLimits { tolerance: 1e-3, ..MINPACK };
 /// The same for a probe: ten evaluations with nine unknowns, enough to rank starts.
-const PROBE: MinpackLimits = MinpackLimits { patience: 1, ..COARSE_MINPACK };
+const PROBE: MinpackLimits = MinpackLimits { patience: 1, ..CAREFUL_MINPACK };
 
 /// To the minimum, not refined.
 pub(crate) const LIMITS: Limits =
@@ -75,7 +79,8 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
     let thorough = Limits { evaluations: PATIENCE * (n + 1), refine: true, ..LIMITS };
     let stop = match effort {
         Effort::Probe => minpack_sin2(problem, &start, PROBE, &mut recorder).1,
-        Effort::Coarse => coarse(problem, &start, &mut recorder),
+        Effort::Coarse => coarse(problem, &start, COARSE_MINPACK, &mut recorder),
+        Effort::Careful => coarse(problem, &start, CAREFUL_MINPACK, &mut recorder),
         Effort::Polish => BoundedLm::new(problem, &start).run(thorough, &mut recorder),
         Effort::Refine => BoundedLm::new(problem, &start).run(Limits { evaluations: COARSE_PATIENCE * (n + 1), ..thorough }, &mut recorder),
         Effort::Thorough => self::thorough(problem, &start, thorough, &mut recorder),
@@ -84,8 +89,8 @@ pub fn minimise<P: LeastSquares>(problem: &P, effort: Effort, observer: Observer
 }
 
 /// MINPACK until progress stalls, then the bounded Levenberg–Marquardt.
-fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, recorder: &mut Recorder<'_>) -> StopReason {
-    let (from, stop) = minpack_sin2(problem, start, COARSE_MINPACK, recorder);
+fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, minpack: MinpackLimits, recorder: &mut Recorder<'_>) -> StopReason {
+    let (from, stop) = minpack_sin2(problem, start, minpack, recorder);
     if stop == StopReason::Cancelled {
         return stop;
     }

@@ -6,3 +6,4 @@ pub(crate) mod dolp_rows;
 pub(crate) mod initial_guess;
 pub(crate) mod search;
 pub(crate) mod sequence;
+pub(crate) mod stopping_rule;

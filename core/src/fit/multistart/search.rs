@@ -12,11 +12,12 @@ use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::basin::{Basin, MultistartResult, SAME, is_same};
 use crate::fit::multistart::initial_guess::SpecularLobes;
 use crate::fit::multistart::sequence::StartSequence;
+use crate::fit::multistart::stopping_rule::StoppingRule;
 use crate::fit::observer::Observer;
 use serde::{Deserialize, Serialize};
 
 /// How many starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Starts {
     /// The problem's own start alone.
@@ -24,6 +25,8 @@ pub enum Starts {
     /// The own start, the first guesses, and as many more as find something new.
     #[default]
     Automatic,
+    /// The same with a stopping rule of one's own.
+    Until(StoppingRule),
     /// Exactly so many, the own start and the first guesses among them.
     Exactly(usize),
 }
@@ -33,20 +36,10 @@ const ROUND: usize = 12;
 /// Probes of automatic search that its promising starts are chosen from: with nine unknowns a probe takes at most ten evaluations,
 /// a coarse descent up to 800.
 const PROBES: usize = 96;
-/// Starts of automatic search, at most: eight rounds.
-const MAX_STARTS: usize = 96;
-/// Hits of the best minimum from which automatic search may end. Two may be chance, where starts are neighbours.
-const ENOUGH_HITS: usize = 3;
 /// Probes over the whole box where all starts have not hit the best minimum often enough.
 const BROAD_PROBES: usize = 1024;
-/// Expected share of starts that would end in minima not seen yet, below which automatic search ends.
-const UNSEEN_SHARE: f64 = 0.02;
-/// The same with a BRDF, whose lobes of more free weights have narrower basins.
-const UNSEEN_SHARE_OF_BRDF: f64 = 0.004;
 /// The same of a problem whose first guesses come from searches of its parts: what is left to be searched for is how these go together.
 const ROUND_OF_COMPOSED: usize = 6;
-const MAX_STARTS_OF_COMPOSED: usize = 36;
-const UNSEEN_SHARE_OF_COMPOSED: f64 = 0.07;
 const LOBE_BASINS_OF_COMPOSED: usize = 4;
 const LOBE_EFFORT_OF_COMPOSED: (usize, usize) = (4, 2);
 /// Number of starts up to which each is followed to its minimum. With more, each is probed and the best distinct ones are followed.
@@ -68,9 +61,6 @@ const POLISH_PASSES: usize = 12;
 const POLISH_TOLERANCE: f64 = 1e-8;
 /// Lobe restarts: number of best minima whose lobes are searched again, the right optical constants being among them.
 const LOBE_BASINS: usize = 14;
-/// Lobe restarts: number of minima of the lobe grid that are followed for each, and passes, at most; each pass concerns minima that are
-/// new since the last.
-const LOBE_EFFORT: (usize, usize) = (6, 2);
 /// The same where the search has found more distinct minima than `RUGGED`.
 const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
 /// Guesses of total reflection that are followed from each minimum.
@@ -78,16 +68,49 @@ const TOTAL_REFLECTION: usize = 6;
 /// Distinct minima beyond which the objective counts as rugged.
 const RUGGED: usize = 5;
 
+/// How much a search spends on each start and on each minimum.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Patience {
+    /// How far a start is followed.
+    descent: Effort,
+    /// Lobe restarts: number of minima of the lobe grid that are followed for each, and passes, at most; each pass concerns minima
+    /// that are new since the last.
+    lobes: (usize, usize),
+}
+
+impl Patience {
+    /// For the first search: what finds the best minimum of almost all data.
+    pub(crate) const FIRST: Self = Self { descent: Effort::Coarse, lobes: (6, 1) };
+    /// For one that looks for what the first has missed.
+    pub(crate) const SECOND: Self = Self { descent: Effort::Careful, lobes: (14, 2) };
+}
+
 /// Fits from many starts. The seed shifts the points that the starts are spread over.
 #[must_use]
 pub fn multistart<P: FitProblem>(problem: &P, starts: Starts, seed: u64, observer: Observer<'_>) -> MultistartResult<P::Point> {
+    multistart_with(problem, starts, seed, Patience::FIRST, observer)
+}
+
+/// The same with more or less patience.
+pub(crate) fn multistart_with<P: FitProblem>(
+    problem: &P,
+    starts: Starts,
+    seed: u64,
+    patience: Patience,
+    observer: Observer<'_>,
+) -> MultistartResult<P::Point> {
     let mut found = MultistartResult::default();
     let most = match starts {
         _ if problem.residual_count() == 0 || problem.names().is_empty() => 1,
         Starts::One | Starts::Exactly(0) => 1,
-        Starts::Automatic if problem.is_composed() => MAX_STARTS_OF_COMPOSED,
-        Starts::Automatic => MAX_STARTS,
+        Starts::Automatic => StoppingRule::of(problem).most_starts,
+        Starts::Until(rule) => rule.most_starts.max(1),
         Starts::Exactly(count) => count,
+    };
+    let rule = match starts {
+        Starts::Automatic => Some(StoppingRule::of(problem)),
+        Starts::Until(rule) => Some(rule),
+        Starts::One | Starts::Exactly(_) => None,
     };
     if most == 1 {
         found.add(fit_local(problem, Effort::Thorough, observer));
@@ -99,20 +122,20 @@ pub fn multistart<P: FitProblem>(problem: &P, starts: Starts, seed: u64, observe
         return searched_apart(problem, &parts, starts, seed, observer);
     }
     if problem.residual_count() > MANY_RESIDUALS {
-        let explored = multistart(&problem.thinned(SUBSET), starts, seed, Observer { progress: &|_| {}, ..observer });
+        let explored = multistart_with(&problem.thinned(SUBSET), starts, seed, patience, Observer { progress: &|_| {}, ..observer });
         let mut found = finished_on_all(problem, explored, observer);
         found.add_further(further_fits(problem, Effort::Polish, observer));
         return found;
     }
-    let mut search = Search { problem, observer, sequence: StartSequence::new(problem, seed, observer), found };
-    if most > MAX_FOLLOWED {
+    let mut search = Search { problem, observer, patience, sequence: StartSequence::new(problem, seed, observer), found };
+    if rule.is_none() && most > MAX_FOLLOWED {
         search.keep_best(most);
         search.found.add_further(further_fits(problem, Effort::Thorough, observer));
     } else {
-        search.rounds(starts, most);
+        search.rounds(rule, most);
         search.found.add_further(further_fits(problem, Effort::Thorough, observer));
-        if starts == Starts::Automatic {
-            if search.best_hits() < ENOUGH_HITS && !search.found.is_exact() && !problem.is_composed() {
+        if let Some(rule) = rule {
+            if search.best_hits() < rule.hits && !search.found.is_exact() && !problem.is_composed() {
                 search.keep_best(BROAD_PROBES);
             }
             search.try_total_reflection();
@@ -176,6 +199,7 @@ fn finished_on_all<P: FitProblem>(problem: &P, explored: MultistartResult<P::Poi
 struct Search<'a, P: FitProblem> {
     problem: &'a P,
     observer: Observer<'a>,
+    patience: Patience,
     sequence: StartSequence<'a, P>,
     found: MultistartResult<P::Point>,
 }
@@ -186,8 +210,8 @@ impl<P: FitProblem> Search<'_, P> {
     }
 
     /// Rounds of descents until all starts are used or, in automatic search, little is left to be seen.
-    fn rounds(&mut self, starts: Starts, most: usize) {
-        let is_automatic = starts == Starts::Automatic;
+    fn rounds(&mut self, rule: Option<StoppingRule>, most: usize) {
+        let is_automatic = rule.is_some();
         let mut promising = Vec::new();
         // The own start goes first, also where the search is cancelled: its descent then ends at the start, which is a result. Where it
         // meets the data exactly, no guess is needed.
@@ -201,7 +225,7 @@ impl<P: FitProblem> Search<'_, P> {
             let round = if is_mixed { self.mixed_round(count, &mut promising) } else { self.sequence.take(count) };
             done += count;
             self.follow(&round);
-            if is_automatic && self.has_seen_enough() {
+            if rule.is_some_and(|rule| self.has_seen_enough(rule)) {
                 break;
             }
         }
@@ -211,16 +235,9 @@ impl<P: FitProblem> Search<'_, P> {
         self.found.basins.first().map_or(0, |basin| basin.hits)
     }
 
-    /// Whether the best minimum was hit several times and the expected share of unseen minima is small.
-    fn has_seen_enough(&self) -> bool {
-        let enough = if self.problem.is_composed() {
-            UNSEEN_SHARE_OF_COMPOSED
-        } else if self.problem.knows_only_ratios() {
-            UNSEEN_SHARE
-        } else {
-            UNSEEN_SHARE_OF_BRDF
-        };
-        self.best_hits() >= ENOUGH_HITS && self.found.unseen_share().is_some_and(|share| share < enough)
+    /// Whether the best minimum was hit often enough and the expected share of unseen minima is small.
+    fn has_seen_enough(&self, rule: StoppingRule) -> bool {
+        self.best_hits() >= rule.hits && self.found.unseen_share().is_some_and(|share| share < rule.unseen_share)
     }
 
     /// Half of the starts the most promising of many probes, half fresh ones: a few steps do not tell everything.
@@ -236,7 +253,7 @@ impl<P: FitProblem> Search<'_, P> {
 
     /// Adds the coarse descents from those starts.
     fn follow(&mut self, starts: &[P::Point]) {
-        for local_fit in self.run_all(starts, Effort::Coarse) {
+        for local_fit in self.run_all(starts, self.patience.descent) {
             self.found.add(local_fit);
         }
     }
@@ -288,7 +305,7 @@ impl<P: FitProblem> Search<'_, P> {
         } else if self.found.basins.len() > RUGGED {
             RUGGED_LOBE_EFFORT
         } else {
-            LOBE_EFFORT
+            self.patience.lobes
         };
         for _ in 0..passes {
             if self.found.is_exact() || self.is_cancelled() {

@@ -8,7 +8,7 @@ use crate::app::work::fit_setup::is_joint;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
 use egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Role, Ui, WidgetInfo};
-use pbrdf::fit::{BrdfResiduals, FitOptions, FitRange, Loss, Starts, Weights};
+use pbrdf::fit::{BrdfResiduals, FitOptions, FitRange, Loss, Starts, StoppingRule, Weights};
 use pbrdf::model::{DolpFormula, Parameter};
 use tr::tr;
 
@@ -189,18 +189,42 @@ fn weights_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     }
 }
 
+fn stopping_rule_ui(rule: &mut StoppingRule, ui: &mut Ui) {
+    let label = ui.label(tr!("Starts at most"));
+    ui.add(DragValue::new(&mut rule.most_starts).range(1..=MOST_STARTS)).labelled_by(label.id);
+    ui.end_row();
+    let label = ui.label(tr!("Hits of the best")).on_hover_text(tr!("So many starts end in the best minimum before the search ends"));
+    ui.add(DragValue::new(&mut rule.hits).range(1..=MOST_STARTS)).labelled_by(label.id);
+    ui.end_row();
+    let label = ui.label(tr!("Unseen share below")).on_hover_text(tr!("Expected share of further starts that end in a minimum not seen yet"));
+    ui.add(DragValue::new(&mut rule.unseen_share).range(0.0..=1.0).speed(0.001)).labelled_by(label.id);
+    ui.end_row();
+}
+
 fn starts_ui(draft: &mut Draft, ui: &mut Ui) {
     let several = match draft.starts {
         Starts::Exactly(count) => count,
-        Starts::Automatic | Starts::One => SOME_STARTS,
+        Starts::Automatic | Starts::Until(_) | Starts::One => SOME_STARTS,
+    };
+    let rule = match draft.starts {
+        Starts::Until(rule) => rule,
+        _ => StoppingRule::default(),
     };
     choice_ui(
         ui,
         "Starts",
         "Automatic: the sliders, a first guess, and spread points until nothing new is found. One: the sliders alone.",
         &mut draft.starts,
-        &[(Starts::Automatic, "automatic"), (Starts::One, "one, from the sliders"), (Starts::Exactly(several), "a number of them")],
+        &[
+            (Starts::Automatic, "automatic"),
+            (Starts::One, "one, from the sliders"),
+            (Starts::Exactly(several), "a number of them"),
+            (Starts::Until(rule), "until a rule is met"),
+        ],
     );
+    if let Starts::Until(rule) = &mut draft.starts {
+        stopping_rule_ui(rule, ui);
+    }
     if let Starts::Exactly(count) = &mut draft.starts {
         let label = ui.label(tr!("Number of starts"));
         ui.add(DragValue::new(count).range(2..=MOST_STARTS)).labelled_by(label.id);
