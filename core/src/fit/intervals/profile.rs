@@ -197,7 +197,10 @@ fn searched_again<P: FitProblem>(problem: &P, analysis: Analysis<P>, observer: O
     let before = fitted.sum_of_squares_at(&analysis.x).unwrap_or(f64::INFINITY);
     let is_better = |basin: &Basin<P::Point>| basin.local_fit.sum_of_squares < before && !is_same(basin.local_fit.sum_of_squares, before);
     let better: Vec<ProfileFit> = (again.basins.iter().filter(|basin| is_better(basin)))
-        .map(|Basin { local_fit, .. }| ProfileFit { x: fitted.unknowns_of(&local_fit.parameters), sum_of_squares: local_fit.sum_of_squares })
+        .map(|Basin { local_fit, .. }| ProfileFit {
+            x: fitted.unknowns_of(&local_fit.parameters),
+            sum_of_squares: local_fit.sum_of_squares,
+        })
         .collect();
     if better.is_empty() { analysis } else { with_better_minimum(&fitted, analysis, &better, observer) }
 }

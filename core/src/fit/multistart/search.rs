@@ -76,13 +76,15 @@ pub(crate) struct Patience {
     /// Lobe restarts: number of minima of the lobe grid that are followed for each, and passes, at most; each pass concerns minima
     /// that are new since the last.
     lobes: (usize, usize),
+    /// Lobe restarts: from minima within this factor of the best.
+    near_best: f64,
 }
 
 impl Patience {
     /// For the first search: what finds the best minimum of almost all data.
-    pub(crate) const FIRST: Self = Self { descent: Effort::Coarse, lobes: (6, 1) };
+    pub(crate) const FIRST: Self = Self { descent: Effort::Coarse, lobes: (6, 1), near_best: 2.0 };
     /// For one that looks for what the first has missed.
-    pub(crate) const SECOND: Self = Self { descent: Effort::Careful, lobes: (14, 2) };
+    pub(crate) const SECOND: Self = Self { descent: Effort::Careful, lobes: (14, 2), near_best: f64::INFINITY };
 }
 
 /// Fits from many starts. The seed shifts the points that the starts are spread over.
@@ -311,7 +313,8 @@ impl<P: FitProblem> Search<'_, P> {
             if self.found.is_exact() || self.is_cancelled() {
                 return;
             }
-            let best = || self.found.basins.iter().take(basins).map(|basin| &basin.local_fit);
+            let limit = self.found.best() * self.patience.near_best;
+            let best = || self.found.basins.iter().take(basins).map(|basin| &basin.local_fit).filter(|end| end.sum_of_squares <= limit);
             let is_seen = |end: &&LocalFit<P::Point>| seen.iter().any(|&other| is_same(end.sum_of_squares, other));
             let fresh: Vec<P::Point> = best().filter(|end| !is_seen(end)).map(|end| end.parameters.clone()).collect();
             if fresh.is_empty() {

@@ -27,7 +27,7 @@ pub struct StoppingRule {
     pub most_starts: usize,
     /// Hits of the best minimum, at least. By default 3: two may be chance, where starts are neighbours.
     pub hits: usize,
-    /// Expected share of starts that would end in minima not seen yet, from 0 to 1. By default 0.02.
+    /// Expected share of starts that would end in minima not seen yet, from 0 to 1. By default 0.025.
     pub unseen_share: f64,
 }
 
@@ -38,7 +38,7 @@ const COMPOSED: StoppingRule = StoppingRule { most_starts: 36, hits: 3, unseen_s
 
 impl Default for StoppingRule {
     fn default() -> Self {
-        Self { most_starts: 96, hits: 3, unseen_share: 0.02 }
+        Self { most_starts: 96, hits: 3, unseen_share: 0.025 }
     }
 }
 

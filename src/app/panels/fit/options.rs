@@ -196,7 +196,8 @@ fn stopping_rule_ui(rule: &mut StoppingRule, ui: &mut Ui) {
     let label = ui.label(tr!("Hits of the best")).on_hover_text(tr!("So many starts end in the best minimum before the search ends"));
     ui.add(DragValue::new(&mut rule.hits).range(1..=MOST_STARTS)).labelled_by(label.id);
     ui.end_row();
-    let label = ui.label(tr!("Unseen share below")).on_hover_text(tr!("Expected share of further starts that end in a minimum not seen yet"));
+    let label =
+        ui.label(tr!("Unseen share below")).on_hover_text(tr!("Expected share of further starts that end in a minimum not seen yet"));
     ui.add(DragValue::new(&mut rule.unseen_share).range(0.0..=1.0).speed(0.001)).labelled_by(label.id);
     ui.end_row();
 }
