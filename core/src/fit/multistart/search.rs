@@ -82,7 +82,7 @@ pub(crate) struct Patience {
 
 impl Patience {
     /// For the first search: what finds the best minimum of almost all data.
-    pub(crate) const FIRST: Self = Self { descent: Effort::Coarse, lobes: (6, 1), near_best: 2.0 };
+    pub(crate) const FIRST: Self = Self { descent: Effort::Coarse, lobes: (6, 1), near_best: 4.0 };
     /// For one that looks for what the first has missed.
     pub(crate) const SECOND: Self = Self { descent: Effort::Careful, lobes: (14, 2), near_best: f64::INFINITY };
 }
