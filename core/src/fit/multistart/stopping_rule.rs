@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// let data = Measurement::read("theta_i,theta_r,dolp\n40,20,0.11\n40,40,0.24\n40,60,0.42".as_bytes())?;
 /// let patient = StoppingRule { hits: 5, unseen_share: 1e-3, ..StoppingRule::default() };
-/// let result = Fit::new(&data, Model::FRESNEL).starts(Starts::Until(patient)).run()?;
+/// let result = Fit::new(&data, Model::SPECULAR).starts(Starts::Until(patient)).run()?;
 /// assert!(result.course.minima[0].hits >= 5);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
