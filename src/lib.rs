@@ -12,19 +12,21 @@ pub mod figure;
 mod files;
 pub mod report;
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Opens the window with files in it and returns when the user closes it; the error is a sentence.
+#[cfg(not(target_arch = "wasm32"))]
 type OpenWindow = fn(Vec<PathBuf>) -> Result<(), String>;
 
-#[cfg(feature = "gui")]
+#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
 const WINDOW: Option<OpenWindow> = Some(app::run);
-#[cfg(not(feature = "gui"))]
+#[cfg(all(not(feature = "gui"), not(target_arch = "wasm32")))]
 const WINDOW: Option<OpenWindow> = None;
 
 /// Runs the program as its arguments say; without arguments it opens the window.
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 #[must_use]
 pub fn run() -> ExitCode {
     cli::run(std::env::args_os(), WINDOW)
@@ -48,7 +50,7 @@ pub fn command() -> clap::Command {
 }
 
 /// Opens the window. This build reads no arguments.
-#[cfg(not(feature = "cli"))]
+#[cfg(all(not(feature = "cli"), not(target_arch = "wasm32")))]
 #[must_use]
 pub fn run() -> ExitCode {
     use std::io::Write as _;
@@ -61,4 +63,13 @@ pub fn run() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Opens the window in the page of a browser, which owns the loop of events: this returns at once.
+#[cfg(target_arch = "wasm32")]
+#[must_use]
+pub fn run() -> ExitCode {
+    #[cfg(feature = "gui")]
+    app::run();
+    ExitCode::SUCCESS
 }

@@ -6,6 +6,7 @@ use crate::app::shell::app::autosave::keep_work;
 use crate::app::shell::app::open::begin;
 use crate::app::storage::kept_work::WorkFolder;
 use crate::app::storage::settings_file;
+use crate::app::storage::share_link::is_link;
 use crate::app::tasks::file_request::ask_user;
 use crate::app::text::help::TITLE;
 use crate::app::views::action::Action;
@@ -14,7 +15,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tr::tr;
 
-/// Opens the window with these files, or without any with the work of the last time, and returns when
+/// Opens the window with these files and links, or without any with the work of the last time, and returns when
 /// the user closes it.
 ///
 /// # Errors
@@ -45,9 +46,11 @@ pub fn run(files: Vec<PathBuf>) -> Result<(), String> {
         if let Some(folder) = WorkFolder::of_user() {
             keep_work(&mut app, folder, !files.is_empty());
         }
+        let (links, files): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|path| is_link(&path.to_string_lossy()));
         if !files.is_empty() {
             app.actions.push(Action::OpenMeasurements(files));
         }
+        app.actions.extend(links.into_iter().map(|link| Action::OpenLink(link.to_string_lossy().into_owned())));
         Ok(Box::new(app))
     });
     quiet_until_started();

@@ -4,8 +4,11 @@
 //! `ui` draws, and gathers edits of the work, which are carried out after it, and actions. No paint
 //! closure evaluates a model, and no fit runs on this thread.
 
+#[cfg(not(target_arch = "wasm32"))]
 mod desktop;
 mod jobs;
+#[cfg(target_arch = "wasm32")]
+mod page;
 mod panels;
 mod platform;
 mod plots;
@@ -18,4 +21,7 @@ mod text;
 mod views;
 mod work;
 
+#[cfg(not(target_arch = "wasm32"))]
 pub use desktop::run;
+#[cfg(target_arch = "wasm32")]
+pub use page::run;

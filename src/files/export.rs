@@ -1,6 +1,7 @@
 //! Figures and reports of fits as files; the ending of a file name decides about the format.
 
 use crate::figure::Figure;
+use crate::files::disk;
 use crate::files::write_file::write_file;
 use crate::report::ReportDocument;
 #[cfg(any(feature = "gui", test))]
@@ -8,7 +9,6 @@ use crate::report::TableFormat;
 use pbrdf::selftest::Machine;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 /// Resolution of a PNG for print.
 pub const PRINT_DPI: f64 = 300.0;
@@ -149,7 +149,7 @@ pub fn program() -> String {
 
 /// Day and time, UTC.
 pub fn now() -> String {
-    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+    humantime::format_rfc3339_seconds(disk::now()).to_string()
 }
 
 /// This machine.

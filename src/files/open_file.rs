@@ -1,6 +1,6 @@
 //! Opening a file, with the usual reasons why it cannot be.
 
-use std::fs::File;
+use crate::files::disk::{self, OpenedFile};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
@@ -26,11 +26,11 @@ pub enum OpenError {
 /// # Errors
 ///
 /// [`OpenError`] where the path is a directory or the system refuses.
-pub fn open_file(path: &Path) -> Result<File, OpenError> {
+pub fn open_file(path: &Path) -> Result<OpenedFile, OpenError> {
     if path.is_dir() {
         return Err(OpenError::Directory);
     }
-    File::open(path).map_err(|error| match error.kind() {
+    disk::open(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => OpenError::NotFound,
         ErrorKind::PermissionDenied => OpenError::Denied,
         _ => OpenError::Other(error),

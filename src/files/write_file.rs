@@ -3,7 +3,16 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+/// Writes a file in one move.
+#[cfg(target_arch = "wasm32")]
+pub fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    body(&mut bytes)?;
+    crate::files::disk::write(path, bytes)
+}
+
 /// Writes a file atomically: the old file stays until the new one is complete, and on any error.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // The target of a link is replaced, not the link. A device, a pipe or a stream of this process cannot
     // be replaced, only written to. What lies under /dev/shm are files.

@@ -15,6 +15,9 @@ pub struct Job<T, P = ()> {
     receiver: Receiver<T>,
     cancelled: Arc<AtomicBool>,
     progress: Arc<Mutex<Option<P>>>,
+    /// The worker of the page that does the work, if one does.
+    #[cfg(target_arch = "wasm32")]
+    beside: Option<crate::app::platform::worker::Beside>,
 }
 
 /// A job ended without a result.
@@ -36,7 +39,13 @@ impl<T, P> Job<T, P> {
     /// Both ends of a job.
     pub(super) fn new(wake: Wake) -> (Self, Sender<T>, JobContext<P>) {
         let (sender, receiver) = channel();
-        let job = Self { receiver, cancelled: Arc::default(), progress: Arc::new(Mutex::new(None)) };
+        let job = Self {
+            receiver,
+            cancelled: Arc::default(),
+            progress: Arc::new(Mutex::new(None)),
+            #[cfg(target_arch = "wasm32")]
+            beside: None,
+        };
         let (cancelled, progress) = (job.cancelled.clone(), job.progress.clone());
         (job, sender, JobContext { cancelled, progress, woken_at: Mutex::new(Instant::now()), wake })
     }
@@ -44,6 +53,17 @@ impl<T, P> Job<T, P> {
     /// Asks the job to stop soon; its result, which may be a partial one, still comes.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
+        #[cfg(target_arch = "wasm32")]
+        self.beside.iter().for_each(crate::app::platform::worker::Beside::cancel);
+    }
+
+    /// With the worker of the page that does the work.
+    #[cfg(target_arch = "wasm32")]
+    pub(super) fn done_by(self, worker: crate::app::platform::worker::Beside) -> Self {
+        // `Job` has a `Drop` of its own: its fields stay together.
+        let mut job = self;
+        job.beside = Some(worker);
+        job
     }
 
     /// The result, if it is there.

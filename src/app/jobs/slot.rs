@@ -55,6 +55,25 @@ impl<T: Send + 'static, P: Send + 'static> Slot<T, P> {
     }
 }
 
+#[cfg(target_arch = "wasm32")]
+impl<T: 'static, P: 'static> Slot<T, P> {
+    /// The same in a worker of the page.
+    ///
+    /// # Errors
+    /// The browser starts no worker.
+    pub fn start_beside(
+        &mut self,
+        spawner: &Spawner,
+        request: &str,
+        progress: fn(&str) -> Option<P>,
+        receive: impl FnOnce(&str) -> Option<T> + 'static,
+    ) -> io::Result<()> {
+        self.abandon();
+        self.job = Some(spawner.start_beside(request, progress, receive)?);
+        Ok(())
+    }
+}
+
 /// A slot of whatever kind, for tests that go through all of them.
 #[cfg(test)]
 pub trait AnySlot {

@@ -57,6 +57,36 @@ impl Spawner {
         Ok(job)
     }
 
+    /// Starts a job in a worker of the page: its request goes as a text, and so do progress and result, which these functions read.
+    ///
+    /// # Errors
+    /// The browser starts no worker.
+    #[cfg(target_arch = "wasm32")]
+    pub fn start_beside<T: 'static, P: 'static>(
+        &self,
+        request: &str,
+        progress: fn(&str) -> Option<P>,
+        receive: impl FnOnce(&str) -> Option<T> + 'static,
+    ) -> io::Result<Job<T, P>> {
+        use crate::app::platform::worker::{Reply, beside};
+        self.running.fetch_add(1, Ordering::Release);
+        let (job, sender, context) = Job::new(self.wake.clone());
+        let mut ends = Some((Completion(self.clone()), sender, receive));
+        let worker = beside(request, move |reply| match reply {
+            Reply::Progress(text) => progress(&text).into_iter().for_each(|progress| context.report(progress)),
+            Reply::Answer(text) => {
+                if let Some((_completion, sender, receive)) = ends.take()
+                    && let Some(result) = receive(&text)
+                {
+                    let _ = sender.send(result);
+                }
+            }
+            // The channel closes.
+            Reply::Failed => drop(ends.take()),
+        })?;
+        Ok(job.done_by(worker))
+    }
+
     /// Counts a frame of the window.
     pub fn begin_frame(&self) {
         self.frame.fetch_add(1, Ordering::Relaxed);

@@ -3,11 +3,20 @@
 //!
 //! The functions know nothing of the program; every other floor of the window may call them.
 
+mod file_dialog;
+#[cfg(not(target_arch = "wasm32"))]
 mod heap;
+#[cfg(not(target_arch = "wasm32"))]
 mod native;
+#[cfg(target_arch = "wasm32")]
+mod web;
+#[cfg(target_arch = "wasm32")]
+pub mod worker;
 
+pub use file_dialog::{Arrival, DialogUnavailable, FileDialog, FileFilter, PathPurpose};
+#[cfg(not(target_arch = "wasm32"))]
 pub use heap::raise_trim_threshold;
-pub use native::{
-    DialogUnavailable, FileDialog, FileFilter, Instant, PathPurpose, config_folder, data_folder, local_data_folder, local_time,
-    show_file_dialog, spawn,
-};
+#[cfg(not(target_arch = "wasm32"))]
+pub use native::*;
+#[cfg(target_arch = "wasm32")]
+pub use web::*;

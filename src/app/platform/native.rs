@@ -1,6 +1,7 @@
 //! The desktop: threads, the clock of the system, folders by the desktop's conventions, dialogs of
 //! the desktop.
 
+use crate::app::platform::file_dialog::{Arrival, DialogUnavailable, FileDialog, FileFilter, PathPurpose};
 use std::cell::Cell;
 use std::io;
 use std::path::PathBuf;
@@ -8,6 +9,30 @@ use std::time::SystemTime;
 
 /// The clock of the window and of its jobs.
 pub use std::time::Instant;
+
+/// Whether the window is in a page: there files are gone at the next start, and nothing is measured.
+pub const IS_PAGE: bool = false;
+
+/// What the user's environment says about the language, such as `zh_CN.UTF-8`.
+pub fn language() -> Option<String> {
+    let said = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(said)
+}
+
+/// Where a dropped file is.
+pub fn receive(file: &std::sync::Arc<dyn egui::DroppedFile + Send + Sync>) -> Option<PathBuf> {
+    Some(file.path().to_owned())
+}
+
+/// What came apart from the window's own events: nothing on a desktop.
+pub fn arrivals() -> Vec<Arrival> {
+    Vec::new()
+}
+
+/// The address of the page that shows the window: none on a desktop.
+pub fn page() -> Option<String> {
+    None
+}
 
 /// Runs work on a thread of its own.
 ///
@@ -42,40 +67,6 @@ pub fn local_time(at: SystemTime) -> String {
     let zoned = jiff::Timestamp::try_from(at).map(|at| at.to_zoned_datetime(jiff::tz::TimeZone::system()));
     zoned.map_or_else(|_| String::new(), |at| at.strftime("%Y-%m-%d %H:%M").to_string())
 }
-
-/// A dialog that asks for a path.
-#[derive(Debug, Clone)]
-pub struct FileDialog {
-    pub title: String,
-    pub purpose: PathPurpose,
-    pub filters: Vec<FileFilter>,
-}
-
-/// What the path is for.
-#[derive(Debug, Clone)]
-pub enum PathPurpose {
-    /// The file exists and is read.
-    Open,
-    /// The same of one file or several.
-    OpenSeveral,
-    /// The folder exists and is read.
-    OpenFolder,
-    /// The file is written; the dialog suggests a name and asks before an existing file is
-    /// replaced.
-    Save { suggested_name: String },
-}
-
-/// Files that a dialog offers.
-#[derive(Debug, Clone)]
-pub struct FileFilter {
-    pub name: String,
-    /// Without dots; `*` for any file.
-    pub extensions: Vec<&'static str>,
-}
-
-/// Neither the desktop's portal nor zenity opened a dialog.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct DialogUnavailable;
 
 /// Shows a dialog and waits for the answer; empty where the user cancels.
 ///

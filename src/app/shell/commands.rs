@@ -1,6 +1,7 @@
 //! Everything that can be ordered, in one table: menus, keyboard and palette read it, and so does a
 //! test for clashes.
 
+use crate::app::platform;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::work_title;
 use crate::app::storage::export::{ExportKind, SheetForm};
@@ -201,6 +202,7 @@ static ENTRIES: &[Entry] = &[
     row(Action::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
         |app| only_if(app.work.can_undo())),
     row(Action::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |app| only_if(app.work.can_redo())),
+    row(Action::CopyLink, Menu::Edit, "Copy link", "Sliders, data, fits, panes and the open lesson as a link, which opens in a browser and in this window", None, always),
     row(Action::CopyParameters, Menu::Edit, "Copy parameters", "All nine as text: n=2, k=3, …", ctrl_shift(Key::C), always),
     row(Action::RequestPaste, Menu::Edit, "Paste parameters", "From text such as n=2.07, k=2.9; those that it does not name stay",
         ctrl_shift(Key::V), always),
@@ -451,7 +453,18 @@ pub fn items(app: &App) -> Vec<Command> {
         .chain(finishes())
         .chain(themes)
         .chain(languages)
+        .filter(|command| !platform::IS_PAGE || is_of_page(&command.action))
         .collect()
+}
+
+/// Whether a page can carry out the command: it has no folders, closes with its tab, reads the clipboard only when the user pastes, and
+/// does not measure.
+fn is_of_page(action: &Action) -> bool {
+    match action {
+        Action::Quit | Action::ChooseFolder | Action::RequestPaste | Action::RunBenchmark(_) | Action::CancelBenchmark => false,
+        Action::TogglePane(pane) => !pane.measures_program(),
+        _ => true,
+    }
 }
 
 /// The command whose keys are pressed, if it is possible now.

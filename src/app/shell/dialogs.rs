@@ -4,6 +4,7 @@
 use crate::app::panels::{MeasurementPanel, PinnedPanel};
 use crate::app::shell::import_dialog::ImportDialog;
 use crate::app::shell::path_entry::PathEntry;
+use crate::app::shell::room::Room;
 use crate::app::text::help::Help;
 use crate::app::views::action::Action;
 use std::collections::VecDeque;
@@ -25,6 +26,7 @@ pub struct Dialogs {
     pub lists: Lists,
     /// The step of the tour that is shown.
     pub tour: Option<usize>,
+    pub room: Room,
 }
 
 /// The lists above the sliders, with the names that are being typed.

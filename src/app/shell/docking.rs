@@ -25,6 +25,8 @@ pub struct Dock {
     front: Option<PaneId>,
     /// Whether the frame before had room for panes one above the other.
     is_low: bool,
+    /// Whether the work's own arrangement is another one, which stays.
+    is_passing: bool,
 }
 
 /// Frames in which a tab is brought into view: the arrows beside tabs come and go, and take of
@@ -33,7 +35,16 @@ const SCROLLING: u8 = 4;
 
 impl Dock {
     pub fn new(layout: &Layout) -> Self {
-        Self { tree: tree_of(layout), is_edited: false, drawn: Vec::new(), scrolling: Vec::new(), stage: None, front: None, is_low: false }
+        Self {
+            tree: tree_of(layout),
+            is_edited: false,
+            drawn: Vec::new(),
+            scrolling: Vec::new(),
+            stage: None,
+            front: None,
+            is_low: false,
+            is_passing: false,
+        }
     }
 
     /// Another arrangement in the place of this one; a presentation goes on with what is on screen in
@@ -48,6 +59,15 @@ impl Dock {
         }
     }
 
+    /// An arrangement that the work does not take over.
+    pub fn passing(layout: &Layout) -> Self {
+        Self { is_passing: true, ..Self::new(layout) }
+    }
+
+    pub fn is_passing(&self) -> bool {
+        self.is_passing
+    }
+
     /// The arrangement; none where all panes are closed.
     pub fn layout(&self) -> Option<Layout> {
         layout_of(&self.tree)
@@ -56,7 +76,7 @@ impl Dock {
     /// The arrangement, once after it has changed; while all panes are closed, that of before is
     /// the one to keep.
     pub fn take_edit(&mut self) -> Option<Layout> {
-        std::mem::take(&mut self.is_edited).then(|| self.layout()).flatten()
+        (std::mem::take(&mut self.is_edited) && !self.is_passing).then(|| self.layout()).flatten()
     }
 
     /// Those that the next frame draws.

@@ -1,5 +1,6 @@
 //! The menu bar: the table of commands, sorted into menus.
 
+use crate::app::platform;
 use crate::app::shell::app::App;
 use crate::app::shell::commands;
 use crate::app::shell::commands::{Availability, Command, Menu};
@@ -104,9 +105,16 @@ fn file_ui(app: &mut App, ui: &mut Ui) {
             other => other,
         }));
         ui.separator();
-        let label = ui.label(tr!("Or type a path first, and then choose above:"));
+        let label = if platform::IS_PAGE {
+            ui.label(tr!("Or type a name first, such as figure.png, and then choose above:"))
+        } else {
+            ui.label(tr!("Or type a path first, and then choose above:"))
+        };
         ui.add(egui::TextEdit::singleline(&mut path_entry.export).desired_width(260.0)).labelled_by(label.id);
     });
+    if platform::IS_PAGE {
+        return;
+    }
     ui.separator();
     let label = ui.label(tr!("Type a path to open and press Enter:"));
     let field = ui.add(egui::TextEdit::singleline(&mut path_entry.open).desired_width(260.0)).labelled_by(label.id);

@@ -20,6 +20,7 @@ mod path_entry;
 mod persistence;
 mod presentation;
 mod readout_ui;
+pub mod room;
 mod stage;
 mod status_bar;
 mod theme;

@@ -2,6 +2,7 @@
 //! served; a file that is there is replaced only after a question, which elsewhere the desktop's
 //! own dialog asks.
 
+use crate::app::platform;
 use crate::app::storage::export::ExportKind;
 use crate::app::views::action::Action;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,10 @@ pub struct PathEntry {
 /// The path in a box, if there is one; `~/` is the folder of the user, as in a shell.
 pub fn path_in(text: &str) -> Option<PathBuf> {
     let text = Some(text.trim()).filter(|text| !text.is_empty())?;
+    if platform::IS_PAGE {
+        // A download has a name and no folder.
+        return Path::new(text).file_name().map(PathBuf::from);
+    }
     let own = text.strip_prefix("~/").and_then(|rest| Some(std::env::home_dir()?.join(rest)));
     Some(own.unwrap_or_else(|| PathBuf::from(text)))
 }

@@ -26,7 +26,7 @@ fn is_loss_scale(scale: &f64) -> bool {
 }
 
 /// How a fit came about.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct FitRecord {
     /// Of the residuals, by all starts.
     evaluations: usize,

@@ -6,9 +6,9 @@
 
 use crate::app::platform;
 use crate::app::storage::settings_file::APP;
+use crate::files::disk::{self, Lock};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,7 +29,7 @@ pub struct WorkFolder(PathBuf);
 #[derive(Debug)]
 pub struct WorkFile {
     pub path: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 /// The work of an earlier run.
@@ -79,8 +79,8 @@ impl WorkFolder {
     /// # Errors
     /// The file is there and cannot be moved, or the folder cannot be made.
     pub fn adopt_earlier(&self) -> io::Result<()> {
-        std::fs::create_dir_all(&self.0)?;
-        match std::fs::rename(self.0.with_file_name("working.pbrdf.json"), self.0.join("earlier.pbrdf.json")) {
+        disk::create_dir_all(&self.0)?;
+        match disk::rename(&self.0.with_file_name("working.pbrdf.json"), &self.0.join("earlier.pbrdf.json")) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
             _ => Ok(()),
         }
@@ -92,21 +92,19 @@ impl WorkFolder {
     /// The folder cannot be made or takes no file.
     pub fn new_file(&self) -> io::Result<WorkFile> {
         static LAST: AtomicU64 = AtomicU64::new(0);
-        std::fs::create_dir_all(&self.0)?;
-        let time = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_millis());
-        let name = format!("{time}-{}-{}{ENDING}", std::process::id(), LAST.fetch_add(1, Ordering::Relaxed));
+        disk::create_dir_all(&self.0)?;
+        let time = disk::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_millis());
+        let name = format!("{time}-{}-{}{ENDING}", process(), LAST.fetch_add(1, Ordering::Relaxed));
         let path = self.0.join(name);
-        let lock = File::create(lock_of(&path))?;
-        // Somebody may just be asking whether it is held.
-        lock.lock()?;
+        // Waits for somebody who may just be asking whether it is held.
+        let lock = disk::lock(&lock_of(&path))?;
         Ok(WorkFile { path, _lock: lock })
     }
 
     /// The newest work of all, if no window shows it.
     pub fn take_newest(&self) -> Option<WorkFile> {
         let (path, _) = self.files().into_iter().next()?;
-        let lock = File::create(lock_of(&path)).ok()?;
-        lock.try_lock().is_ok().then_some(WorkFile { path, _lock: lock })
+        disk::try_lock(&lock_of(&path)).map(|lock| WorkFile { path, _lock: lock })
     }
 
     /// The work of the last runs that have ended, the newest first, and that of these files.
@@ -120,23 +118,22 @@ impl WorkFolder {
     pub fn tidy(&self) {
         let ended = self.files().into_iter().filter(|(path, _)| !is_in_use(path));
         for (path, _) in ended.skip(MOST_KEPT) {
-            let _ = std::fs::remove_file(&path);
+            let _ = disk::remove_file(&path);
         }
-        let entries = std::fs::read_dir(&self.0).into_iter().flatten().flatten().map(|entry| entry.path());
+        let entries = disk::entries(&self.0).into_iter().map(|(path, _)| path);
         for lock in entries.filter(|path| path.extension().is_some_and(|extension| extension == "lock")) {
             let work = lock.with_extension(&ENDING[1..]);
-            if !work.exists() && !is_in_use(&work) {
-                let _ = std::fs::remove_file(&lock);
+            if disk::length_at(&work).is_none() && !is_in_use(&work) {
+                let _ = disk::remove_file(&lock);
             }
         }
     }
 
     /// Every file of work with the time of its last change, the newest first.
     fn files(&self) -> Vec<(PathBuf, SystemTime)> {
-        let entries = std::fs::read_dir(&self.0).into_iter().flatten().flatten();
-        let of_work = entries.filter(|entry| entry.file_name().to_string_lossy().ends_with(ENDING));
-        let changed = |entry: &std::fs::DirEntry| entry.metadata().and_then(|metadata| metadata.modified()).unwrap_or(UNIX_EPOCH);
-        let mut files: Vec<(PathBuf, SystemTime)> = of_work.map(|entry| (entry.path(), changed(&entry))).collect();
+        let is_work = |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING));
+        let mut files = disk::entries(&self.0);
+        files.retain(|(path, _)| is_work(path));
         // Names begin with the time of the run: they tell two of the same moment apart.
         files.sort_by(|(one, at), (other, other_at)| other_at.cmp(at).then_with(|| other.cmp(one)));
         files
@@ -149,15 +146,21 @@ fn lock_of(path: &Path) -> PathBuf {
     path.with_file_name(format!("{}.lock", name.trim_end_matches(ENDING)))
 }
 
-/// Whether a window shows it. Asking takes a lock that does not stop others from asking.
+/// Whether a window shows it.
 fn is_in_use(path: &Path) -> bool {
-    File::open(lock_of(path)).is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    disk::is_locked(&lock_of(path))
+}
+
+/// A number that no other run of the same moment has.
+fn process() -> u32 {
+    // Pages have none: there the moment has to do.
+    if cfg!(target_arch = "wasm32") { 0 } else { std::process::id() }
 }
 
 impl KeptWork {
     fn glance(path: PathBuf, changed: SystemTime) -> Self {
-        let is_small = std::fs::metadata(&path).is_ok_and(|metadata| metadata.len() <= MOST_BYTES);
-        let text = if is_small { std::fs::read(&path).unwrap_or_default() } else { Vec::new() };
+        let is_small = disk::length_at(&path).is_some_and(|length| length <= MOST_BYTES);
+        let text = if is_small { disk::read(&path).unwrap_or_default() } else { Vec::new() };
         let glance = serde_json::from_slice(&text).unwrap_or(Glance { measurements: Vec::new(), fits: Vec::new() });
         let names = glance.measurements.into_iter().filter(|measurement| measurement.open).map(|measurement| measurement.name);
         Self { path, changed, names: names.collect(), fits: glance.fits.len() }

@@ -13,3 +13,4 @@ pub mod session;
 pub mod session_error;
 pub mod session_file;
 pub mod settings_file;
+pub mod share_link;

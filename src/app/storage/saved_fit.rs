@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub struct SavedFit {
     /// Which measurement of the session, from 0.
     #[serde(default)]
-    measurement: usize,
+    pub measurement: usize,
     model: Model,
     start: Parameters,
     free: Vec<Parameter>,
@@ -86,24 +86,34 @@ pub struct RestoredFit {
 impl SavedFit {
     /// A fit about the measurement of that number in the session, from 0.
     pub fn new(fit: &FitEntry, measurement: usize) -> Self {
-        let problem = &fit.problem;
+        let account = FitRecord::new(fit);
+        Self {
+            masked: account.is_none().then(|| fit.mask.to_vec()),
+            parameters: fit.report.parameters,
+            before: fit.before,
+            account,
+            ..Self::to_be_made(&fit.problem, measurement, &fit.mask)
+        }
+    }
+
+    /// A fit that is still to be made of the measurement of that number, from 0.
+    pub fn to_be_made(problem: &Problem, measurement: usize, mask: &Mask) -> Self {
         let bounds = problem.free().iter().map(|&parameter| {
             let (low, high) = problem.bounds().of(parameter);
             (parameter, low, high)
         });
-        let account = FitRecord::new(fit);
         Self {
             measurement,
-            masked: account.is_none().then(|| fit.mask.to_vec()),
+            masked: Some(mask.to_vec()),
             model: problem.model(),
             start: *problem.start(),
             free: problem.free().to_vec(),
             bounds: bounds.collect(),
             ties: problem.ties().to_vec(),
             fit_options: *problem.options(),
-            parameters: fit.report.parameters,
-            before: fit.before,
-            account,
+            parameters: *problem.start(),
+            before: *problem.start(),
+            account: None,
         }
     }
 
@@ -137,7 +147,11 @@ impl SavedFit {
         self.mask().map_or(Cow::Borrowed(measurement), |mask| with_mask(measurement, mask))
     }
 
-    fn problem(&self, measurement: &Measurement) -> Result<Problem, SavedFitError> {
+    /// What was fitted, or is to be.
+    ///
+    /// # Errors
+    /// It cannot be fitted to this measurement.
+    pub fn problem(&self, measurement: &Measurement) -> Result<Problem, SavedFitError> {
         let mut bounds = Bounds::default();
         for &(parameter, low, high) in &self.bounds {
             bounds.set(parameter, low, high).map_err(SavedFitError::Bounds)?;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub struct SavedJointFit {
     model: Model,
     /// The parameters that surfaces shared.
-    shared: ParameterSet,
+    pub shared: ParameterSet,
     fit_options: FitOptions,
     sets: Vec<SavedSet>,
     account: FitRecord,
@@ -62,31 +62,41 @@ impl SavedJointFit {
     /// nothing is known of how it came about.
     pub fn new(parts: &[(&FitEntry, usize)]) -> Option<Self> {
         let joint = &parts.first()?.0.joint.as_ref()?.of;
-        let set = |(part, (fit, measurement)): (usize, &(&FitEntry, usize))| {
-            let problem = &joint.problem.parts()[part];
-            let bounds = problem.free().iter().map(|&parameter| {
-                let (low, high) = problem.bounds().of(parameter);
+        let sets = parts.iter().map(|(fit, measurement)| (*measurement, fit.before, &*fit.mask));
+        Some(Self { account: FitRecord::of_joint(joint)?, ..Self::to_be_made(&joint.problem, joint.shared, sets) })
+    }
+
+    /// A joint fit that is still to be made: of each measurement its number in the session, from 0, the sliders, and the masked rows.
+    pub fn to_be_made<'a>(
+        problem: &JointProblem,
+        shared: ParameterSet,
+        sets: impl Iterator<Item = (usize, Parameters, &'a [usize])>,
+    ) -> Self {
+        let set = |(part, (measurement, before, mask)): (usize, (usize, Parameters, &[usize]))| {
+            let own = &problem.parts()[part];
+            let bounds = own.free().iter().map(|&parameter| {
+                let (low, high) = own.bounds().of(parameter);
                 (parameter, low, high)
             });
             SavedSet {
-                measurement: *measurement,
-                name: joint.problem.set_names()[part].to_string(),
-                start: *problem.start(),
-                free: problem.free().to_vec(),
+                measurement,
+                name: problem.set_names()[part].to_string(),
+                start: *own.start(),
+                free: own.free().to_vec(),
                 bounds: bounds.collect(),
-                ties: problem.ties().to_vec(),
-                weight: problem.emphasis(),
-                before: fit.before,
-                masked: fit.mask.to_vec(),
+                ties: own.ties().to_vec(),
+                weight: own.emphasis(),
+                before,
+                masked: mask.to_vec(),
             }
         };
-        Some(Self {
-            model: joint.problem.model(),
-            shared: joint.shared,
-            fit_options: *joint.problem.options(),
-            sets: parts.iter().enumerate().map(set).collect(),
-            account: FitRecord::of_joint(joint)?,
-        })
+        Self {
+            model: problem.model(),
+            shared,
+            fit_options: *problem.options(),
+            sets: sets.enumerate().map(set).collect(),
+            account: FitRecord::default(),
+        }
     }
 
     /// A joint fit of a file, if it can be one of its measurements.
@@ -106,7 +116,11 @@ impl SavedJointFit {
         Ok(fit)
     }
 
-    fn problem(&self, measurements: &[SavedMeasurement]) -> Result<JointProblem, SavedFitError> {
+    /// What was fitted, or is to be.
+    ///
+    /// # Errors
+    /// These measurements cannot be fitted so.
+    pub fn problem(&self, measurements: &[SavedMeasurement]) -> Result<JointProblem, SavedFitError> {
         let masked = self.sets.iter().map(|set| -> Result<Cow<'_, Measurement>, SavedFitError> {
             let measurement = &measurements.get(set.measurement).ok_or(SavedFitError::Measurement)?.measurement;
             if !is_mask(&set.masked, measurement.rows.len()) {

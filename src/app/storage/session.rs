@@ -330,6 +330,46 @@ impl Session {
         })
     }
 
+    /// Measurements and fits of them, without the rest of a work.
+    #[cfg(any(test, target_arch = "wasm32"))]
+    pub fn of_fits(measurements: Vec<SavedMeasurement>, fits: Vec<SavedEntry>) -> Self {
+        Self {
+            settings: SavedSettings::default(),
+            layout: Layout::default(),
+            measurements,
+            active: 0,
+            shared: ParameterSet::EMPTY,
+            pinned: Vec::new(),
+            fits,
+            shown: None,
+            left_out: Arc::default(),
+            file: None,
+            lesson: None,
+        }
+    }
+
+    /// The session on one line.
+    ///
+    /// # Errors
+    /// Memory takes no more.
+    pub fn to_json(&self) -> io::Result<String> {
+        Ok(serde_json::to_string(&self.contents()?)?)
+    }
+
+    /// The same without fits, and without the measurements that only fits are about.
+    pub fn without_fits(&self) -> Self {
+        let mut session = Self { fits: Vec::new(), shown: None, ..self.clone() };
+        // Those that are not open stand behind the open ones: the active one keeps its place.
+        session.measurements.retain(|saved| saved.is_open);
+        session.measurements.iter_mut().for_each(|saved| saved.shown_fit = None);
+        session
+    }
+
+    /// The same without any measurement: the surface of the active one, and what is pinned.
+    pub fn without_measurements(&self) -> Self {
+        Self { measurements: Vec::new(), active: 0, shared: ParameterSet::EMPTY, ..self.without_fits() }
+    }
+
     /// Writes it: one key, and one row of the table, a line.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut *out, &self.contents()?)?;

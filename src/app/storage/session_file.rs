@@ -4,6 +4,7 @@ use crate::app::storage::saved_entry::RestoredEntry;
 use crate::app::storage::session::{SavedLesson, Session};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::workspace::Workspace;
+use crate::files::disk;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
 use std::io::Read as _;
@@ -61,6 +62,6 @@ impl OpenedSession {
 /// The file cannot be written; a sentence.
 pub fn save_session(path: &Path, session: &Session) -> Result<(), String> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    let written = std::fs::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
+    let written = disk::create_dir_all(folder).and_then(|()| write_file(path, |out| session.write(out)));
     written.map_err(|error| tr!("{0} cannot be written: {1}.", path.display(), error.localized()))
 }

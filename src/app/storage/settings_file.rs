@@ -8,6 +8,7 @@ use crate::app::work::layout::Layout;
 use crate::app::work::settings::{Settings, WindowSettings};
 use crate::app::work::settings_error::SettingsError;
 use crate::app::work::surface::Surface;
+use crate::files::disk;
 use crate::files::write_file::write_file;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -69,11 +70,16 @@ pub fn load() -> (SettingsFile, Option<String>) {
     path().map_or_else(|| (SettingsFile::default(), None), |path| load_from(&path))
 }
 
+/// The settings where there are none yet: in the language of the user.
+pub fn fresh() -> SettingsFile {
+    let window = WindowSettings { language: Language::of_environment(), ..WindowSettings::default() };
+    SettingsFile { window, ..SettingsFile::default() }
+}
+
 pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
-    let reason = match std::fs::read(path) {
+    let reason = match disk::read(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let window = WindowSettings { language: Language::of_environment(), ..WindowSettings::default() };
-            return (SettingsFile { window, ..SettingsFile::default() }, None);
+            return (fresh(), None);
         }
         Err(error) => {
             return (
@@ -90,7 +96,7 @@ pub fn load_from(path: &Path) -> (SettingsFile, Option<String>) {
         },
     };
     let aside = path.with_extension("damaged.json");
-    let kept = match std::fs::rename(path, &aside) {
+    let kept = match disk::rename(path, &aside) {
         Ok(()) => tr!("it is kept as {}", aside.display()),
         Err(error) => tr!("it could not be set aside ({})", error.localized()),
     };
@@ -112,6 +118,6 @@ fn read(bytes: &[u8]) -> serde_json::Result<SettingsFile> {
 /// Writes the settings; a crash leaves the old file or the new one.
 pub fn save(path: &Path, settings: &SettingsFile) -> std::io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
+    disk::create_dir_all(folder)?;
     write_file(path, |out| Ok(serde_json::to_writer_pretty(out, settings)?))
 }

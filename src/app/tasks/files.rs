@@ -12,11 +12,13 @@ use crate::app::storage::import::{Hashing, Loaded, Origin, with_notes};
 use crate::app::storage::kept_work::KeptWork;
 use crate::app::storage::session::Session;
 use crate::app::storage::session_file::{OpenedSession, save_session};
+use crate::app::storage::share_link::OpenedLink;
 use crate::app::tasks::file_request::{FileReply, FileRequest};
 use crate::app::tasks::start_error::start_error;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::messages::advised;
 use crate::app::work::import_memory::{KeptAnswers, TableShape};
+use crate::files::disk;
 use crate::files::open_file::open_file;
 use crate::files::write_file::write_file;
 use pbrdf::measurement::foreign::TableOptions;
@@ -91,6 +93,8 @@ pub struct FileJobs {
     /// Looks through a folder for files that the answers of the dialog may be for.
     pub alike: Slot<Alike>,
     pub session: Slot<LoadedSession>,
+    /// Reads a link; the error is a sentence.
+    pub link: Slot<Result<Box<OpenedLink>, String>>,
     /// Writes the measurement; the error is a sentence.
     pub save: Slot<Result<PathBuf, String>>,
     pub export: Slot<ExportedFile>,
@@ -111,6 +115,7 @@ impl FileJobs {
             reopen: Slot::default(),
             alike: Slot::default(),
             session: Slot::default(),
+            link: Slot::default(),
             save: Slot::default(),
             export: Slot::default(),
             autosave: Slot::default(),
@@ -120,8 +125,8 @@ impl FileJobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, ask: _, waiting: _, dialog, load, import, reopen, alike, session, save, export, autosave } = self;
-        vec![dialog, load, import, reopen, alike, session, save, export, autosave]
+        let Self { spawner: _, ask: _, waiting: _, dialog, load, import, reopen, alike, session, link, save, export, autosave } = self;
+        vec![dialog, load, import, reopen, alike, session, link, save, export, autosave]
     }
 
     /// Asks the user for a path, unless a dialog is open.
@@ -201,7 +206,7 @@ impl FileJobs {
 
     /// Whether files or a session are being read: further files wait.
     pub fn is_reading(&self) -> bool {
-        self.load.is_running() || self.import.is_running() || self.session.is_running()
+        self.load.is_running() || self.import.is_running() || self.session.is_running() || self.link.is_running()
     }
 
     /// Reads a foreign file, which is in memory, with the user's options.
@@ -228,6 +233,16 @@ impl FileJobs {
             LoadedSession { path, result }
         };
         self.session.start(&self.spawner, "read session", job).map_err(start_error)
+    }
+
+    /// Reads the link in a text.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn open_link(&mut self, text: String) -> Result<(), String> {
+        self.abandon_reading();
+        let job = move |_: &JobContext| OpenedLink::read(&text).map(Box::new);
+        self.link.start(&self.spawner, "read link", job).map_err(start_error)
     }
 
     /// Writes a measurement in one move. One job at a time: the last order is the last one written.
@@ -295,6 +310,7 @@ impl FileJobs {
     pub fn abandon_reading(&mut self) {
         self.abandon_load();
         self.session.abandon();
+        self.link.abandon();
     }
 }
 
@@ -311,7 +327,7 @@ fn read_files(paths: &[PathBuf], answers: Option<&KeptAnswers>, context: &JobCon
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         let source = open_file(path).map_err(|reason| tr!("{0}: {1}.", path.display(), reason.localized()));
         let source = source.map(|file| {
-            let length = file.metadata().ok().map(|data| data.len());
+            let length = disk::length(&file);
             (path.as_path(), file, length)
         });
         files.push(read(name, Some(path.clone()), source, answers, &mut progress));

@@ -5,40 +5,18 @@ use crate::app::jobs::job::JobContext;
 use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
-use crate::app::platform::Instant;
+use crate::app::tasks::fit_work::{
+    BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FinishedIntervals, FitOneByOne, FitTogether, Fitted,
+    ProfileOne, Search, observer,
+};
+use crate::app::tasks::portable::start;
 use crate::app::tasks::start_error::start_error;
 use crate::app::work::edit::Refit;
-use crate::app::work::fit_history::{FitEntry, JointEntry, JointPart};
+use crate::app::work::fit_history::FitEntry;
 use crate::app::work::measurement_list::MeasurementList;
-use crate::app::work::model_fit::{ComparedModel, NotFitted};
 use crate::app::work::open_measurement::OpenMeasurement;
-use pbrdf::fit::{
-    Bootstrap, BootstrapEstimate, FitResult, Intervals, JointError, JointProblem, JointResult, JointUnknown, Observer, Problem,
-    ProblemError, Profile, SpecialCases, Starts, TracePoint, bootstrap, bootstrap_jointly, fit, fit_jointly, fit_ladder, profile,
-    profile_jointly, with_intervals, with_intervals_jointly,
-};
+use pbrdf::fit::{Bootstrap, Intervals, JointError, JointProblem, Problem, ProblemError, Profile, Starts, TracePoint, fit, fit_jointly};
 use pbrdf::model::{Parameter, Preset};
-use std::sync::Arc;
-
-/// A fit with the intervals of its parameters.
-pub struct FinishedIntervals {
-    /// The id of the fit in the history.
-    pub id: usize,
-    /// None where the job was stopped before their ends.
-    pub result: Option<WithIntervals>,
-}
-
-/// A result, of one measurement or of several.
-pub enum WithIntervals {
-    One(Box<FitResult>),
-    Joint(Box<JointResult>),
-}
-
-/// The models that were fitted to the measurements of those numbers.
-pub struct ComparedModels {
-    pub numbers: Vec<u64>,
-    pub models: Vec<ComparedModel>,
-}
 
 /// What is fitted while sliders move: a measurement by its number, or several.
 pub enum RefitProblem {
@@ -91,13 +69,8 @@ impl FitJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn fit(&mut self, problem: Problem, document: &OpenMeasurement, starts: Starts, seed: u64) -> Result<(), String> {
-        let about = document.clone();
-        let job = move |context: &JobContext<TracePoint>| {
-            let begun = Instant::now();
-            let report = watched(context, begun, |observer| fit(&problem, starts, seed, observer));
-            vec![FitEntry::new(about, Arc::new(problem), report)]
-        };
-        self.fit.start(&self.spawner, "fit", job).map_err(start_error)
+        let about = vec![(problem, document.clone())];
+        start(&self.spawner, &mut self.fit, "fit", FitOneByOne { about, search: Search { starts, seed }, intervals: false })
     }
 
     /// Fits documents together from so many starts.
@@ -105,59 +78,24 @@ impl FitJobs {
     /// # Errors
     /// The job does not start; a sentence.
     pub fn fit_jointly(&mut self, problem: JointProblem, list: &MeasurementList, starts: Starts, seed: u64) -> Result<(), String> {
-        let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
-        let shared = list.shared();
-        let job = move |context: &JobContext<TracePoint>| {
-            let begun = Instant::now();
-            let result = watched(context, begun, |observer| fit_jointly(&problem, starts, seed, Intervals::Linear, observer));
-            FitEntry::of_joint(about, JointEntry { result, problem: Arc::new(problem), shared })
-        };
-        self.fit.start(&self.spawner, "joint fit", job).map_err(start_error)
+        let (about, shared) = (list.measured().cloned().collect(), list.shared());
+        start(&self.spawner, &mut self.fit, "joint fit", FitTogether { problem, about, shared, search: Search { starts, seed } })
     }
 
     /// Fits documents one after the other, intervals included; cancelled, those that are done are the result.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn fit_each(&mut self, problems: Vec<(Problem, OpenMeasurement)>, starts: Starts, seed: u64) -> Result<(), String> {
-        let job = move |context: &JobContext<TracePoint>| {
-            let mut fits = Vec::new();
-            for (problem, about) in problems {
-                let begun = Instant::now();
-                let report = watched(context, begun, |observer| {
-                    let linear = fit(&problem, starts, seed, observer);
-                    whole_intervals(&problem, linear.clone(), observer).unwrap_or(linear)
-                });
-                fits.push(FitEntry::new(about, Arc::new(problem), report));
-                if context.is_cancelled() {
-                    break;
-                }
-            }
-            fits
-        };
-        self.fit.start(&self.spawner, "fit each", job).map_err(start_error)
+    pub fn fit_each(&mut self, about: Vec<(Problem, OpenMeasurement)>, starts: Starts, seed: u64) -> Result<(), String> {
+        start(&self.spawner, &mut self.fit, "fit each", FitOneByOne { about, search: Search { starts, seed }, intervals: true })
     }
 
     /// Finds the intervals of a finished fit, in place of those that are being found.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn intervals(&mut self, fit: &FitEntry) -> Result<(), String> {
-        let (id, problem, report, joint) = (fit.id, fit.problem.clone(), fit.report.clone(), fit.joint.clone());
-        let job = move |context: &JobContext| {
-            let begun = Instant::now();
-            let cancelled = || context.is_cancelled();
-            let observer = Observer { clock: &|| milliseconds_since(begun), ..observer(&cancelled) };
-            let result = match joint {
-                None => whole_intervals(&problem, report, observer).map(|report| WithIntervals::One(Box::new(report))),
-                Some(JointPart { of, .. }) => {
-                    let result = whole_joint_intervals(&of.problem, &of.result, observer);
-                    result.map(|result| WithIntervals::Joint(Box::new(result)))
-                }
-            };
-            FinishedIntervals { id, result }
-        };
-        self.intervals.start(&self.spawner, "intervals", job).map_err(start_error)
+    pub fn intervals(&mut self, fit: Fitted) -> Result<(), String> {
+        start(&self.spawner, &mut self.intervals, "intervals", FindIntervals(fit))
     }
 
     /// Fits from the sliders alone.
@@ -192,15 +130,7 @@ impl FitJobs {
         seed: u64,
     ) -> Result<(), String> {
         let about = document.clone();
-        let job = move |context: &JobContext<&'static str>| {
-            let fits = ladder(&problems, context, |problem, observer| {
-                let linear = fit(problem, starts, seed, observer);
-                whole_intervals(problem, linear.clone(), observer).unwrap_or(linear)
-            });
-            let entry = |problem: Problem, report| vec![FitEntry::new(about.clone(), Arc::new(problem), report)];
-            ComparedModels { numbers: vec![about.number], models: compared(problems, fits, NotFitted::One, entry) }
-        };
-        self.compare.start(&self.spawner, "compare models", job).map_err(start_error)
+        start(&self.spawner, &mut self.compare, "compare models", CompareModels { about, problems, search: Search { starts, seed } })
     }
 
     /// The same of several measurements together.
@@ -214,54 +144,27 @@ impl FitJobs {
         starts: Starts,
         seed: u64,
     ) -> Result<(), String> {
-        let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
-        let shared = list.shared();
-        let job = move |context: &JobContext<&'static str>| {
-            let fits = ladder(&problems, context, |problem, observer| {
-                let linear = fit_jointly(problem, starts, seed, Intervals::Linear, observer);
-                whole_joint_intervals(problem, &linear, observer).unwrap_or(linear)
-            });
-            let entries = |problem: JointProblem, result| {
-                FitEntry::of_joint(about.clone(), JointEntry { result, problem: Arc::new(problem), shared })
-            };
-            let numbers = about.iter().map(|open| open.number).collect();
-            ComparedModels { numbers, models: compared(problems, fits, NotFitted::Together, entries) }
-        };
-        self.compare.start(&self.spawner, "compare models together", job).map_err(start_error)
+        let (about, shared) = (list.measured().cloned().collect(), list.shared());
+        let job = CompareTogether { about, shared, problems, search: Search { starts, seed } };
+        start(&self.spawner, &mut self.compare, "compare models together", job)
     }
 
     /// Profiles a parameter of a finished fit, in place of the running scan.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn profile(&mut self, fit: &FitEntry, parameter: Parameter) -> Result<(), String> {
+    pub fn profile(&mut self, fit: Fitted, parameter: Parameter) -> Result<(), String> {
         self.abandon_scan();
-        let (problem, report, joint) = (fit.problem.clone(), fit.report.clone(), fit.joint.clone());
-        let job = move |context: &JobContext| {
-            let cancelled = || context.is_cancelled();
-            match joint {
-                None => profile(&problem, &report, parameter, observer(&cancelled)),
-                Some(part) => profile_in_joint(&part, parameter, observer(&cancelled)),
-            }
-        };
-        self.profile.start(&self.spawner, "profile", job).map_err(start_error)
+        start(&self.spawner, &mut self.profile, "profile", ProfileOne { fit, parameter })
     }
 
     /// Fits resampled data of a finished fit, in place of the running scan.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn bootstrap(&mut self, fit: &FitEntry, replicates: usize, seed: u64) -> Result<(), String> {
+    pub fn bootstrap(&mut self, fit: Fitted, replicates: usize, seed: u64) -> Result<(), String> {
         self.abandon_scan();
-        let (problem, report, joint) = (fit.problem.clone(), fit.report.clone(), fit.joint.clone());
-        let job = move |context: &JobContext| {
-            let cancelled = || context.is_cancelled();
-            match joint {
-                None => bootstrap(&problem, &report, replicates, seed, observer(&cancelled)),
-                Some(part) => bootstrap_in_joint(&part, replicates, seed, observer(&cancelled)),
-            }
-        };
-        self.bootstrap.start(&self.spawner, "bootstrap", job).map_err(start_error)
+        start(&self.spawner, &mut self.bootstrap, "bootstrap", BootstrapOne { fit, replicates, seed })
     }
 
     /// Whether a profile or a bootstrap is being made.
@@ -289,86 +192,4 @@ impl FitJobs {
         self.compare.abandon();
         self.abandon_scan();
     }
-}
-
-/// The result with its intervals; none where these were cancelled on the way.
-fn whole_intervals(problem: &Problem, result: FitResult, observer: Observer<'_>) -> Option<FitResult> {
-    let result = with_intervals(problem, result, observer);
-    let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
-    (!is_part).then_some(result)
-}
-
-/// The same of a joint fit.
-fn whole_joint_intervals(problem: &JointProblem, result: &JointResult, observer: Observer<'_>) -> Option<JointResult> {
-    let result = with_intervals_jointly(problem, result, observer);
-    let is_part = result.course.intervals_complete == Some(false) && (observer.cancelled)();
-    (!is_part).then_some(result)
-}
-
-/// The fits of a ladder of models, until the job is cancelled; it reports the name of the model that is being fitted.
-fn ladder<P: SpecialCases, E>(
-    problems: &[(&'static Preset, Result<P, E>)],
-    context: &JobContext<&'static str>,
-    fit: impl Fn(&P, Observer<'_>) -> P::Fitted,
-) -> Vec<Option<P::Fitted>> {
-    let posed: Vec<Option<&P>> = problems.iter().map(|(_, problem)| problem.as_ref().ok()).collect();
-    fit_ladder(&posed, |place, problem| {
-        if context.is_cancelled() {
-            return None;
-        }
-        context.report(problems[place].0.name);
-        let begun = Instant::now();
-        let observer = Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), ..Observer::NONE };
-        Some(fit(problem, observer))
-    })
-}
-
-/// The models that were fitted or cannot be; those that were not reached are left out.
-fn compared<P, R, E>(
-    problems: Vec<(&'static Preset, Result<P, E>)>,
-    fits: Vec<Option<R>>,
-    reason: fn(E) -> NotFitted,
-    entries: impl Fn(P, R) -> Vec<FitEntry>,
-) -> Vec<ComparedModel> {
-    let model = |((preset, problem), fit): ((&'static Preset, Result<P, E>), Option<R>)| match problem {
-        Ok(problem) => fit.map(|fit| ComparedModel { preset, result: Ok(entries(problem, fit)) }),
-        Err(error) => Some(ComparedModel { preset, result: Err(reason(error)) }),
-    };
-    problems.into_iter().zip(fits).filter_map(model).collect()
-}
-
-/// The profile of a parameter of one measurement of a joint fit, its own one or that of all.
-fn profile_in_joint(JointPart { of, set }: &JointPart, parameter: Parameter, observer: Observer<'_>) -> Profile {
-    let own = of.problem.own().contains(parameter).then(|| of.problem.set_names()[*set].clone());
-    let unknown = JointUnknown { parameter, set: own };
-    let Profile { points, interval68, interval95, limits, is_complete, .. } = profile_jointly(&of.problem, &of.result, &unknown, observer);
-    Profile { parameter, points, interval68, interval95, limits, is_complete }
-}
-
-/// A bootstrap of a joint fit, as one of the parameters of one of its measurements.
-fn bootstrap_in_joint(JointPart { of, set }: &JointPart, replicates: usize, seed: u64, observer: Observer<'_>) -> Bootstrap {
-    let Bootstrap { asked, replicates, estimates } = bootstrap_jointly(&of.problem, &of.result, replicates, seed, observer);
-    let name = &of.problem.set_names()[*set];
-    let is_its = |estimate: &BootstrapEstimate<JointUnknown>| estimate.parameter.set.as_ref().is_none_or(|set| set == name);
-    let plain = |BootstrapEstimate { parameter, std_error, low, high }: BootstrapEstimate<JointUnknown>| BootstrapEstimate {
-        parameter: parameter.parameter,
-        std_error,
-        low,
-        high,
-    };
-    Bootstrap { asked, replicates, estimates: estimates.into_iter().filter(is_its).map(plain).collect() }
-}
-
-/// What a fit gives that can be cancelled and tells how far it is.
-fn watched<T>(context: &JobContext<TracePoint>, begun: Instant, fit: impl FnOnce(Observer<'_>) -> T) -> T {
-    fit(Observer { clock: &|| milliseconds_since(begun), cancelled: &|| context.is_cancelled(), progress: &|point| context.report(point) })
-}
-
-/// An observer that only cancels.
-fn observer<'a>(cancelled: &'a (dyn Fn() -> bool + Sync)) -> Observer<'a> {
-    Observer { cancelled, ..Observer::NONE }
-}
-
-fn milliseconds_since(begun: Instant) -> f64 {
-    begun.elapsed().as_secs_f64() * 1e3
 }

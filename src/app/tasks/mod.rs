@@ -7,6 +7,10 @@
 pub mod benchmarks;
 pub mod file_request;
 pub mod files;
+pub mod fit_work;
 pub mod fits;
 pub mod jobs;
+#[cfg(any(test, target_arch = "wasm32"))]
+pub mod messages;
+mod portable;
 mod start_error;

@@ -54,7 +54,7 @@ fn every_command_can_be_carried_out() {
         }
         wait(&mut harness);
         let notice = explorer(&mut harness).toasts.take();
-        let says_so = matches!(command, Action::CopyTable | Action::CopyResults(_));
+        let says_so = matches!(command, Action::CopyTable | Action::CopyResults(_) | Action::CopyLink);
         assert_eq!(notice.is_some(), says_so, "{command:?}: {notice:?}");
     }
 }

@@ -13,6 +13,7 @@
 mod damage;
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::link::link_read;
 use crate::app::shell::app::session::session_read;
 use crate::app::shell::docking::Dock;
 use crate::app::shell::lessons::Lessons;
@@ -23,7 +24,9 @@ use crate::app::storage::session::Session;
 use crate::app::storage::session_file::OpenedSession;
 use crate::app::storage::settings_file;
 use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
+use crate::app::storage::share_link::{OpenedLink, SharedWork};
 use crate::app::tests::{explorer, take, wait};
+use crate::app::text::i18n::Language;
 use crate::app::views::action::Action;
 use crate::app::work::layout::Layout;
 use crate::app::work::lesson::Lesson;
@@ -31,6 +34,7 @@ use crate::app::work::pane_id::PaneId;
 use crate::app::work::parameter_text;
 use crate::app::work::settings::{Settings, Theme, WindowSettings};
 use crate::app::work::surface::{Surface, can_be_set};
+use crate::files::packed::{pack, unpack};
 use damage::{fuzz, texts};
 use egui_kittest::Harness;
 use pbrdf::measurement::Measurement;
@@ -107,6 +111,26 @@ fn sessions_in_every_view() {
     fuzz("session-in-views", &samples, |bytes| {
         let Some(opened) = opened(bytes) else { return false };
         session_read(explorer(&mut harness), Path::new("some.pbrdf.json"), Ok(Box::new(opened)));
+        wait(&mut harness);
+        true
+    });
+}
+
+/// The letters of a link have a checksum: what they hold is damaged as well.
+#[test]
+fn links() {
+    let shared = |lesson| SharedWork { language: Language::English, lesson, work: session() };
+    let links = [None, Some(("Ratios only".to_owned(), 1))].map(|lesson| shared(lesson).fragment().expect("memory takes everything").text);
+    let letters = |link: &str| link.split_once('.').map(|(_, letters)| letters.to_owned()).expect("a link");
+    let held = links.iter().map(|link| unpack(&letters(link), 1 << 24).expect("a sound link"));
+    let mut samples: Vec<Vec<u8>> = held.collect();
+    samples.extend(links.iter().map(|link| link.clone().into_bytes()));
+    let mut harness = harness();
+    fuzz("link", &samples, |bytes| {
+        let text = String::from_utf8_lossy(bytes);
+        let text = if text.starts_with('#') { text.into_owned() } else { format!("https://a.test/b#pbrdf1.{}", pack(bytes)) };
+        let Ok(opened) = OpenedLink::read(&text) else { return false };
+        link_read(explorer(&mut harness), Ok(Box::new(opened)));
         wait(&mut harness);
         true
     });

@@ -1,6 +1,7 @@
 //! The window, driven headlessly by the names of its controls.
 
 mod audit;
+mod beside;
 mod broken;
 mod bundled_lessons;
 mod commands;
@@ -21,6 +22,7 @@ mod landscape;
 mod languages;
 mod leaving;
 mod lessons;
+mod links;
 mod masks;
 mod measurements;
 mod menus;
@@ -36,6 +38,7 @@ mod planning;
 mod presenting;
 mod reports;
 mod results;
+mod room;
 mod scans;
 mod sessions;
 mod sharing;

@@ -7,6 +7,7 @@
 //! A message of the core, an error say, has its texts in [`crate::app::text::messages`].
 //! Names of parameters, models and files are the same in all languages.
 
+use crate::app::platform;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -50,8 +51,7 @@ impl Language {
 
     /// That of the environment; English unless it says Chinese.
     pub fn of_environment() -> Self {
-        let said =
-            ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
+        let said = platform::language();
         if said.is_some_and(|value| value.starts_with("zh")) { Self::Chinese } else { Self::English }
     }
 }

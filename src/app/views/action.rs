@@ -88,6 +88,10 @@ pub enum Action {
     /// Deal the residuals of the fit out anew.
     Bootstrap,
     CancelScan,
+    /// The work to the clipboard, as a link.
+    CopyLink,
+    /// Show the work of the link in that text; the user's own is kept.
+    OpenLink(String),
     /// Sliders to the clipboard, as text.
     CopyParameters,
     /// Ask for what is on the clipboard.

@@ -123,7 +123,7 @@ impl App {
 /// there is.
 fn due(app: &App) -> Option<(PathBuf, AutosaveRevision)> {
     let path = app.persistence.autosave_path.clone()?;
-    let is_waiting = app.jobs.files.session.is_running() || app.jobs.files.autosave.is_running();
+    let is_waiting = app.jobs.files.session.is_running() || app.jobs.files.link.is_running() || app.jobs.files.autosave.is_running();
     let revision = app.autosave_revision();
     (!is_waiting && app.persistence.autosaved_revision != Some(revision)).then_some((path, revision))
 }

@@ -17,6 +17,11 @@ impl eframe::App for App {
         ui::ui(self, ui);
     }
 
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(&mut *self)
+    }
+
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
         if self.window.show_frame_times {
             // Where drawing is too slow, or switched off, to read the status line.

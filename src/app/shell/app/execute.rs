@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::{compare_models, find_intervals, fit_each, start_bootstrap, start_fit, start_profile};
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
+use crate::app::shell::app::link;
 use crate::app::shell::app::lists;
 use crate::app::shell::app::open::{cancel_import, open, open_files, start_import};
 use crate::app::shell::dialogs::OverwritePrompt;
@@ -87,7 +88,7 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Undo => app.work.apply(Edit::Undo),
         Action::Redo => app.work.apply(Edit::Redo),
         Action::Toggle(switch) => app.work.apply(Edit::SetSwitch(switch, !switch.is_on(app.work.settings()))),
-        Action::PasteParameters(text) => paste_parameters(app, &text)?,
+        Action::CopyLink | Action::OpenLink(_) | Action::PasteParameters(_) => link::execute(app, ctx, action)?,
         Action::ResetParameters => app.work.apply(Edit::SetParameters(Parameters::default())),
         Action::UseFinish(index) => use_finish(app, index),
         Action::UseModel(key) => use_model(app, key),
@@ -222,10 +223,4 @@ fn use_case(app: &mut App, index: usize) {
             app.work.apply(Edit::TakeValues { parameters: start, model });
         }
     }
-}
-
-fn paste_parameters(app: &mut App, text: &str) -> Result<(), String> {
-    let parameters = parameter_text::read(text, app.work.surface().parameters)?;
-    app.work.apply(Edit::SetParameters(parameters));
-    Ok(())
 }

@@ -1,7 +1,8 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fits::{FinishedIntervals, RefitProblem, WithIntervals};
+use crate::app::tasks::fit_work::{FinishedIntervals, Fitted, WithIntervals};
+use crate::app::tasks::fits::RefitProblem;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
@@ -10,6 +11,7 @@ use crate::app::work::fit_setup::{explain, fit_problem, free, is_joint, joint_pr
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
+use crate::app::work::workspace::Workspace;
 use pbrdf::fit::{Bootstrap, FitOptions, Problem, Profile, free_by_default};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 use tr::tr;
@@ -85,9 +87,19 @@ pub fn find_intervals(app: &mut App) -> Result<(), String> {
 fn find_intervals_of(app: &mut App, number: u64) -> Result<(), String> {
     let fit = app.work.shown_fit_of(number).filter(|fit| fit.report.course.intervals_complete.is_none());
     match fit.map(|fit| (fit, fit.counts())) {
-        Some((fit, (values, free))) if values > 0 && free > 0 => app.jobs.fits.intervals(fit),
+        Some((fit, (values, free))) if values > 0 && free > 0 => app.jobs.fits.intervals(whole(&app.work, fit)),
         _ => Ok(()),
     }
+}
+
+/// A fit of the history with all its parts.
+fn whole(work: &Workspace, fit: &FitEntry) -> Fitted {
+    let mut parts = Vec::new();
+    if fit.joint.is_some() {
+        parts.extend(work.fit_history().parts(fit.id).map(|part| FitEntry::clone(part)));
+        parts.sort_by_key(|part| part.joint.as_ref().map(|part| part.set));
+    }
+    Fitted { fit: fit.clone(), parts }
 }
 
 /// Stops what is about the sliders and the shown fit where another measurement has become active.
@@ -165,7 +177,7 @@ pub fn compare_models(app: &mut App) -> Result<(), String> {
 
 pub fn start_profile(app: &mut App, parameter: Parameter) -> Result<(), String> {
     app.work.apply(Edit::SetProfile(None));
-    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.profile(fit, parameter))
+    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.profile(whole(&app.work, fit), parameter))
 }
 
 pub fn profiled(app: &mut App, profile: &Profile) {
@@ -176,7 +188,7 @@ pub fn profiled(app: &mut App, profile: &Profile) {
 pub fn start_bootstrap(app: &mut App) -> Result<(), String> {
     app.work.apply(Edit::SetBootstrap(None));
     let (replicates, seed) = (app.work.diagnostics().replicates, app.work.settings().seed);
-    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.bootstrap(fit, replicates, seed))
+    app.work.shown_fit().map_or(Ok(()), |fit| app.jobs.fits.bootstrap(whole(&app.work, fit), replicates, seed))
 }
 
 pub fn bootstrapped(app: &mut App, bootstrap: Bootstrap) {

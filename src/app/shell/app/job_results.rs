@@ -6,12 +6,13 @@ use crate::app::platform::DialogUnavailable;
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::autosaved;
 use crate::app::shell::app::fits::{bootstrapped, fitted, intervals_found, profiled};
+use crate::app::shell::app::link::link_read;
 use crate::app::shell::app::open::{alike_found, files_loaded, imported, reopened};
 use crate::app::shell::app::session::{exported, session_read};
 use crate::app::shell::file_dialogs::{command_for, unavailable_text};
 use crate::app::tasks::benchmarks::FinishedBenchmark;
 use crate::app::tasks::files::DialogAnswer;
-use crate::app::tasks::fits::ComparedModels;
+use crate::app::tasks::fit_work::ComparedModels;
 use crate::app::tasks::jobs::Jobs;
 use crate::app::work::edit::Edit;
 use std::path::PathBuf;
@@ -40,6 +41,7 @@ pub fn poll_jobs(app: &mut App) {
     poll(app, |jobs| &mut jobs.files.reopen, reopened, looking_panicked);
     poll(app, |jobs| &mut jobs.files.alike, alike_found, looking_panicked);
     poll(app, |jobs| &mut jobs.files.session, |app, loaded| session_read(app, &loaded.path, loaded.result), reading_panicked);
+    poll(app, |jobs| &mut jobs.files.link, link_read, reading_panicked);
     poll(app, |jobs| &mut jobs.files.save, measurement_saved, writing_panicked);
     poll(app, |jobs| &mut jobs.files.export, exported, writing_panicked);
     poll(app, |jobs| &mut jobs.files.autosave, autosaved,

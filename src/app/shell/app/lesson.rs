@@ -67,8 +67,8 @@ fn set_up_step(app: &mut App, steps: &[Step], begins: bool) {
 
 /// Whether nothing is on its way that belongs to what is shown now: a file would meet the other
 /// work.
-fn is_free_for_lessons(app: &App) -> Result<(), String> {
-    if app.jobs.files.reading_fraction().is_some() || app.jobs.files.session.is_running() {
+pub fn is_free_for_lessons(app: &App) -> Result<(), String> {
+    if app.jobs.files.reading_fraction().is_some() || app.jobs.files.session.is_running() || app.jobs.files.link.is_running() {
         return Err(tr!("A file is still being read: begin the lesson when it is there."));
     }
     awaits_no_answer(app)

@@ -1,6 +1,7 @@
 //! What happens before each frame: results of jobs, dropped files, actions, what is derived, what
 //! is kept.
 
+use crate::app::platform::{self, Arrival};
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{autosave_when_rested, save_when_rested};
 use crate::app::shell::app::execute::execute;
@@ -17,9 +18,15 @@ use std::path::PathBuf;
 
 /// Before each frame.
 pub fn logic(app: &mut App, ctx: &egui::Context) {
-    let dropped: Vec<PathBuf> = ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
-    if !dropped.is_empty() {
-        app.actions.push(Action::OpenMeasurements(dropped));
+    let mut files: Vec<PathBuf> = ctx.input(|input| input.raw.dropped_files.iter().filter_map(platform::receive).collect());
+    for arrival in platform::arrivals() {
+        match arrival {
+            Arrival::File(path) => files.push(path),
+            Arrival::Link(text) => app.actions.push(Action::OpenLink(text)),
+        }
+    }
+    if !files.is_empty() {
+        app.actions.push(Action::OpenMeasurements(files));
     }
     i18n::set(app.window.language);
     listen_to_keys(app, ctx);

@@ -1,11 +1,13 @@
 //! What the window holds; the files beside this one say what it does.
 
+pub mod arrange;
 pub mod autosave;
 mod eframe_app;
 pub mod execute;
 mod fits;
 pub mod job_results;
 mod lesson;
+pub mod link;
 mod lists;
 pub mod logic;
 pub mod open;

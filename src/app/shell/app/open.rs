@@ -1,6 +1,7 @@
 //! Measurements open: at the start, from files, and through the dialog that asks about foreign
 //! ones.
 
+use crate::app::platform;
 use crate::app::shell::app::App;
 use crate::app::shell::app::lesson::close_lesson;
 use crate::app::shell::app::title::mark_saved;
@@ -230,6 +231,13 @@ pub fn imported(app: &mut App, result: Result<Imported, ImportError>) {
     }
 }
 
+/// A file among the recent ones, where the next start finds it again.
+pub fn remember(app: &mut App, path: &Path) {
+    if !platform::IS_PAGE {
+        app.window.remember(path);
+    }
+}
+
 /// Adds the measurements that were read; the answer is the number of the first.
 fn loaded(app: &mut App, origin: Origin, imported: Imported) -> Option<u64> {
     let Origin { name, path, sha256 } = origin;
@@ -241,7 +249,7 @@ fn loaded(app: &mut App, origin: Origin, imported: Imported) -> Option<u64> {
     }
     if let Some(path) = &path {
         app.dialogs.path_entry.clear_if(path);
-        app.window.remember(path);
+        remember(app, path);
     }
     let about = imported.notes.iter().map(Localized::localized).collect::<Vec<_>>().join(" ");
     if !about.is_empty() {

@@ -2,6 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::set_aside;
+use crate::app::shell::app::open::remember;
 use crate::app::shell::app::title::mark_saved;
 use crate::app::shell::lessons::LessonSession;
 use crate::app::storage::export::ExportKind;
@@ -11,6 +12,7 @@ use crate::app::tasks::files::ExportedFile;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::edit::Edit;
+use crate::files::disk;
 use std::path::{Path, PathBuf};
 use tr::tr;
 
@@ -42,13 +44,13 @@ pub fn session_read(app: &mut App, path: &Path, result: Result<Box<OpenedSession
                 app.persistence.autosaved_revision = Some(app.autosave_revision());
             }
             if !is_kept {
-                app.window.remember(path);
+                remember(app, path);
             }
         }
         Err(sentence) if is_kept => {
             // The next start would meet it again.
             let aside = path.with_extension("damaged.json");
-            let kept = std::fs::rename(path, &aside).map_or_else(
+            let kept = disk::rename(path, &aside).map_or_else(
                 |error| tr!("it could not be set aside ({})", error.localized()),
                 |()| tr!("it is kept as {}", aside.display()),
             );

@@ -2,6 +2,7 @@
 
 use crate::app::panels;
 use crate::app::shell::app::App;
+use crate::app::shell::app::arrange::adapt;
 use crate::app::shell::command_palette::palette_ui;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_ui::import_ui;
@@ -9,6 +10,7 @@ use crate::app::shell::lesson_ui::lesson_and_panes_ui;
 use crate::app::shell::menu_bar::menu_ui;
 use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::presentation::presentation_ui;
+use crate::app::shell::room::{Below, Embedded};
 use crate::app::shell::status_bar::status_ui;
 use crate::app::shell::tour::tour_ui;
 use crate::app::views::follow_f6;
@@ -18,13 +20,24 @@ use tr::tr;
 
 /// One frame.
 pub fn ui(app: &mut App, ui: &mut Ui) {
-    if app.dock.is_presented() {
+    adapt(app, ui.ctx().content_rect().size());
+    let room = &app.dialogs.room;
+    if let Some(Embedded { panes, has_sliders }) = room.embedded.clone() {
+        if has_sliders {
+            Panel::left("parameters").exact_size(PARAMETERS).resizable(false).show(ui, |ui| parameters_ui(app, ui));
+        }
+        if !panes.is_empty() {
+            middle_ui(app, ui);
+        }
+    } else if app.dock.is_presented() {
         presentation_ui(app, ui);
+    } else if room.is_small {
+        small_ui(app, ui);
     } else {
         Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
         Panel::bottom("status").show(ui, |ui| status_ui(app, ui));
         side_panels_ui(app, ui);
-        CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| lesson_and_panes_ui(app, ui));
+        middle_ui(app, ui);
     }
     palette_ui(app, ui);
     import_ui(app, ui);
@@ -33,6 +46,35 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
     tour_ui(app, ui);
     follow_f6(ui.ctx());
     app.apply_edits();
+}
+
+/// The open lesson and the panes.
+fn middle_ui(app: &mut App, ui: &mut Ui) {
+    CentralPanel::default().frame(Frame::central_panel(ui.style()).inner_margin(2)).show(ui, |ui| lesson_and_panes_ui(app, ui));
+}
+
+/// One pane, and below it the sliders or the fit.
+fn small_ui(app: &mut App, ui: &mut Ui) {
+    Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
+    let height = ui.available_height();
+    match app.dialogs.room.below {
+        Below::Sliders => {
+            Panel::bottom("below").exact_size(height * 0.45).resizable(false).show(ui, |ui| parameters_ui(app, ui));
+        }
+        Below::Fit => {
+            Panel::bottom("below").exact_size(height * 0.55).resizable(false).show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
+        }
+        Below::Nothing => {}
+    }
+    Panel::bottom("choice").show(ui, |ui| {
+        ui.horizontal(|ui| {
+            let below = &mut app.dialogs.room.below;
+            ui.selectable_value(below, Below::Sliders, tr!("Sliders"));
+            ui.selectable_value(below, Below::Fit, tr!("Fit"));
+            ui.selectable_value(below, Below::Nothing, tr!("Pane alone"));
+        });
+    });
+    middle_ui(app, ui);
 }
 
 /// Widths in points: below the first one panel is seen at a time; what the panels have by themselves

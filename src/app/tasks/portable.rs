@@ -1,0 +1,43 @@
+//! Jobs around fits run beside the window: on a desktop on threads, in a page in a worker.
+
+use crate::app::jobs::job::JobContext;
+use crate::app::jobs::slot::Slot;
+use crate::app::jobs::spawner::Spawner;
+#[cfg(target_arch = "wasm32")]
+use crate::app::platform::worker;
+use crate::app::tasks::fit_work::{Watch, Work};
+#[cfg(target_arch = "wasm32")]
+use crate::app::tasks::messages::Message;
+use crate::app::tasks::start_error::start_error;
+
+impl<P: Send> Watch<P> for JobContext<P> {
+    fn is_cancelled(&self) -> bool {
+        Self::is_cancelled(self)
+    }
+
+    fn report(&self, progress: P) {
+        Self::report(self, progress);
+    }
+}
+
+/// Starts a job in a slot.
+///
+/// # Errors
+/// The job does not start; a sentence.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn start<J: Work>(spawner: &Spawner, slot: &mut Slot<J::Output, J::Progress>, name: &str, job: J) -> Result<(), String> {
+    slot.start(spawner, name, move |context| job.run(context)).map_err(start_error)
+}
+
+/// Starts a job in a slot: in a worker, or where the browser has none as a task of the page, which waits for it.
+///
+/// # Errors
+/// The page takes no tasks; a sentence.
+#[cfg(target_arch = "wasm32")]
+pub fn start<J: Work + Message>(spawner: &Spawner, slot: &mut Slot<J::Output, J::Progress>, name: &str, job: J) -> Result<(), String> {
+    match job.request().filter(|_| worker::are_there()) {
+        Some(request) => slot.start_beside(spawner, &request, J::progress, move |answer| job.receive(answer)),
+        None => slot.start(spawner, name, move |context| job.run(context)),
+    }
+    .map_err(start_error)
+}

@@ -1,0 +1,152 @@
+//! Jobs around fits as texts: what comes back from a worker is what a thread would have found.
+
+use crate::app::shell::app::App;
+use crate::app::tasks::fit_work::{
+    BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, Search, Watch,
+    WithIntervals, Work,
+};
+use crate::app::tasks::messages::{Message, Wire, answer};
+use crate::app::tests::{explorer, harness};
+use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_setup::{fit_problem, joint_problem, joint_problem_of};
+use crate::app::work::open_measurement::OpenMeasurement;
+use pbrdf::fit::{Course, FitResult, Observer, Problem, Starts, free_by_default};
+use pbrdf::model::{PRESETS, Parameter, ParameterSet};
+
+const SEARCH: Search = Search { starts: Starts::Exactly(3), seed: 7 };
+
+/// Tells nothing and goes on to the end.
+struct Quiet;
+
+impl<P> Watch<P> for Quiet {
+    fn is_cancelled(&self) -> bool {
+        (Observer::NONE.cancelled)()
+    }
+
+    fn report(&self, _: P) {}
+}
+
+/// The result by way of a worker.
+fn sent<J: Message>(job: J) -> J::Output {
+    let request = job.request().expect("it can be written");
+    let told = std::sync::Mutex::new(0);
+    let tell = |text: &str| *told.lock().expect("nobody panics") += usize::from(J::progress(text).is_some());
+    let answer = answer(&request, &Wire { is_cancelled: &|| false, tell: &tell }).expect("an answer");
+    job.receive(&answer).expect("a result")
+}
+
+/// All but the times, and the way, which a session keeps thinned.
+fn numbers(report: &FitResult) -> FitResult {
+    let Course { minima, intervals_complete, evaluations, .. } = &report.course;
+    let mut course = Course::default();
+    (course.minima, course.intervals_complete, course.evaluations) = (minima.clone(), *intervals_complete, *evaluations);
+    FitResult { course, ..report.clone() }
+}
+
+fn assert_same(one: &[FitEntry], other: &[FitEntry]) {
+    assert_eq!(one.len(), other.len());
+    for (one, other) in one.iter().zip(other) {
+        assert_eq!(numbers(&one.report), numbers(&other.report));
+        assert_eq!((&one.document, one.number, one.generation), (&other.document, other.number, other.generation));
+        assert_eq!(one.before, other.before);
+    }
+}
+
+/// The example with some rows masked.
+fn example(app: &App) -> OpenMeasurement {
+    let mut open = app.work.active().clone();
+    open.restore_mask(&[1, 5].into());
+    open
+}
+
+fn problem(app: &App, open: &OpenMeasurement) -> Problem {
+    let free = free_by_default(open.surface.model, &open.measurement, &app.work.settings().fit_options);
+    fit_problem(&open.surface, &open.measurement, open.surface.model, free, app.work.settings().fit_options).expect("a problem")
+}
+
+#[test]
+fn fits_and_what_follows_from_them_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let open = example(app);
+    for intervals in [false, true] {
+        let job = || FitOneByOne { about: vec![(problem(app, &open), open.clone()); 2], search: SEARCH, intervals };
+        assert_same(&sent(job()), &job().run(&Quiet));
+    }
+    let about = vec![(problem(app, &open), open.clone())];
+    let fit = FitOneByOne { about, search: SEARCH, intervals: false }.run(&Quiet).pop().expect("a fit");
+    let fitted = || Fitted { fit: fit.clone(), parts: Vec::new() };
+    let report = |result| match result {
+        Some(WithIntervals::One(report)) => numbers(&report),
+        _ => panic!("no intervals of one measurement"),
+    };
+    assert_eq!(report(sent(FindIntervals(fitted())).result), report(FindIntervals(fitted()).run(&Quiet).result));
+    let profile = || ProfileOne { fit: fitted(), parameter: Parameter::Sigma };
+    assert_eq!(sent(profile()), profile().run(&Quiet));
+    let bootstrap = || BootstrapOne { fit: fitted(), replicates: 3, seed: 1 };
+    assert_eq!(sent(bootstrap()), bootstrap().run(&Quiet));
+}
+
+#[test]
+fn joint_fits_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
+    let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
+    let job = || {
+        let problem = joint_problem(list, ParameterSet::EMPTY, fit_options).expect("a problem");
+        FitTogether { problem, about: about.clone(), shared: list.shared(), search: Search { starts: Starts::One, seed: 0 } }
+    };
+    let parts = job().run(&Quiet);
+    assert_same(&sent(job()), &parts);
+    let fitted = || Fitted { fit: parts[0].clone(), parts: parts.clone() };
+    let profile = || ProfileOne { fit: fitted(), parameter: Parameter::Sigma };
+    assert_eq!(sent(profile()), profile().run(&Quiet));
+}
+
+#[test]
+fn models_are_compared_the_same_way() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let open = example(app);
+    let job = || {
+        let problems = PRESETS.iter().take(3).map(|preset| {
+            let free = free_by_default(preset.model, &open.measurement, &app.work.settings().fit_options);
+            (preset, fit_problem(&open.surface, &open.measurement, preset.model, free, app.work.settings().fit_options))
+        });
+        CompareModels { about: open.clone(), problems: problems.collect(), search: Search { starts: Starts::One, seed: 0 } }
+    };
+    let (sent, run) = (sent(job()), job().run(&Quiet));
+    assert_eq!((&sent.numbers, sent.models.len()), (&run.numbers, run.models.len()));
+    for (one, other) in sent.models.iter().zip(&run.models) {
+        assert_eq!(one.preset.key, other.preset.key);
+        assert_same(one.result.as_ref().expect("a fit"), other.result.as_ref().expect("a fit"));
+    }
+}
+
+#[test]
+fn models_are_compared_together_the_same_way() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
+    let job = || {
+        let problems = PRESETS.iter().take(2).map(|preset| (preset, joint_problem_of(list, preset.model, fit_options)));
+        let (about, search) = (list.measured().cloned().collect(), Search { starts: Starts::One, seed: 0 });
+        CompareTogether { about, shared: list.shared(), problems: problems.collect(), search }
+    };
+    let (sent, run) = (sent(job()), job().run(&Quiet));
+    assert_eq!(sent.models.len(), 2);
+    for (one, other) in sent.models.iter().zip(&run.models) {
+        assert_same(one.result.as_ref().expect("a fit"), other.result.as_ref().expect("a fit"));
+    }
+}
+
+#[test]
+fn no_text_is_an_order_by_chance() {
+    let wire = Wire { is_cancelled: &|| false, tell: &|_| {} };
+    for text in ["", "{}", "null", r#"{"order": "Intervals", "session": {}}"#] {
+        assert_eq!(answer(text, &wire), None);
+    }
+}

@@ -1,0 +1,243 @@
+// Drives the page in a browser: numbers, requests, times and pictures. Every step fails by throwing.
+'use strict';
+const { chromium } = require('playwright-core');
+const { execFileSync } = require('node:child_process');
+const fs = require('node:fs');
+const http = require('node:http');
+const path = require('node:path');
+const zlib = require('node:zlib');
+
+const DIST = path.join(__dirname, 'dist');
+const SHOTS = path.join(__dirname, 'shots');
+const EXAMPLE = path.join(__dirname, '../assets/examples/steel45_simulated.csv');
+const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
+// A subfolder: paths of the page are relative.
+const FOLDER = '/course/brdf/';
+
+const figures = {};
+
+function check(holds, what) {
+  if (!holds) throw new Error(`does not hold: ${what}`);
+  console.log(`  ok: ${what}`);
+}
+
+function serve() {
+  const sent = { bytes: 0 };
+  const server = http.createServer((request, response) => {
+    const { pathname } = new URL(request.url, 'http://localhost');
+    const name = pathname.startsWith(FOLDER) ? pathname.slice(FOLDER.length) || 'index.html' : '';
+    const file = path.join(DIST, path.basename(name));
+    if (!name || !fs.existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    const body = zlib.gzipSync(fs.readFileSync(file), { level: 9 });
+    sent.bytes += body.length;
+    response.writeHead(200, { 'Content-Type': KINDS[path.extname(file)], 'Content-Encoding': 'gzip', 'Cache-Control': 'no-store' }).end(body);
+  });
+  return new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve({ server, sent, origin: `http://127.0.0.1:${server.address().port}` })));
+}
+
+// Watches for tasks that block the page, and for the time that frames take, from the beginning of the page.
+function watch() {
+  window.longTasks = [];
+  new PerformanceObserver((list) => {
+    for (const entry of list.getEntries()) window.longTasks.push({ start: entry.startTime, duration: entry.duration });
+  }).observe({ type: 'longtask', buffered: true });
+  window.frames_ = [];
+  const request = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (callback) =>
+    request((time) => {
+      const begun = performance.now();
+      callback(time);
+      window.frames_.push({ at: begun, took: performance.now() - begun });
+    });
+  new MutationObserver(() => {
+    if (!window.firstPicture && document.body && document.getElementById('window') && !document.getElementById('loading')) {
+      request(() => request(() => (window.firstPicture = window.firstPicture || performance.now())));
+    }
+  }).observe(document, { childList: true, subtree: true });
+}
+
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
+// The work that the page keeps, unpacked; null before it is kept.
+async function keptWork(page) {
+  const texts = await page.evaluate(() =>
+    Object.keys(localStorage).filter((key) => key.includes(':/kept/work/')).map((key) => localStorage.getItem(key)));
+  if (texts.length === 0) return null;
+  const newest = texts.sort((a, b) => Number(b.split(' ')[0]) - Number(a.split(' ')[0]))[0];
+  return JSON.parse(zlib.inflateSync(Buffer.from(newest.split(' ')[1], 'base64url')));
+}
+
+async function until(page, holds, what, seconds = 60) {
+  const end = Date.now() + seconds * 1000;
+  for (;;) {
+    const work = await keptWork(page);
+    if (work && holds(work)) return work;
+    if (Date.now() > end) throw new Error(`does not come: ${what}; kept: ${work ? JSON.stringify(work).slice(0, 600) : 'nothing'}`);
+    await page.waitForTimeout(100);
+  }
+}
+
+async function command(page, words) {
+  await page.keyboard.press('Control+Shift+P');
+  await page.waitForTimeout(300);
+  await page.keyboard.type(words, { delay: 15 });
+  await page.waitForTimeout(200);
+  await page.keyboard.press('Enter');
+  await page.waitForTimeout(300);
+}
+
+const shot = (page, name) => page.screenshot({ path: path.join(SHOTS, `${name}.png`) });
+
+async function opened(context, address) {
+  const page = await context.newPage();
+  page.faults = [];
+  page.on('pageerror', (error) => page.faults.push(`error: ${error.message}`));
+  page.on('console', (message) => {
+    if (message.type() === 'error') page.faults.push(`console: ${message.text()}`);
+  });
+  await page.addInitScript(watch);
+  await page.goto(address);
+  await page.waitForFunction(() => window.firstPicture, null, { timeout: 120000 });
+  return page;
+}
+
+// Parameters and errors as the command line finds them.
+function fitOfCommandLine() {
+  return JSON.parse(execFileSync(process.env.PROGRAM, ['fit', EXAMPLE, '--json'], { encoding: 'utf8' }));
+}
+
+async function main() {
+  const { server, sent, origin } = await serve();
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM,
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+  });
+  const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, locale: 'en-GB', acceptDownloads: true });
+  await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
+  const requests = [];
+  context.on('request', (request) => requests.push(request.url()));
+  const address = origin + FOLDER;
+
+  console.log('first visit');
+  let page = await opened(context, address);
+  figures.transferred_bytes = sent.bytes;
+  figures.first_picture_ms = Math.round(await page.evaluate(() => window.firstPicture));
+  await page.waitForTimeout(1500);
+  await shot(page, '1-first');
+  check(page.faults.length === 0, `no error is reported ${page.faults}`);
+  check(sent.bytes < 4e6, `first visit ${sent.bytes} bytes gzipped, under 4 MB`);
+
+  console.log('a slider');
+  const before = await page.evaluate(() => window.frames_.length);
+  const [x, y] = [Number(process.env.SLIDER_X || 150), Number(process.env.SLIDER_Y || 330)];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let step = 1; step <= 60; step += 1) await page.mouse.move(x + step * 0.7, y, { steps: 1 });
+  await page.mouse.up();
+  const frames = (await page.evaluate(() => window.frames_)).slice(before);
+  figures.drag_frames = frames.length;
+  figures.drag_frame_median_ms = Number(median(frames.map((frame) => frame.took)).toFixed(2));
+  figures.drag_interval_median_ms = Number(median(frames.slice(1).map((frame, i) => frame.at - frames[i].at)).toFixed(2));
+  const moved = await until(page, () => true, 'the moved slider is kept');
+  await shot(page, '2-slider');
+  fs.writeFileSync(path.join(SHOTS, 'settings.json'), JSON.stringify(moved.settings, null, 1));
+
+  console.log('the fit');
+  await page.keyboard.press('Control+z');
+  await page.waitForTimeout(500);
+  await page.evaluate(() => (window.longTasks.length = 0));
+  await page.keyboard.press('F5');
+  const fitted = await until(page, (work) => work.fits.length === 1 && work.fits[0].account && work.fits[0].account.intervals, 'a fit with intervals', 120);
+  await shot(page, '3-fit');
+  const account = fitted.fits[0].account;
+  figures.fit_ms = Math.round(account.elapsed_ms);
+  figures.intervals_ms = Math.round(account.intervals.elapsed_ms);
+  figures.longest_task_ms = Math.max(0, ...(await page.evaluate(() => window.longTasks.map((task) => task.duration))));
+  fs.writeFileSync(path.join(SHOTS, 'fit.json'), JSON.stringify(fitted.fits[0], null, 1));
+  compare(fitted.fits[0], fitOfCommandLine());
+
+  console.log('a file');
+  await page.keyboard.press('Control+o');
+  await page.waitForSelector('#files', { state: 'attached' });
+  await page.setInputFiles('#files', { name: 'mine.csv', mimeType: 'text/csv', buffer: fs.readFileSync(EXAMPLE) });
+  const added = await until(page, (work) => work.measurements.some((table) => table.name === 'mine.csv'), 'the file is open');
+  check(added.measurements.some((table) => table.name === 'mine.csv'), 'a CSV is open');
+  await shot(page, '4-file');
+
+  console.log('a figure');
+  const download = page.waitForEvent('download');
+  await command(page, 'Plot DoLP as SVG');
+  const file = await download;
+  check(/dolp\.svg$/.test(file.suggestedFilename()), `a figure is downloaded: ${file.suggestedFilename()}`);
+  check(fs.readFileSync(await file.path(), 'utf8').startsWith('<'), 'it is SVG');
+
+  console.log('a lesson, and its link');
+  await command(page, 'pseudo-Brewster');
+  await until(page, (work) => work.lesson, 'the lesson is open');
+  await shot(page, '5-lesson');
+  await command(page, 'Copy link');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  check(link.startsWith(`${address}#pbrdf1.`), `a link of ${link.length} letters`);
+  figures.lesson_link_letters = link.length;
+  const second = await context.browser().newContext({ viewport: { width: 1366, height: 768 }, locale: 'en-GB' });
+  second.on('request', (request) => requests.push(request.url()));
+  const other = await opened(second, link);
+  const shown = await until(other, (work) => work.lesson, 'the link opens the lesson');
+  check(shown.lesson.title === (await keptWork(page)).lesson.title, 'the lesson of the link is that of the first page');
+  check((await other.evaluate(() => location.hash)) === '', 'the address holds no link any more: loading again shows the newest work');
+  await shot(other, '6-link');
+  check(other.faults.length === 0, `no error is reported ${other.faults}`);
+
+  console.log('again');
+  await page.close();
+  page = await opened(context, address);
+  await page.waitForTimeout(1500);
+  check((await keptWork(page)).measurements.some((table) => table.name === 'mine.csv'), 'the work of before is kept');
+  await shot(page, '7-again');
+
+  console.log('small screens');
+  for (const [name, width, height] of [['8-tablet', 1024, 768], ['9-phone', 844, 390]]) {
+    const small = await browser.newContext({ viewport: { width, height }, hasTouch: true, isMobile: true, deviceScaleFactor: 2, locale: 'en-GB' });
+    small.on('request', (request) => requests.push(request.url()));
+    const touch = await opened(small, address);
+    await touch.waitForTimeout(1500);
+    await shot(touch, name);
+    check(touch.faults.length === 0, `no error is reported ${touch.faults}`);
+    await small.close();
+  }
+
+  console.log('embedded');
+  const embedded = await opened(second, `${address}?embed=dolp,lobes&lesson=02`);
+  await embedded.waitForTimeout(1500);
+  await shot(embedded, '10-embedded');
+
+  console.log('requests');
+  const foreign = requests.filter((url) => !url.startsWith(address) && !url.startsWith('data:') && !url.startsWith(`blob:${origin}`));
+  check(foreign.length === 0, `${requests.length} requests, none elsewhere ${foreign}`);
+  check(!requests.some((url) => url.includes('pbrdf1.') && !url.includes('#')), 'no link reaches a server');
+
+  console.log(JSON.stringify(figures, null, 1));
+  fs.writeFileSync(path.join(SHOTS, 'figures.json'), JSON.stringify(figures, null, 1));
+  await browser.close();
+  server.close();
+}
+
+function compare(fit, told) {
+  fs.writeFileSync(path.join(SHOTS, 'told.json'), JSON.stringify(told, null, 1));
+  let worst = 0;
+  for (const estimate of told.parameters || []) {
+    const ours = fit.parameters[estimate.name];
+    const off = Math.abs(ours - estimate.value) / Math.max(Math.abs(estimate.value), 1e-300);
+    if (estimate.value !== 0) worst = Math.max(worst, off);
+  }
+  figures.fit_off = worst;
+  check(worst < 1e-12, `the fit is that of the command line to 12 digits (off by ${worst})`);
+}
+
+main().catch((error) => {
+  console.error(error);
+  process.exit(1);
+});

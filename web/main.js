@@ -1,0 +1,62 @@
+// Loads the program with a bar, and says in a sentence where it cannot run.
+import init from './pbrdf-explorer.js';
+
+const PROGRAM = './pbrdf-explorer_bg.wasm';
+// Its size as build.sh found it: a server that compresses does not tell.
+const BYTES = Number('@BYTES@');
+
+const chinese = navigator.language.startsWith('zh');
+const SENTENCES = {
+  webgl: chinese
+    ? '此页面需要 WebGL 2：请在浏览器设置中启用硬件加速，或换用较新的浏览器。'
+    : 'This page needs WebGL 2: switch on hardware acceleration in the settings of the browser, or use a newer browser.',
+  wasm: chinese
+    ? '此页面需要 WebAssembly：请换用较新的浏览器。'
+    : 'This page needs WebAssembly: use a newer browser.',
+  load: chinese
+    ? '程序无法载入：请检查网络连接并重新载入此页面。'
+    : 'The program cannot be loaded: check the connection and load this page again.',
+};
+
+function refuse(sentence) {
+  const loading = document.getElementById('loading');
+  if (loading) {
+    loading.textContent = sentence;
+    loading.setAttribute('role', 'alert');
+  }
+}
+
+// The answer of the server, which moves the bar while it comes.
+function watched(response) {
+  const bar = document.getElementById('progress');
+  const reader = response.body.getReader();
+  let done = 0;
+  const body = new ReadableStream({
+    async pull(controller) {
+      const part = await reader.read();
+      if (part.done) {
+        controller.close();
+        return;
+      }
+      done += part.value.length;
+      if (bar) bar.value = Math.min(1, done / BYTES);
+      controller.enqueue(part.value);
+    },
+  });
+  return new Response(body, { headers: { 'Content-Type': 'application/wasm' } });
+}
+
+async function start() {
+  if (typeof WebAssembly !== 'object') return refuse(SENTENCES.wasm);
+  if (!document.createElement('canvas').getContext('webgl2')) return refuse(SENTENCES.webgl);
+  try {
+    const response = await fetch(PROGRAM);
+    if (!response.ok) throw new Error(`${PROGRAM}: ${response.status}`);
+    await init({ module_or_path: await WebAssembly.compileStreaming(watched(response)) });
+  } catch (error) {
+    console.error(error);
+    refuse(SENTENCES.load);
+  }
+}
+
+start();
