@@ -462,7 +462,7 @@ pub fn items(app: &App) -> Vec<Command> {
 fn is_of_page(action: &Action) -> bool {
     match action {
         Action::Quit | Action::ChooseFolder | Action::RequestPaste | Action::RunBenchmark(_) | Action::CancelBenchmark => false,
-        Action::TogglePane(pane) => !pane.measures_program(),
+        Action::ShowPane(pane) => !pane.judges_program(),
         _ => true,
     }
 }

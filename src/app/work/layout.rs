@@ -42,13 +42,6 @@ impl Layout {
         serde_json::from_value(value).ok().filter(Self::is_sound).unwrap_or_default()
     }
 
-    /// Its panes in their order.
-    pub fn panes(&self) -> Vec<PaneId> {
-        let mut panes = Vec::new();
-        self.collect(&mut panes);
-        panes
-    }
-
     /// Whether no pane is there twice and shares are sizes.
     pub fn is_sound(&self) -> bool {
         let mut panes = Vec::new();

@@ -52,11 +52,6 @@ macro_rules! declare_panes {
                 }
             }
 
-            /// Whether it shows measurements of the program itself, which pages do not make.
-            pub fn measures_program(self) -> bool {
-                matches!(self, Self::ErrorVsTime | Self::Stability | Self::Cost)
-            }
-
             /// Where it opens.
             pub fn area(self) -> DockArea {
                 match self {
