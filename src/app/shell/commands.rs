@@ -462,7 +462,7 @@ pub fn items(app: &App) -> Vec<Command> {
 fn is_of_page(action: &Action) -> bool {
     match action {
         Action::Quit | Action::ChooseFolder | Action::RequestPaste | Action::RunBenchmark(_) | Action::CancelBenchmark => false,
-        Action::ShowPane(pane) => !pane.judges_program(),
+        Action::ShowPane(pane) => !matches!(pane, PaneId::ErrorVsTime | PaneId::Stability | PaneId::Cost),
         _ => true,
     }
 }
