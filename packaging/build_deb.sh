@@ -7,5 +7,5 @@ case ${1:-} in
     --no-build) ;;
     *) cargo build --release --locked ;;
 esac
-cargo run -q --release --example package_files --no-default-features --features cli -- target/package-files
+cargo run -q --release -p pbrdf-explorer --example package_files --no-default-features --features cli -- target/package-files
 cargo deb --no-build -o "${CARGO_TARGET_DIR:-target}/debian/"
