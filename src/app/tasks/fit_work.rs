@@ -32,7 +32,7 @@ pub trait Work: Send + Sized + 'static {
 }
 
 /// How a search is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Search {
     pub starts: Starts,
     pub seed: u64,
