@@ -3,6 +3,9 @@
 //! A number is right if it is the computed one rounded to the digits that the lesson gives. A lesson
 //! states no number with decimals that is neither here nor among its own settings.
 
+#![allow(clippy::expect_used, reason = "a test stops where anything is missing")]
+#![allow(clippy::disallowed_methods, reason = "numbers are compared to the few digits of a sentence")]
+
 use pbrdf::fit::{Design, Fit, FitResult, Intervals, NoiseModel};
 use pbrdf::measurement::{Columns, Measurement, Simulation, grid_geometries};
 use pbrdf::model::{Model, Parameter, Parameters, Pbrdf, Preset};

@@ -34,6 +34,7 @@ impl PictureQuantity {
     pub const ALL: [Self; 6] = [Self::S0, Self::Dolp, Self::Aop, Self::Analyser, Self::S1, Self::S2];
 
     /// The quantity of that name in files.
+    #[must_use]
     pub fn from_key(key: &str) -> Option<Self> {
         let keys = ["s0", "dolp", "aop", "analyser", "s1", "s2"];
         Self::ALL.into_iter().zip(keys).find(|(_, own)| *own == key).map(|(quantity, _)| quantity)

@@ -29,7 +29,7 @@ pub fn follow_f6(ctx: &Context) {
     if drawn.is_empty() || !(back || forth) {
         return;
     }
-    let here = ctx.memory(|memory| memory.focused()).and_then(|focused| drawn.iter().position(|stop| *stop == focused));
+    let here = ctx.memory(egui::Memory::focused).and_then(|focused| drawn.iter().position(|stop| *stop == focused));
     let here = here.unwrap_or(last);
     let next = (here + if back { drawn.len() - 1 } else { 1 }) % drawn.len();
     ctx.memory_mut(|memory| memory.request_focus(drawn[next]));

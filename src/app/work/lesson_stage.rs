@@ -132,7 +132,7 @@ impl Staging {
         match key {
             "picture" => {
                 self.picture =
-                    parts().map(|part| PictureSetting::from_text(part).ok_or_else(|| wrong(part, PICTURE))).collect::<Result<_, _>>()?
+                    parts().map(|part| PictureSetting::from_text(part).ok_or_else(|| wrong(part, PICTURE))).collect::<Result<_, _>>()?;
             }
             "readout" => self.readings = parts().map(|part| reading(part).ok_or_else(|| wrong(part, READOUT))).collect::<Result<_, _>>()?,
             "formula" => {

@@ -96,14 +96,14 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::RequestPaste => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
         Action::MarkDirection(picked) => app.derived.picked = Some(picked),
         Action::ShowOutlook(is_shown) => app.derived.is_outlook_shown = is_shown,
-        of_window => execute_window(app, ctx, of_window),
+        of_window => execute_window(app, ctx, &of_window),
     }
     Ok(())
 }
 
 /// The actions that change how the window stands and nothing of the work.
-fn execute_window(app: &mut App, ctx: &egui::Context, action: Action) {
-    match action {
+fn execute_window(app: &mut App, ctx: &egui::Context, action: &Action) {
+    match *action {
         Action::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
         Action::ShowPane(pane) => app.dock.show(pane),
         Action::ClosePane(pane) => app.dock.close(pane),
