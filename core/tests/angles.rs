@@ -7,7 +7,7 @@
 use pbrdf::fit::posterior::{Posterior, PosteriorSettings};
 use pbrdf::fit::{
     AngleChoice, AngleChoiceError, Bounds, CandidateGrid, ChosenAngles, Design, DesignCriterion, DesignPrediction, FitOptions, NoiseModel,
-    Observer, Problem, Starts, Weights, choose, fit, free_by_default,
+    Observer, Problem, Starts, Weights, choose, fit, free_by_default, next_gains,
 };
 use pbrdf::measurement::{Measurement, Quantity, Row};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf, Preset};
@@ -395,4 +395,62 @@ fn a_plan_for_many_surfaces_is_better_at_the_worst_of_them() {
 
 fn geometries_of(theta_i: &[f64], theta_r: &[f64]) -> Vec<Geometry> {
     pbrdf::measurement::grid_geometries(theta_i, theta_r, 180.0).expect("angles in range")
+}
+
+/// What is measured as rows without a value: their noise is that of the plan.
+fn planned(geometries: &[Geometry]) -> Vec<Row> {
+    let dolp = Some(Quantity { value: 0.0, sigma: None });
+    geometries.iter().map(|&geometry| Row { geometry, dolp, brdf: None, masked: false }).collect()
+}
+
+#[test]
+fn the_next_gain_is_what_the_errors_say() {
+    let grid = grid("20:70:10", "0:80:10");
+    let choice = request(Model::CAUCHY, STEEL, grid, 14, DesignCriterion::Determinant);
+    let first = geometries(&chosen(&choice));
+    let given = planned(&first);
+    let by_criterion = |criterion| {
+        let choice = AngleChoice { given: given.clone(), criterion, ..choice.clone() };
+        next_gains(&choice, Observer::NONE).expect("gains")
+    };
+    let (of_all, of_two) =
+        (by_criterion(DesignCriterion::Determinant), by_criterion(DesignCriterion::Variances(vec![Parameter::N, Parameter::K])));
+    let errors = |geometries: Vec<Geometry>| {
+        let design = Design { free: choice.free, ..Design::new(choice.model, STEEL, geometries, choice.noise) };
+        let errors = design.predict().expect("a prediction").errors;
+        let relative = |name| {
+            let error = errors.iter().find(|(other, _)| *other == name).and_then(|(_, error)| *error).expect("determined");
+            (error / STEEL[name]).powi(2)
+        };
+        relative(Parameter::N) + relative(Parameter::K)
+    };
+    let before = errors(first.clone());
+    for candidate in (0..choice.grid.len()).step_by(7) {
+        let after = errors(first.iter().copied().chain([choice.grid.geometry(candidate).expect("a candidate")]).collect());
+        // What is there before any reading is 1e-9 of all; the given readings tell 1e-4 of it in their weakest direction.
+        assert!((of_two[candidate] - (before / after).ln()).abs() < 1e-3, "{candidate}: {} {}", of_two[candidate], (before / after).ln());
+        assert!(of_all[candidate] >= 0.0);
+    }
+    // The reading that gains most by the determinant is the one that a choice of one more takes.
+    let one = AngleChoice { given, count: 1, ..choice.clone() };
+    let taken = chosen(&one).angles[0].0;
+    let best = (0..of_all.len()).max_by(|&a, &b| of_all[a].total_cmp(&of_all[b])).expect("candidates");
+    assert_eq!(choice.grid.angles(best), taken);
+}
+
+#[test]
+fn the_next_reading_that_tells_models_apart_is_where_they_differ_most() {
+    let rival = DesignCriterion::Discrimination { rival: Model::GAUSS, fixed: ParameterSet::EMPTY.with(Parameter::Ks) };
+    let choice = request(Model::CAUCHY, STEEL, grid("20:80:20", "0:80:20"), 20, rival);
+    let gains = next_gains(&choice, Observer::NONE).expect("gains");
+    let all = chosen(&choice);
+    // Of all candidates the sum of squares is T of all.
+    assert!(
+        (gains.iter().sum::<f64>() / all.of_all_candidates - 1.0).abs() < 0.02,
+        "{} {}",
+        gains.iter().sum::<f64>(),
+        all.of_all_candidates
+    );
+    let same = AngleChoice { criterion: DesignCriterion::Discrimination { rival: Model::CAUCHY, fixed: ParameterSet::EMPTY }, ..choice };
+    assert_eq!(next_gains(&same, Observer::NONE), Err(AngleChoiceError::SameModel));
 }

@@ -138,6 +138,41 @@ fn several_measurements_share_or_own() {
 }
 
 #[test]
+fn a_weight_counts_rows_so_often_and_ties_hold_in_every_draw() {
+    let options = FitOptions { weights: Weights::Sigma, ..FitOptions::default() };
+    let data = measurement(Columns::Dolp);
+    let half = |name: &str, half: usize, times: usize| {
+        let rows: Vec<Row> = data.rows.iter().skip(half).step_by(2).copied().collect();
+        Measurement { name: name.to_owned(), rows: rows.repeat(times), lines: Vec::new(), ..data.clone() }
+    };
+    // One half three times: weights 3 and 1, which are divided by their mean over the rows, 2.
+    let (three, one) = (half("three", 0, 3), half("one", 1, 1));
+    let repeated = JointFit::new([&three, &one], Model::GAUSS).options(options);
+    let (single, one) = (half("three", 0, 1), half("one", 1, 1));
+    let weighted = JointFit::new([&single, &one], Model::GAUSS).options(options).weights([3.0, 1.0]).problem().expect("a valid problem");
+    let repeated = repeated.problem().expect("a valid problem");
+    // By χ² the weighted problem is the repeated one with χ² halved: standard deviations are √2 times as large.
+    let (by_weight, by_rows) = (moments(&weighted, vec![TRUTH; 2]), moments(&repeated, vec![TRUTH; 2]));
+    let n = |of: &[(String, f64, f64)]| of.iter().find(|(name, ..)| name == "n").map(|(_, mean, sd)| (*mean, *sd)).expect("n is free");
+    let ((mean, sd), (of_rows, sd_of_rows)) = (n(&by_weight), n(&by_rows));
+    assert!(
+        (mean - of_rows).abs() < 0.33 * sd_of_rows && (sd / sd_of_rows / 2.0_f64.sqrt() - 1.0).abs() < 0.3,
+        "{by_weight:?} {by_rows:?}"
+    );
+
+    let tied = JointFit::new([&single, &one], Model::GAUSS).own([Parameter::N]).options(options);
+    let tied = tied.each(|fit| fit.tie(Parameter::K, 1.4, Parameter::N).tie(Parameter::Kv, 1.5, Parameter::Kd));
+    let tied = tied.problem().expect("a valid problem");
+    let settings = PosteriorSettings { draws: 200, ..PosteriorSettings::default() };
+    let posterior = Posterior::new(&tied, &[], settings).expect("a posterior");
+    let sample = posterior.run(&[vec![TRUTH; 2]], Observer::NONE, &mut |_, _| {}).expect("draws");
+    assert!(sample.parameters.iter().all(|name| ![Parameter::K, Parameter::Kv].contains(&name.parameter)));
+    for parameters in sample.draws().flat_map(|draw| &draw.parameters) {
+        assert_eq!((parameters.k, parameters.kv), (1.4 * parameters.n, 1.5 * parameters.kd));
+    }
+}
+
+#[test]
 fn a_prior_may_be_of_one_measurement_alone() {
     let data = measurement(Columns::Dolp);
     let [one, other] = ["one", "other"].map(|name| Measurement { name: name.to_owned(), ..data.clone() });

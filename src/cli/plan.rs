@@ -7,6 +7,7 @@ use crate::cli::simulate::surface;
 use crate::cli::values::Criterion;
 use crate::cli::watched::Watched;
 use crate::cli::{draws, input, interrupt};
+use crate::report::write_plan;
 use pbrdf::fit::{
     AngleChoice, AngleChoiceError, CandidateGrid, ChosenAngles, Design, DesignCriterion, DesignPrediction, NoiseModel, choose,
 };
@@ -150,18 +151,7 @@ fn geometry([theta_i, theta_r, dphi]: [f64; 3]) -> Result<Geometry, pbrdf::optic
 
 /// An empty measurement table of the chosen angles.
 fn write_table(out: &mut dyn Write, columns: Columns, chosen: &ChosenAngles) -> io::Result<()> {
-    let (header, empty) = match columns {
-        Columns::Dolp => ("dolp", ","),
-        Columns::Brdf => ("brdf", ","),
-        Columns::Both => ("dolp,brdf", ",,"),
-    };
-    writeln!(out, "theta_i,theta_r,dphi,{header}")?;
-    for &([theta_i, theta_r, dphi], times) in &chosen.angles {
-        for _ in 0..times {
-            writeln!(out, "{theta_i},{theta_r},{dphi}{empty}")?;
-        }
-    }
-    Ok(())
+    write_plan(out, columns, chosen.angles.iter().flat_map(|&(angles, times)| std::iter::repeat_n(angles, times)))
 }
 
 fn document(arguments: &PlanArguments, prediction: &DesignPrediction, chosen: Option<&ChosenAngles>) -> Value {

@@ -8,10 +8,13 @@ use crate::cli::problem::{check, joint_failure, joint_problem, model, own_parame
 use crate::cli::sets::MeasurementSets;
 use crate::cli::watched::Watched;
 use crate::cli::{interrupt, output};
+use crate::report::write_draws;
 use pbrdf::fit::posterior::{
-    Convergence, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict, SampleOf,
+    Convergence, DerivedQuantity, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict,
+    SampleOf,
 };
 use pbrdf::fit::{Intervals, Loss, Observer, Starts, UnknownName, Weights, fit, fit_jointly};
+use pbrdf::model::Parameters;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -37,23 +40,25 @@ pub fn run(arguments: &PosteriorArguments) -> Result<ExitCode, Failure> {
             let result = fit(problem, Starts::Automatic, seed, observer);
             result.course.minima.iter().map(|minimum| minimum.parameters).collect()
         };
-        draw(arguments, &sets, &problem, &minima)
+        draw(arguments, &sets, &problem, &minima, &|_, point| *point)
     } else {
         let problem = joint_problem(arguments.model, options, own, &sets).map_err(|error| joint_failure(&error, &sets))?;
         let minima = |problem: &_, observer: Observer<'_>| {
             let result = fit_jointly(problem, Starts::Automatic, seed, Intervals::None, observer);
             result.course.minima.into_iter().map(|minimum| minimum.parameters).collect()
         };
-        draw(arguments, &sets, &problem, &minima)
+        draw(arguments, &sets, &problem, &minima, &|set, point: &Vec<Parameters>| point[set])
     }
 }
 
-/// Draws from the posterior of a problem and writes what came of it, given how its minima are found.
+/// Draws from the posterior of a problem and writes what came of it, given how its minima are found, and the parameters of a measurement of
+/// a point.
 fn draw<P: PosteriorProblem>(
     arguments: &PosteriorArguments,
     sets: &MeasurementSets,
     problem: &P,
     minima: &dyn Fn(&P, Observer<'_>) -> Vec<P::Point>,
+    of_set: &dyn Fn(usize, &P::Point) -> Parameters,
 ) -> Result<ExitCode, Failure> {
     let mut priors = Vec::new();
     for option in arguments.prior.iter().flat_map(|priors| &priors.0) {
@@ -75,15 +80,16 @@ fn draw<P: PosteriorProblem>(
         return Err(Failure::interrupted());
     }
     if let Some(path) = &arguments.output {
-        output::write(Some(path), |out| write_draws::<P>(out, &sample))?;
+        output::write(Some(path), |out| write_draws(out, &sample))?;
     }
     let summaries: Vec<(P::Name, MarginalSummary)> =
         sample.parameters.iter().map(|parameter| (parameter.clone(), sample.summary(parameter))).collect();
     let verdict = verdict::<P>(&sample, &summaries);
+    let derived = derived::<P>(&sample, sets, of_set);
     if arguments.json {
-        output::write_json(&document(arguments, problem, &sample, &summaries, &verdict))?;
+        output::write_json(&document(arguments, problem, &sample, &summaries, &derived, &verdict))?;
     } else {
-        output::write(None, |out| print(out, problem, &sample, &summaries, &verdict))?;
+        output::write(None, |out| print(out, problem, &sample, &summaries, &derived, &verdict))?;
     }
     Ok(output::exit_code())
 }
@@ -94,22 +100,33 @@ fn verdict<P: PosteriorProblem>(sample: &SampleOf<P>, summaries: &[(P::Name, Mar
     all.map_or(PosteriorVerdict::TooFewDraws, |all| sample.verdict_of(&all))
 }
 
-/// One row per draw.
-fn write_draws<P: PosteriorProblem>(out: &mut dyn Write, sample: &SampleOf<P>) -> io::Result<()> {
-    let names: Vec<String> = keys::<P>(sample);
-    writeln!(out, "{},log_posterior,chain", names.join(","))?;
-    for (chain, draws) in sample.chains.iter().enumerate() {
-        for draw in draws {
-            draw.unknowns.iter().try_for_each(|value| write!(out, "{value},"))?;
-            writeln!(out, "{},{chain}", draw.log_posterior)?;
-        }
-    }
-    Ok(())
-}
-
 /// Names of the free parameters in files.
 fn keys<P: PosteriorProblem>(sample: &SampleOf<P>) -> Vec<String> {
     sample.parameters.iter().map(|parameter| parameter.key().into_owned()).collect()
+}
+
+/// What the draws say of quantities that follow from the parameters: of each measurement where it has such a parameter for itself.
+fn derived<P: PosteriorProblem>(
+    sample: &SampleOf<P>,
+    sets: &MeasurementSets,
+    of_set: &dyn Fn(usize, &P::Point) -> Parameters,
+) -> Vec<(DerivedQuantity, String, MarginalSummary)> {
+    let mut all = Vec::new();
+    for quantity in DerivedQuantity::ALL {
+        let from = quantity.parameters(sample.model);
+        let is_of = |name: &&P::Name| from.contains(name.parameter());
+        let mut free = sample.parameters.iter().filter(is_of).peekable();
+        if free.peek().is_none() {
+            continue;
+        }
+        let is_own = free.any(|name| name.set().is_some());
+        for (set, measurement) in sets.all.iter().enumerate().take(if is_own { sets.all.len() } else { 1 }) {
+            let summary = sample.summary_of(|point| quantity.value(sample.model, &of_set(set, point)));
+            let name = if is_own { format!("@{}", measurement.name) } else { String::new() };
+            all.push((quantity, name, summary));
+        }
+    }
+    all
 }
 
 fn document<P: PosteriorProblem>(
@@ -117,9 +134,10 @@ fn document<P: PosteriorProblem>(
     problem: &P,
     sample: &SampleOf<P>,
     summaries: &[(P::Name, MarginalSummary)],
+    derived: &[(DerivedQuantity, String, MarginalSummary)],
     verdict: &PosteriorVerdict<P::Name>,
 ) -> Value {
-    let of = |(parameter, summary): &(P::Name, MarginalSummary)| {
+    let of = |summary: &MarginalSummary| {
         let mut values = Map::new();
         values.insert("mean".to_owned(), json!(summary.mean));
         values.insert("sd".to_owned(), json!(summary.sd));
@@ -128,8 +146,10 @@ fn document<P: PosteriorProblem>(
         values.insert("rhat".to_owned(), json!(convergence.map(|of| of.rhat)));
         values.insert("ess_bulk".to_owned(), json!(convergence.map(|of| of.ess_bulk)));
         values.insert("ess_tail".to_owned(), json!(convergence.map(|of| of.ess_tail)));
-        (parameter.key().into_owned(), Value::Object(values))
+        Value::Object(values)
     };
+    let parameters = summaries.iter().map(|(parameter, summary)| (parameter.key().into_owned(), of(summary)));
+    let derived = derived.iter().map(|(quantity, set, summary)| (format!("{}{set}", quantity.key()), of(summary)));
     let names = keys::<P>(sample);
     let matrix: Vec<Vec<f64>> = sample.correlations().row_iter().map(|row| row.iter().copied().collect()).collect();
     json!({
@@ -141,7 +161,8 @@ fn document<P: PosteriorProblem>(
         "divergences": sample.divergences,
         "accepted": sample.accepted,
         "verdict": verdict.to_string(),
-        "parameters": summaries.iter().map(of).collect::<Map<String, Value>>(),
+        "parameters": parameters.collect::<Map<String, Value>>(),
+        "derived": derived.collect::<Map<String, Value>>(),
         "correlations": { "names": names, "matrix": matrix },
         "noise": noise(problem, sample),
         "log_evidence": sample.log_evidence.map(|evidence| json!({ "value": evidence.value, "std_error": evidence.std_error })),
@@ -165,6 +186,7 @@ fn print<P: PosteriorProblem>(
     problem: &P,
     sample: &SampleOf<P>,
     summaries: &[(P::Name, MarginalSummary)],
+    derived: &[(DerivedQuantity, String, MarginalSummary)],
     verdict: &PosteriorVerdict<P::Name>,
 ) -> io::Result<()> {
     writeln!(
@@ -188,6 +210,11 @@ fn print<P: PosteriorProblem>(
             summary.mean,
             summary.sd
         )?;
+    }
+    for (quantity, set, summary) in derived {
+        let [_, q16, q50, q84, _] = summary.quantiles;
+        let (symbol, unit) = (quantity.symbol(), quantity.unit());
+        writeln!(out, "{}{symbol}{set}: {q50:.5}{unit} ({q16:.5} … {q84:.5})", if quantity == &derived[0].0 { "\n" } else { "" })?;
     }
     for (name, noise) in ["DoLP", "BRDF"].into_iter().zip(sample.noise) {
         if let Some(NoiseQuantiles { q16, q50, q84 }) = noise {

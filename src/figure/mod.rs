@@ -9,6 +9,7 @@ mod axis;
 mod canvas;
 #[cfg(feature = "figures")]
 mod color_key;
+mod contours;
 mod heat_map;
 mod layout;
 mod palette;
@@ -24,6 +25,7 @@ mod ticks;
 
 pub use axis::{Axis, Scale};
 pub(crate) use canvas::escape;
+pub use contours::Heights;
 pub use heat_map::HeatMap;
 pub use palette::{ColorMap, Rgb, SERIES};
 pub use panel::{Figure, Panel};

@@ -40,7 +40,7 @@ pub struct Panel {
     pub y: Axis,
     /// Drawn in their order; those with one name share a colour and an entry in the legend.
     pub series: Vec<Series>,
-    /// Whether there is a legend.
+    /// Whether there is a legend: names, and the bar of colours of a map.
     pub legend: bool,
     /// Height of the panel's row relative to the others'.
     pub height_share: f64,
@@ -102,6 +102,12 @@ impl Figure {
 }
 
 impl Panel {
+    /// Whether its place stays empty: nothing is drawn, and neither axis says what it is.
+    #[must_use]
+    pub fn is_blank(&self) -> bool {
+        self.series.is_empty() && self.title.is_empty() && self.x == Axis::default() && self.y == Axis::default()
+    }
+
     fn translated(&self, translate: &dyn Fn(&str) -> String) -> Self {
         Self {
             title: translate(&self.title),

@@ -33,7 +33,7 @@ impl Figure {
 fn draw_figure(canvas: &mut Canvas<'_>, figure: &Figure) {
     let middle = 0.5 * figure.width_mm * POINTS_PER_MM;
     canvas.text(&figure.title, TITLE, (middle, 2.0 * GAP + LETTER_HEIGHT * TITLE), Anchor::Middle, false, INK);
-    for (panel, placed) in figure.panels.iter().zip(place(figure, canvas.font)) {
+    for (panel, placed) in figure.panels.iter().zip(place(figure, canvas.font)).filter(|(panel, _)| !panel.is_blank()) {
         draw_panel(canvas, panel, &placed);
     }
     let columns = figure.columns.max(1);

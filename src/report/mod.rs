@@ -2,8 +2,10 @@
 
 mod benchmark_figures;
 mod comparison_figure;
+mod corner_figure;
 mod curves;
 mod document;
+mod draws_table;
 mod fit_comments;
 mod fit_document;
 mod fit_figures;
@@ -14,13 +16,17 @@ mod language;
 mod latex_table;
 mod number;
 mod picture;
+mod plan_table;
+mod posterior_parts;
 mod residual_table;
 mod result_table;
 
 pub use benchmark_figures::BenchmarkFigures;
 pub use comparison_figure::{ComparedMeasurement, comparison_figure};
+pub use corner_figure::{CornerFigure, FittedMark};
 pub use curves::{CurvePoint, curve, directions, write_curves};
 pub use document::{DocumentPart, ReportDocument};
+pub use draws_table::write_draws;
 pub use fit_comments::fit_comments;
 pub use fit_document::{DataSource, FitDocument};
 pub use fit_figures::FitFigures;
@@ -29,5 +35,7 @@ pub use joint_document::{JointDocument, JointSource};
 pub use joint_json::joint_json;
 pub use language::{English, ReportLanguage};
 pub use picture::{PictureQuantity, picture_figure, picture_map};
+pub use plan_table::{least_movement, movement, write_plan};
+pub use posterior_parts::PosteriorSection;
 pub use residual_table::{fitted_cells, write_beside, write_fitted, write_fitted_sets};
 pub use result_table::{ResultCells, ResultColumn, ResultTable, TableFormat, bracketed};

@@ -220,7 +220,7 @@ fn pressed<P: FitProblem>(problem: &P, x: &DVector<f64>, at_bound: Vec<usize>) -
 }
 
 /// The bound that an unknown rests on: the active set of the solver, which ends exactly there.
-fn edge<P: FitProblem>(problem: &P, x: &DVector<f64>, unknown: usize) -> Option<Edge> {
+pub(crate) fn edge<P: FitProblem>(problem: &P, x: &DVector<f64>, unknown: usize) -> Option<Edge> {
     let (low, high) = problem.bounds_of(unknown);
     match x[unknown] {
         value if value <= low => Some(Edge::Lower),

@@ -39,6 +39,7 @@ mod distribution_comparison;
 mod estimate;
 mod fit_problem;
 mod free_parameters;
+mod geodesic;
 mod intervals;
 mod joint;
 mod landscape;
@@ -69,7 +70,7 @@ pub use bounds::{Bounds, BoundsError};
 pub use builder::{Fit, FitError};
 pub use design::{
     AngleChoice, AngleChoiceError, CandidateError, CandidateGrid, ChosenAngles, Design, DesignCriterion, DesignError, DesignPrediction,
-    NoiseModel, choose,
+    NoiseModel, choose, next_gains,
 };
 pub use distribution_comparison::{DistributionComparison, Evidence, GaussAtFixedSigma, Verdict};
 pub use estimate::{
@@ -77,6 +78,7 @@ pub use estimate::{
 };
 pub use fit_problem::{FitProblem, UnknownName};
 pub use free_parameters::{fittable, free_by_default};
+pub use geodesic::{Geodesic, GeodesicEnd, GeodesicPoint, GeodesicWay, weakest_geodesic};
 pub use intervals::band::PredictionBand;
 pub use intervals::bootstrap::{Bootstrap, BootstrapEstimate, bootstrap};
 pub use intervals::interval::Interval;

@@ -248,6 +248,33 @@ fn corner_title(title: &str, plot: Rect, anchor: Align2, ui: &Ui) {
     ui.painter().galley(corner.min, title, ui.visuals().text_color());
 }
 
+impl PanelPlot {
+    /// Paints it as one of many with a map or without: titles and numbers stand at the axes that lie at the rim and take
+    /// `room`. A screen reader says its name. It cannot be moved; the answer has the place of a click.
+    pub fn tile_ui(&mut self, name: &str, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<PlotResponse<()>> {
+        let Self { content: Some(Content { x, y, map, items, .. }), texture, .. } = self else { return None };
+        map.iter_mut().for_each(|map| map.upload(texture, ui));
+        let (x, y, map) = (&*x, &*y, map.as_ref());
+        let dark = ui.visuals().dark_mode;
+        let x_axis = axis(AxisHints::new_x(), ui, &x.title, |at, step| x.label(at, step)).min_thickness(room.y);
+        let y_axis = axis(AxisHints::new_y(), ui, &y.title, |at, step| y.label(at, step)).min_thickness(room.x);
+        let figure = plot("tile", ui, size.y, x_axis, y_axis).width(size.x).show_axes([below, left]).show_x(false).show_y(false);
+        let figure = figure.x_grid_spacer(|input| x.marks(&input, TILE_SPREAD[0])).y_grid_spacer(|input| y.marks(&input, TILE_SPREAD[1]));
+        let figure = figure.allow_drag(false).allow_zoom(false).allow_boxed_zoom(false).show_grid(false).label_formatter(|_| None);
+        let response = figure.show(ui, |plot| {
+            plot.set_plot_bounds_x(x.range.low..=x.range.high);
+            plot.set_plot_bounds_y(y.range.low..=y.range.high);
+            map.zip(texture.as_ref()).into_iter().for_each(|(map, texture)| map.draw(plot, texture));
+            items.iter().for_each(|item| item.draw(plot, dark, map.is_some()));
+        });
+        response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
+        Some(response)
+    }
+}
+
+/// Between marks of a tile along either axis, in units of egui's smallest spacing.
+const TILE_SPREAD: [f64; 2] = [4.0, 2.2];
+
 /// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of
 /// a plot of that size.
 fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {

@@ -3,7 +3,6 @@
 mod axes;
 pub mod axis;
 mod color_scale;
-pub mod contours;
 mod curve_line;
 mod figure_plot;
 mod key_line;

@@ -11,7 +11,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
 use crate::app::views;
-use crate::app::views::action::{Action, ListAction};
+use crate::app::views::action::{Action, InquiryAction, ListAction};
 use crate::app::views::spec;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::EXAMPLES;
@@ -20,6 +20,7 @@ use crate::app::work::settings::{SidePanel, Theme};
 use crate::app::work::sharing::Sharing;
 use crate::report::TableFormat;
 use egui::{Key, KeyboardShortcut, Modifiers};
+use pbrdf::fit::GeodesicWay;
 use pbrdf::model::{FINISHES, PRESETS};
 use std::borrow::Cow;
 use tr::tr;
@@ -102,7 +103,8 @@ impl Command {
             | Action::UseFit
             | Action::List(ListAction::PinFit)
             | Action::UseValuesBeforeFit
-            | Action::Bootstrap => {
+            | Action::Bootstrap
+            | Action::Inquire(InquiryAction::Walk(_)) => {
                 tr!("Fit first (F5).")
             }
             _ => self.tooltip.to_string(),
@@ -195,6 +197,11 @@ static ENTRIES: &[Entry] = &[
     row(Action::ChooseExport(ExportKind::Report), Menu::Export, "Fit as a report…",
         "HTML in one file, or Markdown: data, model, parameters with errors, what is open, figures", ctrl(Key::R),
         |app| only_if(app.work.shown_fit().is_some())),
+    row(Action::ChooseExport(ExportKind::Draws), Menu::Export, "Draws as CSV…", "A row for each draw from the posterior, a column for each free parameter",
+        None, |app| only_if(app.work.posterior().is_some())),
+    row(Action::ChooseExport(ExportKind::Plan), Menu::Export, "Plan of angles as CSV…",
+        "The planned readings as an empty table to fill in, in an order of little movement", None,
+        |app| only_if(!app.work.settings().design.readings.is_empty())),
     row(Action::ChooseExport(ExportKind::Picture), Menu::Export, "Picture as numbers…",
         "What the pane Picture shows: Stokes vectors as EXR or CSV, colours as PNG", None, always),
     row(Action::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |app| only_if(app.jobs.files.reading_fraction().is_some())),
@@ -243,6 +250,12 @@ static ENTRIES: &[Entry] = &[
         |app| only_if(!app.jobs.fits.compare.is_running())),
     row(Action::CancelComparison, Menu::Fit, "Stop comparing", "Stop comparing models", None,
         |app| only_if(app.jobs.fits.compare.is_running())),
+    row(Action::Inquire(InquiryAction::Walk(GeodesicWay::Nearer)), Menu::Fit, "Follow the weakest direction", "Sliders move from the fit along the direction that the data determine least",
+        None, |app| only_if(app.work.shown_fit().is_some())),
+    row(Action::Inquire(InquiryAction::DrawPosterior), Menu::Fit, "Draw from the posterior", "All surfaces that the data allow, in the pane Posterior", plain(Key::F6),
+        |app| only_if(!app.jobs.posteriors.draw.is_running())),
+    row(Action::Inquire(InquiryAction::CancelPosterior), Menu::Fit, "Stop drawing", "What is drawn so far is shown", None,
+        |app| only_if(app.jobs.posteriors.draw.is_running())),
     row(Action::RunBenchmark(BenchmarkId::ErrorVsTime), Menu::None, "Measure error against run time",
         "Evaluations against 60 digits, fits against their truth; up to a minute", None, |app| only_if(app.jobs.benchmarks.can_start(BenchmarkId::ErrorVsTime))),
     row(Action::RunBenchmark(BenchmarkId::Stability), Menu::None, "Run the stability cases", "Stiff and extreme cases against 60 digits, and fits",

@@ -8,14 +8,15 @@ use crate::app::work::fit_history::{FitEntry, JointEntry};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::picture_scene::{Scene, SceneKey};
+use crate::app::work::posterior::{DrawnPosterior, marks_of_fit};
 use crate::app::work::workspace::Workspace;
 use crate::figure::Figure;
 use crate::files::export;
 use crate::files::picture::{StokesFileKind, stokes_file_kind, write_colors, write_exr, write_table};
 use crate::files::write_file::write_file;
 use crate::report::{
-    DataSource, FitDocument, JointDocument, JointSource, ReportDocument, ResultTable, fit_comments, picture_map, write_curves,
-    write_fitted, write_fitted_sets,
+    DataSource, DocumentPart, FitDocument, JointDocument, JointSource, PosteriorSection, ReportDocument, ResultTable, fit_comments,
+    least_movement, picture_map, write_curves, write_draws, write_fitted, write_fitted_sets, write_plan,
 };
 use pbrdf::fit::UnknownName as _;
 use pbrdf::measurement::Measurement;
@@ -37,6 +38,10 @@ pub enum ExportKind {
     /// The measurement with the fit beside it.
     Fitted,
     Report,
+    /// Draws from the posterior.
+    Draws,
+    /// Planned angles as an empty table.
+    Plan,
     /// The picture as numbers or colours.
     Picture,
     Session,
@@ -82,6 +87,8 @@ impl ExportKind {
             Self::Curves => "The table of curves",
             Self::Fitted => "The table of the fit",
             Self::Report => "The report",
+            Self::Draws => "The table of draws",
+            Self::Plan => "The plan",
             Self::Picture => "The picture",
             Self::Session => "The session",
         }
@@ -92,7 +99,7 @@ impl ExportKind {
         match self {
             Self::Plot(_) | Self::Sheet(_) => &["svg", "png"],
             Self::Results => &["csv", "md", "tex"],
-            Self::Curves | Self::Fitted => &["csv"],
+            Self::Curves | Self::Fitted | Self::Draws | Self::Plan => &["csv"],
             Self::Report => &["html", "md"],
             Self::Picture => &["exr", "png", "csv"],
             Self::Session => &["pbrdf.json"],
@@ -110,6 +117,8 @@ impl ExportKind {
             Self::Curves => "-curves".to_owned(),
             Self::Fitted => "-fitted".to_owned(),
             Self::Report => "-report".to_owned(),
+            Self::Draws => "-draws".to_owned(),
+            Self::Plan => "-plan".to_owned(),
             Self::Picture => "-picture".to_owned(),
             Self::Session => String::new(),
         };
@@ -129,7 +138,7 @@ impl ExportKind {
         let fits = match self {
             Self::Plot(_) | Self::Sheet(_) => export::picture_kind(path).map(drop),
             Self::Results => export::table_format(path).map(drop),
-            Self::Curves | Self::Fitted => export::expect_ending(path, "csv"),
+            Self::Curves | Self::Fitted | Self::Draws | Self::Plan => export::expect_ending(path, "csv"),
             Self::Report => export::report_kind(path).map(drop),
             Self::Picture => stokes_file_kind(path).map(drop),
             Self::Session => export::expect_ending(path, "json"),
@@ -164,6 +173,11 @@ impl ExportKind {
                 fitted(fit, &parts_of(fit, work))
             }
             Self::Report => report(work),
+            Self::Plan => plan(work),
+            Self::Draws => {
+                let drawn = work.posterior().ok_or_else(|| tr!("Nothing is drawn yet."))?.clone();
+                Ok(written(move |out| write_draws(out, &drawn.draws)))
+            }
             Self::Picture => picture(work),
             Self::Session => {
                 let session = Session::of(work);
@@ -238,12 +252,33 @@ fn fitted(fit: &FitEntry, parts: &[Arc<FitEntry>]) -> Result<Write, String> {
 fn report(work: &Workspace) -> Result<Write, String> {
     let fit = work.shown_fit().cloned().ok_or_else(|| translated(NO_FIT))?;
     let parts = parts_of(&fit, work);
+    let drawn = work.posterior().filter(|drawn| drawn.draws.model == fit.report.model).cloned();
     Ok(Box::new(move |path| {
         let kind = export::report_kind(path).map_err(|reason| tr!("{}.", reason.localized()))?;
         let whole = fit.joint.as_ref().filter(|joint| joint.of.result.sets.len() == parts.len());
-        let document = whole.map_or_else(|| single_report(&fit), |joint| joint_report(&joint.of, &parts));
+        let mut document = whole.map_or_else(|| single_report(&fit), |joint| joint_report(&joint.of, &parts));
+        // Before the heading and the line about the program.
+        let last = document.parts.len().saturating_sub(2);
+        document.parts.splice(last..last, drawn.iter().flat_map(|drawn| posterior_parts(drawn, &fit)));
         export::write_report(path, kind, &document).map_err(|error| failure(path, &error))
     }))
+}
+
+fn posterior_parts(drawn: &DrawnPosterior, fit: &Arc<FitEntry>) -> Vec<DocumentPart> {
+    let DrawnPosterior { from, draws, summaries, .. } = drawn;
+    let (fitted, verdict) = (marks_of_fit(Some(fit), drawn), drawn.verdict.localized());
+    let (priors, settings) = (&from.priors[..], from.settings);
+    PosteriorSection { draws, summaries, priors, settings, verdict: &verdict, fitted: &fitted, words: &WindowWording }.parts()
+}
+
+/// The planned readings in an order of little movement.
+fn plan(work: &Workspace) -> Result<Write, String> {
+    let design = &work.settings().design;
+    if design.readings.is_empty() {
+        return Err(tr!("No reading is planned yet."));
+    }
+    let (columns, dphi, ordered) = (design.columns, design.dphi, least_movement(&design.readings));
+    Ok(written(move |out| write_plan(out, columns, ordered.iter().map(|[theta_i, theta_r]| [*theta_i, *theta_r, dphi]))))
 }
 
 /// Pixels along an edge of an exported picture.

@@ -13,10 +13,16 @@ use crate::app::tasks::portable::start;
 use crate::app::tasks::start_error::start_error;
 use crate::app::work::edit::Refit;
 use crate::app::work::fit_history::FitEntry;
+use crate::app::work::fit_history::JointPart;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::OpenMeasurement;
-use pbrdf::fit::{Bootstrap, Intervals, JointError, JointProblem, Problem, ProblemError, Profile, Starts, TracePoint, fit, fit_jointly};
+use crate::app::work::weakest_walk::WeakestWalk;
+use pbrdf::fit::{
+    Bootstrap, GeodesicWay, Intervals, JointError, JointProblem, JointUnknown, Problem, ProblemError, Profile, Starts, TracePoint, fit,
+    fit_jointly, weakest_geodesic,
+};
 use pbrdf::model::{Parameter, Preset};
+use std::sync::Arc;
 
 /// What is fitted while sliders move: a measurement by its number, or several.
 pub enum RefitProblem {
@@ -40,6 +46,10 @@ pub struct FitJobs {
     pub compare: Slot<ComparedModels, &'static str>,
     pub profile: Slot<Profile>,
     pub bootstrap: Slot<Bootstrap>,
+    /// The way from a fit along the direction that the data determine least.
+    pub walk: Slot<Arc<WeakestWalk>>,
+    /// When sliders began to move along such a way, in seconds of the window.
+    pub walking_since: Option<f64>,
 }
 
 impl FitJobs {
@@ -54,14 +64,17 @@ impl FitJobs {
             compare: Slot::default(),
             profile: Slot::default(),
             bootstrap: Slot::default(),
+            walk: Slot::default(),
+            walking_since: None,
         }
     }
 
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, active: _, refitted_at: _, fit, intervals, refit, compare, profile, bootstrap } = self;
-        vec![fit, intervals, refit, compare, profile, bootstrap]
+        let Self { spawner: _, active: _, refitted_at: _, walking_since: _, fit, intervals, refit, compare, profile, bootstrap, walk } =
+            self;
+        vec![fit, intervals, refit, compare, profile, bootstrap, walk]
     }
 
     /// Fits a document from so many starts.
@@ -167,6 +180,30 @@ impl FitJobs {
         start(&self.spawner, &mut self.bootstrap, "bootstrap", BootstrapOne { fit, replicates, seed })
     }
 
+    /// Follows the direction that the data of a finished fit determine least.
+    ///
+    /// # Errors
+    /// The job does not start; a sentence.
+    pub fn walk(&mut self, fit: &FitEntry, numbers: Vec<u64>, way: GeodesicWay) -> Result<(), String> {
+        let (id, problem, report, joint) = (fit.id, fit.problem.clone(), fit.report.clone(), fit.joint.clone());
+        let job = move |context: &JobContext| {
+            let cancelled = || context.is_cancelled();
+            let geodesic = match joint {
+                None => {
+                    let alone = weakest_geodesic(&report.fitted(&problem), &report.parameters, way, observer(&cancelled));
+                    alone.map(JointUnknown::from, |parameters| vec![parameters])
+                }
+                Some(JointPart { of, .. }) => {
+                    let statistics = &of.result.statistics;
+                    let fitted = of.problem.with_loss_scales(statistics.loss_scales).with_block_weights(statistics.block_weights);
+                    weakest_geodesic(&fitted, &of.result.points(), way, observer(&cancelled))
+                }
+            };
+            Arc::new(WeakestWalk { fit: id, numbers, way, geodesic })
+        };
+        self.walk.start(&self.spawner, "geodesic", job).map_err(start_error)
+    }
+
     /// Whether a profile or a bootstrap is being made.
     pub fn is_scanning(&self) -> bool {
         self.profile.is_running() || self.bootstrap.is_running()
@@ -190,6 +227,8 @@ impl FitJobs {
         self.intervals.abandon();
         self.refit.abandon();
         self.compare.abandon();
+        self.walk.abandon();
+        self.walking_since = None;
         self.abandon_scan();
     }
 }

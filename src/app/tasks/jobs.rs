@@ -6,6 +6,8 @@ use crate::app::jobs::spawner::Spawner;
 use crate::app::tasks::benchmarks::BenchmarkJobs;
 use crate::app::tasks::files::FileJobs;
 use crate::app::tasks::fits::FitJobs;
+use crate::app::tasks::plans::PlanJobs;
+use crate::app::tasks::posteriors::PosteriorJobs;
 
 /// The slots of all jobs. Views read progress here; commands start and cancel.
 pub struct Jobs {
@@ -13,6 +15,8 @@ pub struct Jobs {
     pub spawner: Spawner,
     pub files: FileJobs,
     pub fits: FitJobs,
+    pub posteriors: PosteriorJobs,
+    pub plans: PlanJobs,
     pub benchmarks: BenchmarkJobs,
 }
 
@@ -21,6 +25,8 @@ impl Jobs {
         Self {
             files: FileJobs::new(spawner.clone()),
             fits: FitJobs::new(spawner.clone()),
+            posteriors: PosteriorJobs::new(spawner.clone()),
+            plans: PlanJobs::new(spawner.clone()),
             benchmarks: BenchmarkJobs::new(spawner.clone()),
             spawner,
         }
@@ -29,8 +35,8 @@ impl Jobs {
     /// Every slot.
     #[cfg(test)]
     pub fn slots(&mut self) -> Vec<&mut dyn AnySlot> {
-        let Self { spawner: _, files, fits, benchmarks } = self;
-        files.slots().into_iter().chain(fits.slots()).chain(benchmarks.slots()).collect()
+        let Self { spawner: _, files, fits, posteriors, plans, benchmarks } = self;
+        files.slots().into_iter().chain(fits.slots()).chain(posteriors.slots()).chain(plans.slots()).chain(benchmarks.slots()).collect()
     }
 
     /// Whether a job runs or a result waits to be taken.

@@ -1,7 +1,7 @@
 //! The jobs of the program: one slot for each kind, and the functions that start them.
 //!
 //! A new background task touches three places: its slot and the function that starts it, both in
-//! [`files`], [`fits`] or [`benchmarks`], and the line of `shell/job_results.rs` that says where
+//! [`files`], [`fits`], [`posteriors`] or [`benchmarks`], and the line of `shell/job_results.rs` that says where
 //! its result goes.
 
 pub mod benchmarks;
@@ -12,5 +12,7 @@ pub mod fits;
 pub mod jobs;
 #[cfg(any(test, target_arch = "wasm32"))]
 pub mod messages;
+pub mod plans;
 mod portable;
+pub mod posteriors;
 mod start_error;

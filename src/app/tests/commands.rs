@@ -6,7 +6,7 @@ use crate::app::shell::commands::Availability;
 use crate::app::storage::export::SheetForm;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::{Action, ListAction};
+use crate::app::views::action::{Action, InquiryAction, ListAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::settings::Theme;
 use crate::app::work::workspace::Workspace;
@@ -52,9 +52,15 @@ fn every_command_can_be_carried_out() {
             harness.step();
             explorer(&mut harness).actions.push(Action::CancelBenchmark);
         }
+        if command == Action::Inquire(InquiryAction::DrawPosterior) {
+            // The same of sixteen thousand draws.
+            harness.step();
+            explorer(&mut harness).actions.push(Action::Inquire(InquiryAction::CancelPosterior));
+        }
         wait(&mut harness);
         let notice = explorer(&mut harness).toasts.take();
-        let says_so = matches!(command, Action::CopyTable | Action::CopyResults(_) | Action::CopyLink);
+        let says_so =
+            matches!(command, Action::CopyTable | Action::CopyResults(_) | Action::CopyLink | Action::Inquire(InquiryAction::Walk(_)));
         assert_eq!(notice.is_some(), says_so, "{command:?}: {notice:?}");
     }
 }
@@ -161,7 +167,7 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
         harness.run();
     };
     open(&mut harness, "export");
-    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 5 + SheetForm::ALL.len() + plots().count());
+    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 7 + SheetForm::ALL.len() + plots().count());
     harness.key_press(Key::Escape);
     harness.run();
     open(&mut harness, "");

@@ -35,6 +35,7 @@ mod panes;
 mod picture;
 mod places;
 mod planning;
+mod posterior;
 mod presenting;
 mod reports;
 mod results;

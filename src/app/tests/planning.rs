@@ -38,14 +38,14 @@ fn planned_angles_are_compared_with_the_measured_ones_and_follow_the_sliders() {
 #[test]
 fn angles_are_added_and_removed() {
     let mut harness = planner();
-    harness.get_by_label("add θi").click();
+    harness.get_by_label("add θi").click_accesskit();
     harness.run();
     assert_eq!(explorer(&mut harness).work.settings().design.counts().0, 9);
     harness.get_by_label("θi 2 from").set_value_accesskit(25.0);
     harness.run();
     assert_eq!(explorer(&mut harness).work.settings().design.theta_i[1].from, 25.0);
     for name in ["Remove θi 2", "Remove θi 1"] {
-        harness.get_by_label(name).click();
+        harness.get_by_label(name).click_accesskit();
         harness.run();
     }
     assert_eq!(explorer(&mut harness).work.settings().design.counts().0, 0);
@@ -55,7 +55,7 @@ fn angles_are_added_and_removed() {
 #[test]
 fn the_measured_angles_taken_over_predict_what_is_now() {
     let mut harness = planner();
-    harness.get_by_label("As measured").click();
+    harness.get_by_label("As measured").click_accesskit();
     harness.run();
     assert_eq!(explorer(&mut harness).work.settings().design.counts(), (3, 9));
     let [now, planned] = errors_of_n(&mut harness).map(|error| error.expect("determined"));

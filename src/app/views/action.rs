@@ -11,6 +11,7 @@ use crate::app::work::settings::{SidePanel, Theme};
 use crate::app::work::sharing::Sharing;
 use crate::app::work::talk::TalkSlider;
 use crate::report::TableFormat;
+use pbrdf::fit::GeodesicWay;
 use pbrdf::model::Parameter;
 use std::path::PathBuf;
 
@@ -106,6 +107,8 @@ pub enum Action {
     /// Fit all models of the ladder.
     CompareModels,
     CancelComparison,
+    /// Ask more of data than a fit.
+    Inquire(InquiryAction),
     /// Measure, in the background.
     RunBenchmark(BenchmarkId),
     CancelBenchmark,
@@ -173,4 +176,24 @@ pub enum ListAction {
     /// The fit of that row of the comparison of models.
     PinModelFit(usize),
     UnpinAll,
+}
+
+/// What is asked of data beyond a fit: posteriors, open directions, further angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InquiryAction {
+    /// Move the sliders from the shown fit along the direction that its data determine least.
+    Walk(GeodesicWay),
+    /// Leave them where they are on the way.
+    StopWalk,
+    /// Move them back to the fit.
+    CancelWalk,
+    /// Choose as many angles as the plan says.
+    ChooseAngles,
+    CancelChoice,
+    /// Draw from the posterior of the active measurement, or of all where they share anything.
+    DrawPosterior,
+    CancelPosterior,
+    /// Find the evidence of the compared models.
+    FindEvidence,
+    CancelEvidence,
 }

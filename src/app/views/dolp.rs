@@ -14,6 +14,7 @@ use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_values, drawn, figure_title};
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
+use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
 use crate::app::views::residuals::ResidualStrip;
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
@@ -46,6 +47,8 @@ pub struct DolpView {
     overlay: Memo<Option<SurfaceKey>, Vec<Polyline>>,
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Band>>,
+    /// Around draws from the posterior.
+    draws: PosteriorBands,
     pub residuals: ResidualStrip,
     plot: FigurePlot<FigureKey>,
     hidden: BTreeSet<Line>,
@@ -53,9 +56,9 @@ pub struct DolpView {
     hidden_of: u64,
 }
 
-/// What the figure depends on: curves, points, other distribution, band and companions, each
+/// What the figure depends on: curves, points, other distribution, bands and companions, each
 /// by its stamp; what is shown and what hidden; the axis; the picked pixel; the language.
-type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
+type FigureKey = ([u64; 6], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
 
 /// Another surface than the sliders', the state of the document, whether the backscatter side
 /// is drawn.
@@ -89,6 +92,7 @@ impl DolpView {
             (Some((_, _, backscatter, _)), Some(fit)) => dolp_bands(&fit.report, document, *backscatter),
             _ => Vec::new(),
         });
+        self.draws.refresh(cx, backscatter, BandQuantity::Dolp, true);
     }
 
     /// The axis, up to the highest curve or point. The Fresnel limit may run out of it: of metals with
@@ -121,6 +125,9 @@ impl DolpView {
             let color = marks.ink;
             let of_series = |along: &Memo<Option<SurfaceKey>, Vec<Polyline>>| along.get().and_then(|curves| curves.get(i)).cloned();
             self.push_limit(&mut series, curves, &names, color, cx.work.settings());
+            if self.shows(Line::Draws) {
+                series.extend(self.draws.series(i, color));
+            }
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)).filter(|_| self.shows(Line::Band)) {
                 series.push(Series::band(band_name(cx.work, &marks.name), band.clone()).colored(color));
             }
@@ -173,7 +180,7 @@ impl View for DolpView {
         self.refresh_others(cx, key.backscatter);
         self.follow(curves, marks, cx);
         let [curve_stamp, mark_stamp, companion_stamp] = [derived.curves.stamp(), derived.marks.stamp(), derived.companions.stamp()];
-        let stamps = [curve_stamp, mark_stamp, self.overlay.stamp(), self.band.stamp(), companion_stamp];
+        let stamps = [curve_stamp, mark_stamp, self.overlay.stamp(), self.band.stamp(), self.draws.stamp(), companion_stamp];
         let figure_key = (
             stamps,
             cx.work.settings().view_options,
@@ -278,6 +285,7 @@ impl DolpView {
             (true, (Line::Own, names.own, own_ink, curve)),
             (settings.show_limit, (Line::Limit, names.limit, quiet, (LineStyle::dashed_dense(), 1.0))),
             (is_fitted && settings.show_band, band),
+            (self.draws.is_there(), (Line::Draws, posterior_band::band_name(), quiet.gamma_multiply(0.8), (LineStyle::Solid, BAND))),
             (is_overlaid, (Line::Other, names.other, quiet, (LineStyle::dotted_loose(), 2.0))),
             (settings.view_options.share, (Line::Share, names.share, quiet, (LineStyle::Solid, 1.0))),
         ];
@@ -334,6 +342,8 @@ enum Line {
     Own,
     Limit,
     Band,
+    /// Bands of draws from the posterior.
+    Draws,
     /// The other distribution.
     Other,
     Share,

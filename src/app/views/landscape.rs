@@ -103,6 +103,8 @@ impl View for LandscapeView {
         ui.checkbox(&mut shown.paths, tr!("Ways of the last fits"))
             .on_hover_text(tr!("Seen from above: the other parameters moved too, so that a way need not follow this valley"));
         ui.checkbox(&mut shown.minima, tr!("Minima of the last fit")).on_hover_text(tr!("Where its starts ended, each place once"));
+        ui.checkbox(&mut shown.cloud, tr!("Draws from the posterior"))
+            .on_hover_text(tr!("Seen from above, whatever their other parameters are"));
         ui.checkbox(&mut shown.metals, tr!("Tabulated metals"))
             .on_hover_text(tr!("All sources at the wavelength of the metals pane, where the axes are n and k"));
         cx.edits.extend(changed(cx, shown));

@@ -12,6 +12,7 @@ use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis_values, drawn_brdf};
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
+use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::settings::ViewOptions;
@@ -37,6 +38,8 @@ pub struct LobesView {
     range: AutoRange,
     /// One standard error around the last fit along each series.
     pub band: Memo<BandKey, Vec<Band>>,
+    /// Around draws from the posterior.
+    draws: PosteriorBands,
     plot: FigurePlot<FigureKey>,
     /// The curves that are not drawn.
     hidden: BTreeSet<Line>,
@@ -44,9 +47,9 @@ pub struct LobesView {
     hidden_of: u64,
 }
 
-/// What the figure depends on: curves, points, band and companions by their stamps; what is shown and what
+/// What the figure depends on: curves, points, bands and companions by their stamps; what is shown and what
 /// hidden; the axis; the language.
-type FigureKey = ([u64; 4], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
+type FigureKey = ([u64; 5], ViewOptions, bool, BTreeSet<Line>, Option<Range>, Option<f64>, Language);
 
 /// A curve of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,8 +59,12 @@ enum Line {
     Companion(CompanionId),
     Term(Term),
     Total,
+    /// Bands of draws from the posterior.
+    Draws,
 }
 
+/// Width of the sample of a band.
+const BAND: f32 = 8.0;
 /// Widths of the lines of terms and of their sum, in points of paper.
 const TERM: f64 = 0.9;
 const TOTAL: f64 = 1.2;
@@ -112,6 +119,9 @@ impl LobesView {
         let all = curves.series.iter().zip(&marks.series).enumerate();
         for (i, (curves, marks)) in all.filter(|(_, (_, marks))| !marks.brdf.is_empty() && self.shows(Line::Series(marks.index))) {
             let color = marks.ink;
+            if self.shows(Line::Draws) {
+                series.extend(self.draws.series(i, color));
+            }
             if let Some(band) = self.band.get().and_then(|bands| bands.get(i)) {
                 series.push(Series::band(band_name(cx.work, &marks.name), band.clone()).colored(color));
             }
@@ -136,7 +146,7 @@ impl LobesView {
     }
 
     /// The measured series, then the terms.
-    fn key_entries(curves: &CurveSet, marks: &MarkSet, companions: &Companions, dark: bool) -> Vec<(Line, KeyEntry)> {
+    fn key_entries(&self, curves: &CurveSet, marks: &MarkSet, companions: &Companions, dark: bool) -> Vec<(Line, KeyEntry)> {
         let entry = |line, name: &str, color, width| {
             (line, KeyEntry { name: name.to_owned(), color, style: LineStyle::Solid, width, symbol: None, on_map: false })
         };
@@ -146,7 +156,8 @@ impl LobesView {
         let companions = companions.map(|companion| (Line::Companion(companion.id), companion.key_entry(dark)));
         let terms = curves.own.terms().map(|(term, _)| entry(Line::Term(term), &term.name(), theme::on_screen(term.ink(), dark), 1.5));
         let total = entry(Line::Total, &tr!("total"), theme::foreground(dark), 2.0);
-        measured.chain(terms).chain([total]).chain(companions).collect()
+        let draws = self.draws.is_there().then(|| entry(Line::Draws, &posterior_band::band_name(), theme::muted(dark), BAND));
+        measured.chain(draws).chain(terms).chain([total]).chain(companions).collect()
     }
 }
 
@@ -176,7 +187,9 @@ impl View for LobesView {
             (Some((_, _, backscatter, times_cosine)), Some(fit)) => brdf_bands(&fit.report, document, *backscatter, *times_cosine),
             _ => Vec::new(),
         });
-        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp(), derived.companions.stamp()];
+        let times_cosine = cx.work.settings().view_options.times_cosine;
+        self.draws.refresh(cx, key.backscatter, BandQuantity::Brdf { times_cosine }, cx.work.active().measurement.has_brdf());
+        let stamps = [derived.curves.stamp(), derived.marks.stamp(), self.band.stamp(), self.draws.stamp(), derived.companions.stamp()];
         let figure_key = (
             stamps,
             cx.work.settings().view_options,
@@ -193,7 +206,7 @@ impl View for LobesView {
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
         let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
-        switching_key_line_ui(&Self::key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
+        switching_key_line_ui(&self.key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
         let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
         let quantity = quantity(times_cosine);
         let hint = mask_hint(cx.work.active());

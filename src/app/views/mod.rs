@@ -30,6 +30,8 @@ mod picture;
 mod planner;
 mod pointing;
 mod polar_lobes;
+mod posterior;
+mod posterior_band;
 mod report;
 mod residuals;
 mod residuals_against_angle;

@@ -7,7 +7,7 @@ use crate::app::text::estimate::{uncertainty_help, uncertainty_text};
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::views::action::{Action, ListAction};
+use crate::app::views::action::{Action, InquiryAction, ListAction};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::{explain, is_joint};
@@ -15,6 +15,7 @@ use crate::app::work::model_fit::{ModelFit, NotFitted};
 use crate::app::work::workspace::Workspace;
 use crate::report::bracketed;
 use egui::{Button, CollapsingHeader, Grid, Response, RichText, Role, ScrollArea, TextWrapMode, Ui, Widget, WidgetInfo};
+use pbrdf::fit::posterior::{LogEvidence, Odds};
 use pbrdf::fit::{DistributionComparison, Estimate, EstimateStatus, FitResult};
 use pbrdf::model::{Parameter, Preset};
 use tr::tr;
@@ -55,6 +56,7 @@ impl View for ModelsView {
                 running_model_ui(at, ui);
             }
         });
+        evidence_ui(cx, ui);
         let comparison = cx.work.model_comparison();
         if comparison.is_empty() {
             if running.is_none() {
@@ -65,12 +67,54 @@ impl View for ModelsView {
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
             models_ui(cx.work, cx.edits, cx.actions, ui);
             ui.add_space(6.0);
-            for sentence in verdicts(comparison) {
+            for sentence in verdicts(comparison).into_iter().chain(odds_sentence(comparison)) {
                 ui.label(sentence);
             }
             CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
         });
     }
+}
+
+/// The line that finds the evidence of the compared models.
+fn evidence_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
+    let running = cx.jobs.posteriors.evidence.job().map(Job::progress);
+    if cx.work.model_comparison().is_empty() {
+        return;
+    }
+    ui.horizontal(|ui| match running {
+        Some(at) => {
+            if ui.button(tr!("Stop drawing")).clicked() {
+                cx.actions.push(Action::Inquire(InquiryAction::CancelEvidence));
+            }
+            ui.spinner();
+            running_model_ui(at, ui);
+        }
+        None => {
+            let help = tr!(
+                "Draw from the posterior of each model: its likelihood averaged over the priors, which depends on them; bounds twice as \
+                 wide cost ln 2 a parameter"
+            );
+            if ui.button(tr!("Find evidence")).on_hover_text(help).clicked() {
+                cx.actions.push(Action::Inquire(InquiryAction::FindEvidence));
+            }
+        }
+    });
+}
+
+/// The largest evidence of a comparison.
+fn most_evident(comparison: &[ModelFit]) -> Option<(&ModelFit, LogEvidence)> {
+    let all = comparison.iter().filter_map(|row| Some((row, row.evidence?)));
+    all.max_by(|a, b| a.1.value.total_cmp(&b.1.value))
+}
+
+/// The model with the largest evidence against the next one, in words.
+fn odds_sentence(comparison: &[ModelFit]) -> Option<String> {
+    let (best, evidence) = most_evident(comparison)?;
+    let others = comparison.iter().filter(|row| row.preset.key != best.preset.key).filter_map(|row| Some((row, row.evidence?)));
+    let (next, other) = others.max_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
+    let odds = Odds::new(evidence, other);
+    let [best, next] = [best, next].map(|row| translated(row.preset.name));
+    Some(tr!("By the evidence, odds of {0} for {1} against {2}: {3}.", odds.text(), best, next, odds.grade().localized()))
 }
 
 /// Which model is being fitted.
@@ -99,6 +143,7 @@ fn narrow_ui(ui: &mut Ui, width: f32, name: impl Widget) -> Response {
 fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>, ui: &mut Ui) {
     let (comparison, document) = (work.model_comparison(), work.active());
     let best = comparison.iter().filter_map(|row| row.report()?.statistics.aicc).fold(f64::INFINITY, f64::min);
+    let most_evident = most_evident(comparison).map(|(_, evidence)| evidence);
     let current = work.preset().map(|preset| preset.key);
     let width = (ui.clip_rect().width() - NUMBERS).clamp(*NAMES.start(), *NAMES.end());
     let fitted = comparison.iter().find_map(|row| row.result.as_ref().ok());
@@ -125,7 +170,7 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
             match &row.result {
                 Ok(fit) => {
                     pin_ui(&name, index, actions, ui);
-                    numbers_ui(&fit.report, row.objective(), best, ui);
+                    numbers_ui(&fit.report, row.objective(), best, evidence_text(row, most_evident), ui);
                 }
                 Err(error) => {
                     ui.label("");
@@ -145,6 +190,8 @@ fn headings_ui(ui: &mut Ui) {
     ui.strong(tr!("model"));
     ui.label("");
     ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
+    ui.strong(tr!("Δ ln evidence"))
+        .on_hover_text(tr!("Below that of the model with the largest one; the exponential of the difference is the odds"));
     ui.strong("ΔAICc")
         .on_hover_text(tr!("Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"));
     for parameter in Parameter::ALL {
@@ -170,11 +217,20 @@ fn pin_ui(name: &str, index: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
     }
 }
 
-fn numbers_ui(report: &FitResult, objective: Option<f64>, best_aicc: f64, ui: &mut Ui) {
+/// How far the evidence of a row lies below the largest, with its error.
+fn evidence_text(row: &ModelFit, most: Option<LogEvidence>) -> String {
+    match row.evidence.zip(most) {
+        Some((evidence, most)) => format!("{:.1} ± {:.1}", evidence.value - most.value, evidence.std_error),
+        None => "-".to_owned(),
+    }
+}
+
+fn numbers_ui(report: &FitResult, objective: Option<f64>, best_aicc: f64, evidence: String, ui: &mut Ui) {
     let number = |value: Option<f64>, text: fn(f64) -> String| value.map_or_else(|| "-".to_owned(), text);
     #[expect(clippy::cast_precision_loss, reason = "degrees of freedom")]
     let reduced = report.statistics.chi2.filter(|_| report.statistics.dof > 0).map(|chi2| chi2 / report.statistics.dof as f64);
     ui.label(number(objective, |value| format!("{value:.3e}"))).on_hover_text(report.stop_reason.localized());
+    ui.label(evidence);
     ui.label(number(report.statistics.aicc.map(|aicc| aicc - best_aicc), |value| format!("{value:.1}")));
     for parameter in Parameter::ALL {
         match report.estimate(parameter) {

@@ -2,6 +2,7 @@
 
 use pbrdf::fit::NoiseModel;
 use pbrdf::measurement::Columns;
+use pbrdf::model::{Parameter, ParameterSet};
 use pbrdf::optics::Geometry;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +41,46 @@ impl AngleRange {
     }
 }
 
-/// A measurement that might be made: every θi with every θr.
+/// What a plan is to be good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DesignGoal {
+    /// All free parameters.
+    #[default]
+    All,
+    /// n and k.
+    Index,
+    /// σ and q.
+    Roughness,
+    /// Whether slopes are as Gauss or as Cauchy has them.
+    Distribution,
+}
+
+impl DesignGoal {
+    pub const ALL: [Self; 4] = [Self::All, Self::Index, Self::Roughness, Self::Distribution];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::All => "all parameters",
+            Self::Index => "n and k",
+            Self::Roughness => "σ and q",
+            Self::Distribution => "Gauss or Cauchy",
+        }
+    }
+
+    /// The free parameters that are wanted; of models that are to be told apart none.
+    pub fn parameters(self, free: ParameterSet) -> ParameterSet {
+        let of = |parameters: [Parameter; 2]| free.intersection(parameters.into_iter().collect());
+        match self {
+            Self::All => free,
+            Self::Index => of([Parameter::N, Parameter::K]),
+            Self::Roughness => of([Parameter::Sigma, Parameter::Q]),
+            Self::Distribution => ParameterSet::EMPTY,
+        }
+    }
+}
+
+/// A measurement that might be made: every θi with every θr, or readings picked from these.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct DesignSettings {
@@ -54,6 +94,15 @@ pub struct DesignSettings {
     pub noise: f64,
     /// Standard deviation of the BRDF, relative to its value.
     pub brdf_noise: f64,
+    /// What it is to be good for.
+    pub goal: DesignGoal,
+    /// How many readings are to be chosen.
+    pub count: usize,
+    /// Whether what is measured already counts.
+    pub counts_given: bool,
+    /// θi and signed θr of the readings that are planned, one of a repeated reading as often as it is repeated; all pairs where there is
+    /// none.
+    pub readings: Vec<[f64; 2]>,
 }
 
 impl Default for DesignSettings {
@@ -65,6 +114,10 @@ impl Default for DesignSettings {
             columns: Columns::Dolp,
             noise: 0.005,
             brdf_noise: 0.02,
+            goal: DesignGoal::All,
+            count: 27,
+            counts_given: true,
+            readings: Vec::new(),
         }
     }
 }
@@ -74,6 +127,9 @@ pub const STEEPEST: f64 = 89.9;
 /// Points that can be planned with: more would make the sliders wait.
 pub const MOST_PLANNED: usize = 4000;
 
+/// Readings that can be chosen, least and most.
+pub const READINGS: std::ops::RangeInclusive<usize> = 1..=400;
+
 impl DesignSettings {
     /// Whether its values mean something.
     pub fn is_sound(&self) -> bool {
@@ -81,6 +137,9 @@ impl DesignSettings {
             && self.theta_r.iter().all(|span| span.is_sound(-STEEPEST..=STEEPEST))
             && self.dphi.is_finite()
             && [self.noise, self.brdf_noise].iter().all(|noise| noise.is_finite() && *noise > 0.0)
+            && READINGS.contains(&self.count)
+            && self.readings.len() <= MOST_PLANNED
+            && self.readings.iter().flatten().all(|angle| angle.abs() <= STEEPEST)
     }
 
     /// How many angles of incidence, and of view.
@@ -100,17 +159,54 @@ impl DesignSettings {
     }
 
     pub fn geometries(&self) -> Vec<Geometry> {
-        let theta_i = || self.theta_i.iter().flat_map(|span| span.angles());
-        let theta_r = || self.theta_r.iter().flat_map(|span| span.angles());
-        // A negative θr is the other side of the same plane.
-        let geometry = |i: f64, r: f64| Geometry::new(i, r.abs(), if r < 0.0 { self.dphi - 180.0 } else { self.dphi }).ok();
-        theta_i().flat_map(|i| theta_r().map(move |r| (i, r))).filter_map(|(i, r)| geometry(i, r)).collect()
+        let [theta_i, theta_r] = self.lists();
+        let geometry = |i: f64, r: f64| self.geometry([i, r]);
+        theta_i.iter().flat_map(|i| theta_r.iter().map(move |r| (*i, *r))).filter_map(|(i, r)| geometry(i, r)).collect()
+    }
+
+    /// The geometry of θi and a signed θr; a negative one is the other side of the same plane.
+    pub fn geometry(&self, [theta_i, theta_r]: [f64; 2]) -> Option<Geometry> {
+        Geometry::new(theta_i, theta_r.abs(), if theta_r < 0.0 { self.dphi - 180.0 } else { self.dphi }).ok()
+    }
+
+    /// The angles of incidence, and of view.
+    pub fn lists(&self) -> [Vec<f64>; 2] {
+        [&self.theta_i, &self.theta_r].map(|spans| spans.iter().flat_map(|span| span.angles()).collect())
+    }
+
+    /// Adds a reading to those that are planned, or takes it out.
+    pub fn toggle(&mut self, reading: [f64; 2]) {
+        let before = self.readings.len();
+        self.readings.retain(|other| *other != reading);
+        if self.readings.len() == before {
+            self.readings.push(reading);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::AngleRange;
+    use super::{AngleRange, DesignGoal, DesignSettings};
+    use pbrdf::model::{Parameter, ParameterSet};
+
+    #[test]
+    fn a_reading_is_added_once_and_taken_out_again() {
+        let mut design = DesignSettings::default();
+        design.toggle([20.0, -5.0]);
+        design.toggle([20.0, 5.0]);
+        assert_eq!(design.readings.len(), 2);
+        design.toggle([20.0, -5.0]);
+        assert_eq!(design.readings, [[20.0, 5.0]]);
+        assert!(design.is_sound() && !DesignSettings { readings: vec![[f64::NAN, 0.0]], ..design }.is_sound());
+    }
+
+    #[test]
+    fn a_goal_wants_what_is_free() {
+        let free = ParameterSet::EMPTY.with(Parameter::N).with(Parameter::Sigma).with(Parameter::Kd);
+        let wanted = |goal: DesignGoal| goal.parameters(free).iter().collect::<Vec<_>>();
+        assert_eq!((wanted(DesignGoal::Index), wanted(DesignGoal::Roughness)), (vec![Parameter::N], vec![Parameter::Sigma]));
+        assert_eq!((wanted(DesignGoal::All).len(), wanted(DesignGoal::Distribution).len()), (3, 0));
+    }
 
     #[test]
     fn spans_count_both_ends() {

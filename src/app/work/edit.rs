@@ -7,12 +7,17 @@ use crate::app::work::layout::Layout;
 use crate::app::work::model_fit::ComparedModel;
 use crate::app::work::open_measurement::{DrawnSeries, MeasurementStyle, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
+use crate::app::work::posterior::{DrawnPosterior, PosteriorOptions};
+use crate::app::work::predicted_errors::PlannedAngles;
 use crate::app::work::results_options::ResultsOptions;
 use crate::app::work::settings::{LandscapeAxes, MetalSelection, Settings, ViewOptions};
 use crate::app::work::surface::{PinnedSurface, Surface};
+use crate::app::work::weakest_walk::WeakestWalk;
+use pbrdf::fit::posterior::LogEvidence;
 use pbrdf::fit::{Bootstrap, Estimate, FitOptions, FitResult, JointResult, Starts};
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// One change of the work, in terms of what a user does; [`Workspace::apply`] carries it out.
 ///
@@ -55,8 +60,20 @@ pub enum Edit {
     /// Hidden columns and the order of the table of results.
     SetResultsOptions(ResultsOptions),
     SetMetalSelection(MetalSelection),
+    /// How a posterior is drawn.
+    SetPosteriorOptions(PosteriorOptions),
+    /// Draws from the posterior of their measurements.
+    SetPosterior(Arc<DrawnPosterior>),
+    /// The way from a fit along the direction that the data determine least.
+    SetWalk(Arc<WeakestWalk>),
+    /// Takes the values at a share, 0 to 1, of the way from the shown fit.
+    WalkTo(f64),
+    /// Takes the values of one draw, by the numbers of its measurements.
+    UseDraw(Vec<(u64, Parameters)>),
     /// The angles that might be measured.
     SetDesign(DesignSettings),
+    /// Plans the angles that were chosen.
+    SetPlan(PlannedAngles),
     /// Masks these rows of the active measurement, or unmasks them.
     Mask {
         rows: Vec<usize>,
@@ -135,6 +152,11 @@ pub enum Edit {
     SetModelComparison {
         numbers: Vec<u64>,
         models: Vec<ComparedModel>,
+    },
+    /// Evidence of those rows of the comparison of the measurement of that number.
+    SetEvidence {
+        number: u64,
+        found: Vec<(usize, Option<LogEvidence>)>,
     },
     /// Takes the values and the model of that row of the comparison.
     UseModelFit(usize),

@@ -1,6 +1,7 @@
 //! One row of the comparison of models.
 
 use crate::app::work::fit_history::FitEntry;
+use pbrdf::fit::posterior::LogEvidence;
 use pbrdf::fit::{FitResult, JointError, ProblemError};
 use pbrdf::model::Preset;
 use std::sync::Arc;
@@ -10,6 +11,8 @@ use std::sync::Arc;
 pub struct ModelFit {
     pub preset: &'static Preset,
     pub result: Result<Arc<FitEntry>, NotFitted>,
+    /// Its likelihood averaged over the priors; none before it was found.
+    pub evidence: Option<LogEvidence>,
 }
 
 /// A model with its fits as a comparison brings them: one, or those of the measurements that were fitted

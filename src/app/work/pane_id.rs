@@ -18,6 +18,7 @@ macro_rules! with_panes {
             Planner planner Lower,
             Models models Lower,
             Results results Lower,
+            Posterior posterior Upper,
             Metals metals Lower,
             Hemisphere hemisphere Upper,
             Mueller mueller Upper,

@@ -1,11 +1,13 @@
 //! The standard errors that a choice of angles predicts.
 
+use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
-use crate::app::work::design::{DesignSettings, MOST_PLANNED};
-use crate::app::work::surface::Surface;
-use pbrdf::fit::{Design, DesignPrediction, UndeterminedDirection};
-use pbrdf::measurement::Measurement;
-use pbrdf::model::{Parameter, ParameterSet};
+use crate::app::work::design::{DesignGoal, DesignSettings, MOST_PLANNED};
+use crate::app::work::fit_setup::free_in_design;
+use crate::app::work::surface::{Surface, another};
+use pbrdf::fit::{AngleChoice, CandidateGrid, Design, DesignCriterion, DesignPrediction, UndeterminedDirection};
+use pbrdf::measurement::{Measurement, Quantity, Row};
+use pbrdf::model::{Model, Parameter, ParameterSet};
 use pbrdf::optics::Geometry;
 use tr::tr;
 
@@ -45,6 +47,16 @@ impl PredictedErrors {
         Self::new(surface, design, free, used.collect())
     }
 
+    /// Of the planned readings beside what is measured, as if that were measured with the planned noise too; of all planned pairs where no
+    /// reading is planned.
+    pub fn of_plan(surface: &Surface, design: &DesignSettings, free: ParameterSet, measured: &[Row]) -> Result<Self, String> {
+        if design.readings.is_empty() {
+            return Self::of_design(surface, design, free);
+        }
+        let planned = design.readings.iter().filter_map(|reading| design.geometry(*reading));
+        Self::new(surface, design, free, planned.chain(measured.iter().map(|row| row.geometry)).collect())
+    }
+
     fn new(surface: &Surface, design: &DesignSettings, free: ParameterSet, geometries: Vec<Geometry>) -> Result<Self, String> {
         if geometries.is_empty() {
             return Err(tr!("There is no angle: add one of incidence and one of view."));
@@ -59,6 +71,58 @@ impl PredictedErrors {
     pub fn error_of(&self, parameter: Parameter) -> Option<f64> {
         self.errors.iter().find(|(other, _)| *other == parameter).and_then(|(_, error)| *error)
     }
+}
+
+/// Angles that were chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedAngles {
+    /// θi, signed θr and Δφ in degrees, a repeated one as often as it is repeated.
+    pub angles: Vec<[f64; 3]>,
+    /// The criterion: ln det, the sum of relative variances, or the sum of squares that the rival leaves.
+    pub value: f64,
+    /// What they tell of what all candidates tell, 0 to 1.
+    pub efficiency: f64,
+    /// Of the wanted parameters that stay undetermined: the least standard error that any choice of so many readings gives.
+    pub limits: Vec<(Parameter, f64)>,
+}
+
+/// The rows that are measured and not masked, without their own standard deviations.
+pub fn measured(measurement: &Measurement) -> Vec<Row> {
+    let plain = |quantity: Option<Quantity>| quantity.map(|quantity| Quantity { sigma: None, ..quantity });
+    let used = measurement.rows.iter().filter(|row| !row.masked);
+    used.map(|row| Row { dolp: plain(row.dolp), brdf: plain(row.brdf), ..*row }).collect()
+}
+
+/// The request for the angles of a plan: what is measured counts if the plan says so, planned readings do not.
+pub fn angle_choice(surface: &Surface, design: &DesignSettings, measurement: &Measurement) -> Result<AngleChoice, String> {
+    let free = free_in_design(surface, design, design.has_brdf());
+    let [theta_i, theta_r] = design.lists();
+    let grid = CandidateGrid::new(&theta_i, &theta_r, &[design.dphi]).map_err(|error| tr!("{}.", error.localized()))?;
+    if grid.len() > MOST_PLANNED {
+        return Err(tr!(
+            "{0} × {1} angles are more than the {2} points that can be planned at once.",
+            theta_i.len(),
+            theta_r.len(),
+            MOST_PLANNED
+        ));
+    }
+    let criterion = match design.goal {
+        DesignGoal::All => DesignCriterion::Determinant,
+        DesignGoal::Index | DesignGoal::Roughness => {
+            let wanted: Vec<Parameter> = design.goal.parameters(free).iter().collect();
+            if wanted.is_empty() {
+                return Err(tr!("Neither of {} is free: there is nothing to determine.", translated(design.goal.name())));
+            }
+            DesignCriterion::Variances(wanted)
+        }
+        DesignGoal::Distribution => {
+            let rival = Model { distribution: another(surface.model.distribution), ..surface.model };
+            DesignCriterion::Discrimination { rival, fixed: surface.model.parameters().without_all(free) }
+        }
+    };
+    let given = if design.counts_given { measured(measurement) } else { Vec::new() };
+    let (model, surfaces, noise) = (surface.model, vec![surface.parameters], design.noise());
+    Ok(AngleChoice { model, surfaces, noise, free, grid, given, count: design.count, repeats: false, criterion })
 }
 
 #[cfg(test)]

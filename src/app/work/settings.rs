@@ -6,6 +6,7 @@ use crate::app::work::design::DesignSettings;
 use crate::app::work::import_memory::ImportMemory;
 use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::app::work::picture_options::PictureOptions;
+use crate::app::work::posterior::PosteriorOptions;
 use crate::app::work::results_options::ResultsOptions;
 use crate::app::work::settings_error::SettingsError;
 use crate::app::work::talk::{Talk, is_zoom};
@@ -123,11 +124,13 @@ pub struct LandscapeAxes {
     pub minima: bool,
     /// Tabulated metals, where the axes are n and k.
     pub metals: bool,
+    /// Draws from the posterior.
+    pub cloud: bool,
 }
 
 impl Default for LandscapeAxes {
     fn default() -> Self {
-        Self { across: Parameter::N, up: Parameter::K, contours: true, paths: true, minima: true, metals: true }
+        Self { across: Parameter::N, up: Parameter::K, contours: true, paths: true, minima: true, metals: true, cloud: true }
     }
 }
 
@@ -137,6 +140,7 @@ impl Default for LandscapeAxes {
 pub struct PaneSettings {
     pub landscape: LandscapeAxes,
     pub picture: PictureOptions,
+    pub posterior: PosteriorOptions,
     #[serde(skip_serializing_if = "is_default")]
     pub results: ResultsOptions,
 }
@@ -273,6 +277,7 @@ impl Settings {
         let others = [
             ("plan", self.design.is_sound()),
             ("picture", self.panes.picture.is_sound()),
+            ("posterior", self.panes.posterior.is_sound()),
             ("tabulated.wavelength_nm", is_positive(self.metal_selection.wavelength_nm)),
             ("choices.loss_scale", self.fit_options.loss_scale.is_none_or(is_positive)),
         ];

@@ -12,9 +12,12 @@ use crate::app::work::layout::Layout;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::model_fit::ModelFit;
 use crate::app::work::open_measurement::{Mask, OpenMeasurement};
+use crate::app::work::posterior::DrawnPosterior;
+use crate::app::work::predicted_errors::PlannedAngles;
 use crate::app::work::settings::Settings;
 use crate::app::work::setup::Setup;
 use crate::app::work::surface::{PinnedSurface, Surface};
+use crate::app::work::weakest_walk::WeakestWalk;
 use crate::app::work::workspace::results::ResultsByMeasurement;
 use pbrdf::model::{Model, Parameter, ParameterSet, Parameters};
 use std::path::{Path, PathBuf};
@@ -158,6 +161,24 @@ impl Workspace {
         &self.results.of(self.active().number).diagnostics
     }
 
+    /// The draws from the posterior of the active measurement.
+    pub fn posterior(&self) -> Option<&Arc<DrawnPosterior>> {
+        self.results.of(self.active().number).posterior.as_ref()
+    }
+
+    /// The angles that were chosen last for the active measurement, while the plan holds them.
+    pub fn plan(&self) -> Option<&PlannedAngles> {
+        let planned = self.results.of(self.active().number).plan.as_ref()?;
+        let readings = planned.angles.iter().map(|[theta_i, theta_r, _]| [*theta_i, *theta_r]);
+        readings.eq(self.settings.design.readings.iter().copied()).then_some(planned)
+    }
+
+    /// The way from the shown fit along the direction that the data determine least, and how far the sliders have come on it.
+    pub fn walk(&self) -> Option<&(Arc<WeakestWalk>, f64)> {
+        let fit = self.shown_fit()?.id;
+        self.results.of(self.active().number).walk.as_ref().filter(|(walk, _)| walk.fit == fit)
+    }
+
     /// The file of the session that is open.
     pub fn session_file(&self) -> Option<&Path> {
         self.session_file.as_deref()
@@ -208,6 +229,16 @@ impl Workspace {
             Edit::SetPictureOptions(options) => self.settings.panes.picture = options,
             Edit::SetResultsOptions(options) => self.settings.panes.results = options,
             Edit::SetLandscapeAxes(axes) => self.settings.panes.landscape = axes,
+            Edit::SetPosteriorOptions(options) => self.settings.panes.posterior = options,
+            Edit::SetEvidence { number, found } => self.set_evidence(number, found),
+            Edit::SetPosterior(drawn) => self.set_posterior(&drawn),
+            Edit::SetPlan(planned) => {
+                self.settings.design.readings = planned.angles.iter().map(|[theta_i, theta_r, _]| [*theta_i, *theta_r]).collect();
+                self.active_results().plan = Some(planned);
+            }
+            Edit::SetWalk(walk) => self.set_walk(&walk),
+            Edit::WalkTo(share) => self.walk_to(share),
+            Edit::UseDraw(values) => self.use_draw(&values),
             Edit::SetMetalSelection(selection) => self.settings.metal_selection = selection,
             Edit::SetDesign(design) => self.settings.design = design,
             Edit::Mask { rows, masked } => {

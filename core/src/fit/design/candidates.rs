@@ -15,7 +15,6 @@ pub struct CandidateGrid {
 
 /// Why lists of angles make no grid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum CandidateError {
     /// An angle is outside its range.
     #[error(transparent)]

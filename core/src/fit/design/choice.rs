@@ -67,7 +67,6 @@ pub struct ChosenAngles {
 
 /// Why no angles can be chosen.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum AngleChoiceError {
     /// More readings than candidates.
     #[error("there are {candidates} candidates for {count} readings; use finer steps, or allow repeats")]

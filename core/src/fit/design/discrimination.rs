@@ -97,6 +97,23 @@ impl Discrimination<'_> {
         })
     }
 
+    /// The squares by which the best fit of the rival to what is given misses the surface at each candidate, averaged over the surfaces; where
+    /// so few values are given that the rival meets all of them, its best fit to all candidates.
+    pub(crate) fn next_squares(&self, observer: Observer<'_>) -> Result<Vec<f64>, AngleChoiceError> {
+        let all: Vec<usize> = (0..self.choice.grid.len()).collect();
+        let measured = self.choice.given.iter().filter(|row| !row.masked);
+        let values: usize = measured.map(|row| usize::from(row.dolp.is_some()) + usize::from(row.brdf.is_some())).sum();
+        let places: &[usize] = if values > self.rival.parameters().len() { &[] } else { &all };
+        let mut rivals = Vec::new();
+        self.fitted(&all, places, &mut rivals, Some(THOROUGH), observer)?;
+        if (observer.cancelled)() || rivals.is_empty() {
+            return Err(AngleChoiceError::Cancelled);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a number of surfaces")]
+        let count = rivals.len() as f64;
+        Ok(all.iter().map(|&place| rivals.iter().map(|rival| rival.squares[place]).sum::<f64>() / count).collect())
+    }
+
     /// T of a set, averaged over the surfaces; its best fits become rivals. From so many starts, or from the rivals that are known.
     fn fitted(
         &self,

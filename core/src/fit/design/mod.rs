@@ -8,10 +8,12 @@ mod choice;
 mod choose;
 mod discrimination;
 mod exchange;
+mod gain;
 mod information;
 mod prediction;
 
 pub use candidates::{CandidateError, CandidateGrid};
 pub use choice::{AngleChoice, AngleChoiceError, ChosenAngles, DesignCriterion};
 pub use choose::choose;
+pub use gain::next_gains;
 pub use prediction::{Design, DesignError, DesignPrediction, NoiseModel};

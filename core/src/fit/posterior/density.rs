@@ -190,7 +190,7 @@ mod tests {
     use crate::fit::posterior::log_density::LogDensity as _;
     use crate::fit::posterior::prior::{BoundedPrior, Prior};
     use crate::measurement::{Columns, Measurement, Simulation};
-    use crate::model::Parameter::{C, K, Kd, Ks, Kv, N, Q, Sigma};
+    use crate::model::Parameter::{C, K, Kd, Ks, Kv, N, Q, Sigma, SigmaV};
     use crate::model::{Model, ParameterSet, Parameters, Pbrdf};
     use nalgebra::DMatrix;
 
@@ -216,6 +216,14 @@ mod tests {
         }
         let all: ParameterSet = Model::CAUCHY.parameters();
         problems.push(JointFit::new([&blue, &red, &green], Model::CAUCHY).own(all.iter()).problem().unwrap());
+        for (measurements, weights) in [([&blue, &red], Weights::None), ([&blue, &green], Weights::Sigma)] {
+            let options = FitOptions { weights, ..FitOptions::default() };
+            let fit = || JointFit::new(measurements, Model::CAUCHY).own([N]).options(options);
+            problems.push(fit().weights([3.0, 0.5]).problem().unwrap());
+            // A shared parameter to a shared one, and one to an own one, so that it is own too.
+            problems.push(fit().each(|fit| fit.tie(SigmaV, 1.5, Sigma)).problem().unwrap());
+            problems.push(fit().weights([0.2, 1.0]).each(|fit| fit.tie(K, 1.2, N).tie(Kv, 0.7, Kd)).problem().unwrap());
+        }
         problems
     }
 

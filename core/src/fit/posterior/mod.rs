@@ -16,12 +16,14 @@
 
 mod bend;
 mod density;
+mod derived;
 mod diagnostics;
 mod evidence;
 mod likelihood;
 mod log_density;
 mod metric;
 mod nuts;
+mod odds;
 mod parts;
 mod prior;
 mod run;
@@ -32,9 +34,11 @@ mod transform;
 mod valley;
 mod walls;
 
+pub use derived::DerivedQuantity;
 pub use diagnostics::{Convergence, convergence, quantile};
 pub use evidence::LogEvidence;
+pub use odds::{Odds, OddsGrade};
 pub use parts::PosteriorProblem;
-pub use prior::{Prior, PriorError};
+pub use prior::{BoundedPrior, Prior, PriorError};
 pub use run::{Posterior, PosteriorError, PosteriorProgress, PosteriorSettings, SampleOf};
 pub use sample::{MarginalSummary, NoiseQuantiles, PosteriorDraw, PosteriorSample, PosteriorVerdict};

@@ -2,11 +2,12 @@
 
 use crate::fit::bounds::Bounds;
 use crate::model::Parameter;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// Prior of one parameter, cut at its bounds.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Prior {
     /// Equally likely within the bounds.
     #[default]
@@ -36,7 +37,6 @@ pub enum Prior {
 
 /// Why a prior is none.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum PriorError {
     /// The prior reaches outside the bounds, or of a Gaussian next to nothing lies inside.
     #[error("the prior of {} lies outside its bounds {low} … {high}", .parameter.key())]
@@ -69,13 +69,33 @@ const FARTHEST_MEAN: f64 = 5.0;
 
 /// A prior with the bounds that it is cut at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BoundedPrior {
+pub struct BoundedPrior {
     prior: Prior,
+    ends: (f64, f64),
     /// Logarithm of one over the prior's integral over the bounds.
     log_norm: f64,
 }
 
 impl Prior {
+    /// What kind of distribution it is, in a word.
+    #[must_use]
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::Flat | Self::Uniform { .. } => "uniform",
+            Self::Normal { .. } => "normal",
+            Self::LogUniform { .. } => "log-uniform",
+        }
+    }
+
+    /// Whether it is a distribution within the bounds of its parameter.
+    ///
+    /// # Errors
+    ///
+    /// [`PriorError`] where it is none or lies outside.
+    pub fn check(self, parameter: Parameter, bounds: &Bounds) -> Result<(), PriorError> {
+        self.narrowed(parameter, bounds).map(drop)
+    }
+
     /// The bounds of the parameter with this prior.
     pub(crate) fn narrowed(self, parameter: Parameter, bounds: &Bounds) -> Result<(f64, f64), PriorError> {
         let (low, high) = bounds.of(parameter);
@@ -100,6 +120,25 @@ impl Prior {
 }
 
 impl BoundedPrior {
+    /// What kind of distribution it is, in a word.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        self.prior.kind()
+    }
+
+    /// Where it begins and ends, in the parameter's unit.
+    #[must_use]
+    pub fn ends(&self) -> (f64, f64) {
+        self.ends
+    }
+
+    /// Its density at a value, per unit of the parameter; 0 outside of its ends.
+    #[must_use]
+    pub fn density(&self, value: f64) -> f64 {
+        let (low, high) = self.ends;
+        if (low..=high).contains(&value) { libm::exp(self.log_density(value).0) } else { 0.0 }
+    }
+
     /// A prior on a parameter between those ends.
     pub(crate) fn new(prior: Prior, (low, high): (f64, f64)) -> Self {
         let norm = match prior {
@@ -112,7 +151,7 @@ impl BoundedPrior {
             }
             Prior::LogUniform { .. } => libm::log(high / low),
         };
-        Self { prior, log_norm: -libm::log(norm) }
+        Self { prior, ends: (low, high), log_norm: -libm::log(norm) }
     }
 
     /// Logarithm of the density at a value within the bounds, and its derivative.
@@ -170,6 +209,9 @@ mod tests {
                 })
                 .sum();
             assert!((sum * width / 3.0 - 1.0).abs() < 1e-8, "{prior:?}: {}", sum * width / 3.0);
+            let at_middle = f64::midpoint(low, high);
+            assert_eq!(bounded.density(at_middle).to_bits(), libm::exp(bounded.log_density(at_middle).0).to_bits());
+            assert_eq!((bounded.ends(), bounded.density(low - 0.1), bounded.density(high + 0.1)), ((low, high), 0.0, 0.0));
         }
     }
 

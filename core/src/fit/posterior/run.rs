@@ -42,7 +42,6 @@ impl Default for PosteriorSettings {
 
 /// Why nothing can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum PosteriorError {
     /// A prior is none.
     #[error(transparent)]
@@ -143,6 +142,18 @@ impl<P: PosteriorProblem> Posterior<P> {
     #[must_use]
     pub fn problem(&self) -> &P {
         &self.problem
+    }
+
+    /// The prior of each unknown, in their order.
+    #[must_use]
+    pub fn priors(&self) -> &[BoundedPrior] {
+        &self.priors
+    }
+
+    /// How much is drawn.
+    #[must_use]
+    pub fn settings(&self) -> PosteriorSettings {
+        self.settings
     }
 
     /// Draws, in chains that begin at those minima of the problem, the best one first.

@@ -77,7 +77,6 @@ pub struct MarginalSummary {
 
 /// Whether the draws are to be trusted; `Display` says it in a sentence.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum PosteriorVerdict<N = Parameter> {
     /// R̂ and effective sizes are good, and next to no transition diverged.
     Converged {
@@ -140,6 +139,28 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The same draws with other names and points.
+    #[must_use]
+    pub fn map<M, Q>(self, name: impl Fn(N) -> M, point: impl Fn(P) -> Q) -> PosteriorSample<M, Q> {
+        let draw = |PosteriorDraw { unknowns, parameters, log_posterior }: PosteriorDraw<P>| PosteriorDraw {
+            unknowns,
+            parameters: point(parameters),
+            log_posterior,
+        };
+        PosteriorSample {
+            model: self.model,
+            parameters: self.parameters.into_iter().map(name).collect(),
+            chains: self.chains.into_iter().map(|chain| chain.into_iter().map(draw).collect()).collect(),
+            evaluations: self.evaluations,
+            divergences: self.divergences,
+            cut: self.cut,
+            accepted: self.accepted,
+            noise: self.noise,
+            log_evidence: self.log_evidence,
+            elapsed_ms: self.elapsed_ms,
+        }
     }
 
     /// All draws, chain after chain.

@@ -6,6 +6,7 @@ mod outlook;
 mod past;
 mod result;
 mod scans;
+mod weakest;
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
@@ -62,6 +63,7 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
                         .on_hover_text(glossary::mask_help());
                 }
                 result::result_ui(fit, work, &jobs.fits, cx.actions, ui);
+                weakest::weakest_ui(cx, ui);
                 scans::scans_ui(fit, cx, ui);
             }
             None => {

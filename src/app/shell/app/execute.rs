@@ -2,6 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::{compare_models, find_intervals, fit_each, start_bootstrap, start_fit, start_profile};
+use crate::app::shell::app::inquiries;
 use crate::app::shell::app::lesson::{end_lesson, keep_lesson, show_step};
 use crate::app::shell::app::link;
 use crate::app::shell::app::lists;
@@ -69,11 +70,9 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::Profile(parameter) => start_profile(app, parameter)?,
         Action::Bootstrap => start_bootstrap(app)?,
         Action::CancelScan => app.jobs.fits.cancel_scan(),
-        Action::CompareModels => {
-            app.dock.show(PaneId::Models);
-            compare_models(app)?;
-        }
+        Action::CompareModels => compare_shown(app)?,
         Action::CancelComparison => app.jobs.fits.compare.cancel(),
+        Action::Inquire(action) => inquiries::execute(app, action)?,
         Action::RunBenchmark(id) => app.jobs.benchmarks.start(id)?,
         Action::ForgetBenchmark(id) => app.jobs.benchmarks.forget(id),
         Action::CancelBenchmark => app.jobs.benchmarks.cancel(),
@@ -134,6 +133,12 @@ fn execute_window(app: &mut App, ctx: &egui::Context, action: &Action) {
         // Those of the work are carried out above.
         _ => {}
     }
+}
+
+/// Compares the models, with the pane that shows the comparison on screen.
+fn compare_shown(app: &mut App) -> Result<(), String> {
+    app.dock.show(PaneId::Models);
+    compare_models(app)
 }
 
 /// Into the file that the session came from or went to last; asks where there is none.

@@ -40,7 +40,7 @@ pub fn fit_each(app: &mut App) -> Result<(), String> {
 }
 
 /// The problem of fitting a measurement by itself.
-fn problem_of(app: &App, open: &OpenMeasurement) -> Result<Problem, String> {
+pub fn problem_of(app: &App, open: &OpenMeasurement) -> Result<Problem, String> {
     validate(open)?;
     let (surface, measurement) = (&open.surface, &open.measurement);
     let free = free(surface, measurement.has_brdf());

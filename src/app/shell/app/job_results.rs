@@ -8,7 +8,10 @@ use crate::app::shell::app::autosave::autosaved;
 use crate::app::shell::app::fits::{bootstrapped, fitted, intervals_found, profiled};
 use crate::app::shell::app::link::link_read;
 use crate::app::shell::app::open::{alike_found, files_loaded, imported, reopened};
+use crate::app::shell::app::plans::chosen;
+use crate::app::shell::app::posteriors::drawn;
 use crate::app::shell::app::session::{exported, session_read};
+use crate::app::shell::app::walk::walk_found;
 use crate::app::shell::file_dialogs::{command_for, unavailable_text};
 use crate::app::tasks::benchmarks::FinishedBenchmark;
 use crate::app::tasks::files::DialogAnswer;
@@ -53,6 +56,11 @@ pub fn poll_jobs(app: &mut App) {
         || tr!("The comparison of the models ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.profile, |app, profile| profiled(app, &profile), || tr!("The profile ended unexpectedly; nothing was lost."));
     poll(app, |jobs| &mut jobs.fits.bootstrap, bootstrapped, || tr!("The bootstrap ended unexpectedly; nothing was lost."));
+    poll(app, |jobs| &mut jobs.posteriors.draw, drawn, || tr!("Drawing from the posterior ended unexpectedly; nothing was lost."));
+    poll(app, |jobs| &mut jobs.fits.walk, walk_found, || tr!("The weakest direction ended unexpectedly; nothing was lost."));
+    poll(app, |jobs| &mut jobs.plans.choose, chosen, || tr!("The choice of angles ended unexpectedly; nothing was lost."));
+    poll(app, |jobs| &mut jobs.posteriors.evidence, |app, (number, found)| app.work.apply(Edit::SetEvidence { number, found }),
+        || tr!("Drawing from the posterior ended unexpectedly; nothing was lost."));
     poll_benchmarks(app);
 }
 

@@ -78,7 +78,7 @@ fn pin_fit(app: &mut App) {
 
 /// A row of the comparison of models.
 fn pin_model_fit(app: &mut App, index: usize) {
-    if let Some(ModelFit { preset, result: Ok(fit) }) = app.work.model_comparison().get(index) {
+    if let Some(ModelFit { preset, result: Ok(fit), .. }) = app.work.model_comparison().get(index) {
         let (model, parameters) = (fit.report.model, fit.report.parameters);
         app.work.apply(Edit::Pin { name: translated(preset.name), model, parameters });
     }

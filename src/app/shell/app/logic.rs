@@ -9,11 +9,13 @@ use crate::app::shell::app::fits::{follow_active, refit_if_moved};
 use crate::app::shell::app::job_results::poll_jobs;
 use crate::app::shell::app::open::{open_waiting, reopen_if_asked};
 use crate::app::shell::app::title::show_title;
+use crate::app::shell::app::walk::walk_on;
 use crate::app::shell::commands;
 use crate::app::text::i18n;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, InquiryAction};
 use crate::app::views::pointed_theta_r;
 use crate::app::work::lesson_stage::ReadoutPlace;
+use egui::{Key, Modifiers};
 use std::path::PathBuf;
 
 /// Before each frame.
@@ -39,6 +41,8 @@ pub fn logic(app: &mut App, ctx: &egui::Context) {
         }
     }
     app.interacting = ctx.input(|input| input.pointer.any_down());
+    // Sliders that move by themselves are held as if by hand: one step of undo.
+    app.interacting |= walk_on(app, ctx);
     follow_active(app);
     refit_if_moved(app);
     if !app.interacting && !app.jobs.fits.refit.is_running() {
@@ -84,6 +88,9 @@ fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
     // Keys belong to the field that is being typed into, or to the question that is asked.
     if ctx.text_edit_focused() || app.dialogs.import.is_some() || app.dialogs.overwrite.is_some() {
         return;
+    }
+    if app.jobs.fits.walking_since.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+        app.actions.push(Action::Inquire(InquiryAction::CancelWalk));
     }
     app.actions.extend(commands::pressed(app, ctx));
     let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };

@@ -5,15 +5,19 @@ pub mod autosave;
 mod eframe_app;
 pub mod execute;
 mod fits;
+mod inquiries;
 pub mod job_results;
 mod lesson;
 pub mod link;
 mod lists;
 pub mod logic;
 pub mod open;
+mod plans;
+mod posteriors;
 pub mod session;
 pub mod title;
 pub mod ui;
+mod walk;
 
 use crate::app::jobs::spawner::Spawner;
 use crate::app::shell::dialogs::{Dialogs, Lists};
@@ -152,6 +156,8 @@ impl App {
         self.dialogs.imports_waiting.clear();
         self.views = Views::default();
         self.jobs.fits.abandon();
+        self.jobs.posteriors.abandon();
+        self.jobs.plans.abandon();
         std::mem::replace(&mut self.work, work)
     }
 }

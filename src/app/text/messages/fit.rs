@@ -1,9 +1,10 @@
 //! Messages of `pbrdf::fit`.
 
+use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized;
 use pbrdf::fit::{
-    BoundsError, DesignError, DistributionComparison, Evidence, FitError, JointError, ProblemError, StopReason, TieError, Undetermined,
-    UndeterminedDirection, UndeterminedReason, UnknownName, Verdict, symbols,
+    AngleChoiceError, BoundsError, CandidateError, DesignError, DistributionComparison, Edge, Evidence, FitError, GeodesicEnd, JointError,
+    ProblemError, StopReason, TieError, Undetermined, UndeterminedDirection, UndeterminedReason, UnknownName, Verdict, symbols,
 };
 use pbrdf::model::Parameter;
 use pbrdf::optics::SlopeDistribution;
@@ -44,6 +45,26 @@ impl<N: UnknownName> Localized for Undetermined<N> {
             Self::Direction(direction) => direction.localized(),
             Self::Parameters(parameters) => tr!("not determined: {}", symbols(parameters)),
             Self::Poorly(parameters) => tr!("a standard error above half of the value: {}", symbols(parameters)),
+        }
+    }
+}
+
+impl<N: UnknownName> Localized for GeodesicEnd<N> {
+    fn localized(&self) -> String {
+        match self {
+            Self::Bound { unknown, edge, value } => {
+                let bound = if *edge == Edge::Lower {
+                    tr!("{0} meets its lower bound {1}", unknown.symbol(), value)
+                } else {
+                    tr!("{0} meets its upper bound {1}", unknown.symbol(), value)
+                };
+                self.meaning().map_or_else(|| bound.clone(), |meaning| tr!("{0}: {1}", bound, translated(meaning)))
+            }
+            Self::Misfit => tr!("the data hold every direction: the misfit has reached the limit of 95 % before any bound"),
+            Self::NothingMoves => tr!("no parameter can move"),
+            Self::Lost => tr!("the direction bends too sharply to be followed any further"),
+            Self::Endless => tr!("no bound is met, however far one goes"),
+            Self::Cancelled => tr!("cancelled"),
         }
     }
 }
@@ -119,6 +140,37 @@ impl Localized for DesignError {
         match self {
             Self::Parameters(error) => error.localized(),
             Self::Problem(error) => error.localized(),
+        }
+    }
+}
+
+impl Localized for CandidateError {
+    fn localized(&self) -> String {
+        match self {
+            Self::Geometry(error) => error.localized(),
+            Self::TooMany { count } => tr!("the lists make {} pairs of directions; use coarser steps", count),
+            Self::Empty => tr!("a list of angles is empty"),
+        }
+    }
+}
+
+impl Localized for AngleChoiceError {
+    fn localized(&self) -> String {
+        match self {
+            Self::TooFewCandidates { candidates, count } => {
+                tr!("there are {0} candidates for {1} readings; use finer steps", candidates, count)
+            }
+            Self::TooFewReadings { values, parameters } => tr!("{0} values cannot determine {1} parameters", values, parameters),
+            Self::Undetermined { parameters } => {
+                tr!("no choice of these candidates determines {}; fix what is known, or measure more widely", symbols(parameters))
+            }
+            Self::NotFree { parameter } => tr!("{} is not free: its error cannot be made small", parameter.symbol()),
+            Self::SameModel => tr!("a model cannot be told from itself"),
+            Self::Nothing => tr!("there is nothing to choose angles for: no surface, no free parameter, or no quantity to measure"),
+            Self::Parameters(error) => error.localized(),
+            Self::Geometry(error) => error.localized(),
+            Self::Problem(error) => error.localized(),
+            Self::Cancelled => tr!("cancelled"),
         }
     }
 }

@@ -8,6 +8,7 @@ mod files;
 mod fit;
 mod measurement;
 mod model;
+mod posterior;
 mod report;
 mod selftest;
 mod system;

@@ -14,6 +14,7 @@ use tr::tr;
 const WAY: Rgb = Rgb(255, 96, 64);
 const MINIMA: Rgb = Rgb(255, 214, 90);
 const METALS: Rgb = Rgb(150, 220, 255);
+const CLOUD: Rgb = Rgb(240, 240, 240);
 
 /// The figure of a landscape with these marks on it; the sliders stand there.
 pub fn describe(
@@ -88,6 +89,9 @@ fn free(names: &[([f64; 2], &'static str)], room: [f64; 2]) -> Vec<([f64; 2], &'
 fn on_map(marks: &Marks, shown: LandscapeAxes, room: [f64; 2], back: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
     let places = |points: &[[f64; 2]]| -> Vec<[f64; 2]> { points.iter().map(|point| back(*point)).collect() };
     let mut series = Vec::new();
+    if shown.cloud && !marks.cloud.is_empty() {
+        series.push(pointed(tr!("draws"), places(&marks.cloud), Symbol::Disc, CLOUD).faded(0.45));
+    }
     if shown.metals && !marks.metals.points.is_empty() {
         series.push(pointed(tr!("metals"), places(&marks.metals.points), Symbol::Disc, METALS));
         let names = free(&marks.names, room).into_iter().map(|(point, name)| (back(point), metal_name(name)));

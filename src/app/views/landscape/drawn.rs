@@ -1,13 +1,12 @@
 //! A landscape as it is drawn: colours of heights, and lines of equal height.
 
 use crate::app::jobs::async_memo::Stopped;
-use crate::app::plots::contours::Heights;
 use crate::app::plots::{Polyline, Range};
 use crate::app::views::landscape::axes::coordinate;
 use crate::app::views::landscape::key::LandscapeKey;
 use crate::app::work::fit_setup::fit_problem;
 use crate::app::work::surface::Surface;
-use crate::figure::{ColorMap, Rgb};
+use crate::figure::{ColorMap, Heights, Rgb};
 use pbrdf::fit::{Landscape, LandscapeAxis, Loss, Problem, Weights};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::ParameterSet;

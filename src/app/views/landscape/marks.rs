@@ -16,14 +16,18 @@ const WAYS: usize = 3;
 /// Minima that are drawn, the lowest ones.
 const MOST_MINIMA: usize = 24;
 
+/// Draws that are drawn.
+const MOST_DRAWS: usize = 400;
+
 /// What the marks depend on: the axes, how many fits there were, the one shown, the measurement,
-/// the wavelength in nm, the language of what a pointer reads.
+/// its draws, the wavelength in nm, the language of what a pointer reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarksKey {
     axes: (Parameter, Parameter),
     fits: usize,
     shown: Option<usize>,
     number: u64,
+    draws: Option<u64>,
     wavelength_nm: f64,
     language: Language,
 }
@@ -34,7 +38,9 @@ impl MarksKey {
         let LandscapeAxes { across, up, .. } = settings.panes.landscape;
         let wavelength_nm = settings.metal_selection.wavelength_nm;
         let (axes, shown) = ((across, up), work.shown_fit().map(|fit| fit.id));
-        Self { axes, fits: work.fit_history().count(), shown, number: work.active().number, wavelength_nm, language: i18n::current() }
+        let draws = work.posterior().map(|drawn| drawn.stamp);
+        let (fits, number) = (work.fit_history().count(), work.active().number);
+        Self { axes, fits, shown, number, draws, wavelength_nm, language: i18n::current() }
     }
 }
 
@@ -51,6 +57,8 @@ pub struct Marks {
     pub ways: Vec<Noted>,
     pub minima: Noted,
     pub metals: Noted,
+    /// Draws from the posterior, evenly picked.
+    pub cloud: Vec<[f64; 2]>,
     /// Where each metal is named.
     pub names: Vec<([f64; 2], &'static str)>,
 }
@@ -98,7 +106,12 @@ impl Marks {
             });
         }
         let (metals, names) = metals(key);
-        Self { ways, minima, metals, names }
+        let drawn = work.posterior().and_then(|drawn| Some((drawn, drawn.place_of(key.number)?)));
+        let cloud = drawn.map_or_else(Vec::new, |(drawn, set)| {
+            let step = drawn.draws.len().div_ceil(MOST_DRAWS).max(1);
+            drawn.draws.draws().step_by(step).filter_map(|draw| place(&draw.parameters[set])).collect()
+        });
+        Self { ways, minima, metals, cloud, names }
     }
 
     /// What is known of the mark of a group that lies nearest to a place.

@@ -5,6 +5,9 @@ use super::results::Results;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::{ComparedModel, ModelFit, NotFitted};
 use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::posterior::DrawnPosterior;
+use crate::app::work::weakest_walk::WeakestWalk;
+use pbrdf::fit::posterior::LogEvidence;
 use pbrdf::fit::{FitResult, JointResult};
 use pbrdf::model::{Model, Parameters, Preset};
 use std::sync::Arc;
@@ -115,6 +118,52 @@ impl Workspace {
         }
     }
 
+    /// Evidence reaches its rows of the comparison.
+    pub(super) fn set_evidence(&mut self, number: u64, found: Vec<(usize, Option<LogEvidence>)>) {
+        let comparison = &mut self.results.of_mut(number).model_comparison;
+        for (row, evidence) in found {
+            comparison.get_mut(row).into_iter().for_each(|row| row.evidence = evidence);
+        }
+    }
+
+    /// Draws reach the measurements that they are of.
+    pub(super) fn set_posterior(&mut self, drawn: &Arc<DrawnPosterior>) {
+        for &number in &drawn.from.numbers {
+            self.results.of_mut(number).posterior = Some(drawn.clone());
+        }
+    }
+
+    /// A way from a fit reaches its measurements.
+    pub(super) fn set_walk(&mut self, walk: &Arc<WeakestWalk>) {
+        for &number in &walk.numbers {
+            self.results.of_mut(number).walk = Some((walk.clone(), 0.0));
+        }
+    }
+
+    /// Sliders go to a place of the way from the shown fit.
+    pub(super) fn walk_to(&mut self, share: f64) {
+        let Some((walk, _)) = self.walk().cloned() else { return };
+        for &number in &walk.numbers {
+            if let Some((_, walked)) = &mut self.results.of_mut(number).walk {
+                *walked = share;
+            }
+        }
+        self.use_draw(&walk.at(share));
+    }
+
+    /// Values of one draw to the sliders of the measurements of those numbers; the live refit does not begin there.
+    pub(super) fn use_draw(&mut self, values: &[(u64, Parameters)]) {
+        let active = self.active().number;
+        for (number, parameters) in values {
+            self.measurements.set_parameters_of(*number, *parameters);
+        }
+        // What is shared is the same in all; the active surface has the last word in rounding.
+        if let Some((_, parameters)) = values.iter().find(|(number, _)| *number == active) {
+            self.measurements.set_parameters(*parameters);
+        }
+        self.moved_at = 0;
+    }
+
     /// The fits of a comparison join the history, the first row as the newest; none is shown.
     pub(super) fn set_model_comparison(&mut self, numbers: &[u64], models: Vec<ComparedModel>) {
         let mut comparisons: Vec<Vec<ModelFit>> = numbers.iter().map(|_| Vec::new()).collect();
@@ -123,7 +172,7 @@ impl Workspace {
             for (number, comparison) in numbers.iter().zip(&mut comparisons) {
                 let its = |fits: &Vec<Arc<FitEntry>>| fits.iter().find(|fit| fit.number == *number).cloned();
                 let result = fits.as_ref().map(its).map_err(NotFitted::clone);
-                comparison.extend(result.transpose().map(|result| ModelFit { preset, result }));
+                comparison.extend(result.transpose().map(|result| ModelFit { preset, result, evidence: None }));
             }
         }
         for (&number, mut comparison) in numbers.iter().zip(comparisons) {

@@ -3,6 +3,9 @@
 use crate::app::work::diagnostics::Diagnostics;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::ModelFit;
+use crate::app::work::posterior::DrawnPosterior;
+use crate::app::work::predicted_errors::PlannedAngles;
+use crate::app::work::weakest_walk::WeakestWalk;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -12,10 +15,17 @@ pub(super) struct Results {
     pub model_comparison: Vec<ModelFit>,
     /// Of the shown fit.
     pub diagnostics: Diagnostics,
+    /// That of this measurement alone, or of all that were drawn together.
+    pub posterior: Option<Arc<DrawnPosterior>>,
+    /// The angles that were chosen last.
+    pub plan: Option<PlannedAngles>,
+    /// From the fit along the direction that the data determine least, and how far the sliders have come, 0 to 1.
+    pub walk: Option<(Arc<WeakestWalk>, f64)>,
 }
 
 impl Results {
-    const NONE: Self = Self { shown_fit: None, model_comparison: Vec::new(), diagnostics: Diagnostics::NONE };
+    const NONE: Self =
+        Self { shown_fit: None, model_comparison: Vec::new(), diagnostics: Diagnostics::NONE, posterior: None, plan: None, walk: None };
 }
 
 /// The results by the number of the measurement; those of a closed one wait for undo.

@@ -13,13 +13,17 @@ pub type Place = (f64, f64);
 type Edge = (usize, bool);
 
 /// Heights at nodes, row by row.
+#[derive(Debug, Clone, Copy)]
 pub struct Heights<'a> {
+    /// Row by row from the lowest.
     pub values: &'a [f64],
+    /// Nodes of a row.
     pub columns: usize,
 }
 
 impl Heights<'_> {
     /// The lines at that height.
+    #[must_use]
     pub fn lines(&self, level: f64) -> Vec<Vec<Place>> {
         let rows = self.values.len() / self.columns.max(1);
         let mut neighbours: HashMap<Edge, Vec<Edge>> = HashMap::new();
