@@ -509,11 +509,9 @@ fn numbers(text: &str) -> Vec<String> {
     // Ends of a range are two numbers.
     for c in text.replace("..", " ").chars() {
         let last = all.last_mut().expect("one is there");
-        if c.is_ascii_digit() || (c == '.' && !last.is_empty()) {
-            last.push(c);
-        } else if c == 'e' && last.chars().any(|c| c.is_ascii_digit()) {
-            last.push(c);
-        } else if c == '-' && last.ends_with('e') {
+        let is_mantissa = c.is_ascii_digit() || (c == '.' && !last.is_empty());
+        let is_exponent = c == 'e' && last.chars().any(|c| c.is_ascii_digit());
+        if is_mantissa || is_exponent || (c == '-' && last.ends_with('e')) {
             last.push(c);
         } else if !last.is_empty() {
             all.push(String::new());

@@ -428,7 +428,12 @@ fn the_next_gain_is_what_the_errors_say() {
     for candidate in (0..choice.grid.len()).step_by(7) {
         let after = errors(first.iter().copied().chain([choice.grid.geometry(candidate).expect("a candidate")]).collect());
         // What is there before any reading is 1e-9 of all; the given readings tell 1e-4 of it in their weakest direction.
-        assert!((of_two[candidate] - (before / after).ln()).abs() < 1e-3, "{candidate}: {} {}", of_two[candidate], (before / after).ln());
+        assert!(
+            (of_two[candidate] - libm::log(before / after)).abs() < 1e-3,
+            "{candidate}: {} {}",
+            of_two[candidate],
+            libm::log(before / after)
+        );
         assert!(of_all[candidate] >= 0.0);
     }
     // The reading that gains most by the determinant is the one that a choice of one more takes.

@@ -160,11 +160,8 @@ fn cell(panel: &Panel, outer: Frame, font: &Font) -> Cell {
     let y = Ruled::new(&panel.y, crate::figure::range::y(panel), most(height, 20.0, 3.0));
     let y_label = if panel.y.title().is_empty() { 0.0 } else { LABEL + GAP };
     let left = y_label + y.label_width(font).min(WIDEST_LABELS * outer.width) + TICK + 2.0 * GAP;
-    let color = panel
-        .heat_map()
-        .filter(|_| panel.legend)
-        .map(|map| Ruled::new(&map.color_axis, crate::figure::range::color(map), most(height, 20.0, 3.0)));
-    let bar = color.as_ref().map_or(0.0, |color| {
+    let color = panel.heat_map().map(|map| Ruled::new(&map.color_axis, crate::figure::range::color(map), most(height, 20.0, 3.0)));
+    let bar = color.as_ref().filter(|_| panel.legend).map_or(0.0, |color| {
         let label = panel.heat_map().map_or(0.0, |map| if map.color_axis.title().is_empty() { 0.0 } else { LABEL + GAP });
         2.0 * GAP + COLOR_BAR + TICK + GAP + color.label_width(font) + label
     });

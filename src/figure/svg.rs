@@ -71,7 +71,7 @@ fn draw_panel(canvas: &mut Canvas<'_>, panel: &Panel, placed: &Placed) {
     canvas.path(&rectangle(frame.left, frame.top, frame.width, frame.height), Paint::Stroke(INK, 0.7, None));
     draw_x_axis(canvas, panel, placed);
     draw_y_axis(canvas, &placed.y, &panel.y.title(), &frame, false);
-    if let (Some(map), Some(bar)) = (heat_map, &placed.color_bar) {
+    if let (Some(map), Some(bar)) = (heat_map.filter(|_| panel.legend), &placed.color_bar) {
         draw_color_bar(canvas, &bar.frame, map);
         let frame = bar.frame;
         canvas.path(&rectangle(frame.left, frame.top, frame.width, frame.height), Paint::Stroke(INK, 0.7, None));

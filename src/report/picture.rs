@@ -118,7 +118,6 @@ pub fn picture_figure(title: String, map: HeatMap) -> Figure {
         x: Axis::linear("x", "").between(-1.0, 1.0),
         y: Axis::linear("y", "").between(-1.0, 1.0),
         series: vec![Series::heat_map(map)],
-        legend: false,
         equal_aspect: true,
         ..Panel::default()
     };

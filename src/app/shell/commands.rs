@@ -252,7 +252,7 @@ static ENTRIES: &[Entry] = &[
         |app| only_if(app.jobs.fits.compare.is_running())),
     row(Action::Inquire(InquiryAction::Walk(GeodesicWay::Nearer)), Menu::Fit, "Follow the weakest direction", "Sliders move from the fit along the direction that the data determine least",
         None, |app| only_if(app.work.shown_fit().is_some())),
-    row(Action::Inquire(InquiryAction::DrawPosterior), Menu::Fit, "Draw from the posterior", "All surfaces that the data allow, in the pane Posterior", plain(Key::F6),
+    row(Action::Inquire(InquiryAction::DrawPosterior), Menu::Fit, "Draw from the posterior", "All surfaces that the data allow, in the pane Posterior", plain(Key::F7),
         |app| only_if(!app.jobs.posteriors.draw.is_running())),
     row(Action::Inquire(InquiryAction::CancelPosterior), Menu::Fit, "Stop drawing", "What is drawn so far is shown", None,
         |app| only_if(app.jobs.posteriors.draw.is_running())),
@@ -478,36 +478,4 @@ fn is_of_page(action: &Action) -> bool {
         Action::ShowPane(pane) => !matches!(pane, PaneId::ErrorVsTime | PaneId::Stability | PaneId::Cost),
         _ => true,
     }
-}
-
-/// The command whose keys are pressed, if it is possible now.
-pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
-    let any_key = ctx.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Key { pressed: true, .. })));
-    if !any_key {
-        return None;
-    }
-    if app.work.can_redo() && ctx.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Y)) {
-        // As other programs have it.
-        return Some(Action::Redo);
-    }
-    let mut items = items(app);
-    // Escape leaves what lies above first, and is nobody's while there is nothing to dismiss.
-    let is_covered = ctx.memory(|memory| memory.top_modal_layer().is_some()) || egui::Popup::is_any_open(ctx);
-    items.retain(|item| item.action != Action::DismissToasts || (item.status == Availability::Possible && !is_covered));
-    // The longer shortcut first: egui takes the shorter one for a part of it.
-    items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
-    let hit = |item: &Command| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));
-    let Some(item) = items.iter().find(|item| hit(item)) else {
-        let leaves = !is_covered && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-        return leaves.then(|| leaving_stage(app)).flatten();
-    };
-    (item.status != Availability::Impossible).then(|| item.action.clone())
-}
-
-/// What Escape does where nothing else wants it.
-fn leaving_stage(app: &App) -> Option<Action> {
-    if app.dock.is_presented() {
-        return Some(Action::Present);
-    }
-    app.dock.on_screen().first().filter(|_| app.dock.is_filled()).map(|pane| Action::FillWindow(*pane))
 }

@@ -21,6 +21,7 @@ mod persistence;
 mod presentation;
 mod readout_ui;
 pub mod room;
+mod shortcuts;
 mod stage;
 mod status_bar;
 mod theme;

@@ -60,7 +60,7 @@ fn it_is_coarser_while_a_slider_is_dragged() {
 fn nothing_is_computed_off_screen() {
     let mut harness = shown();
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Landscape));
     wait(&mut harness);
     explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
     wait(&mut harness);
@@ -85,7 +85,7 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
             }
         };
         assert!(running(&mut harness), "{pane:?}");
-        explorer(&mut harness).actions.push(Action::ShowPane(pane));
+        explorer(&mut harness).actions.push(Action::ClosePane(pane));
         harness.step();
         assert!(!running(&mut harness), "{pane:?}");
         explorer(&mut harness).actions.push(Action::ShowPane(pane));

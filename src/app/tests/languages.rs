@@ -98,6 +98,7 @@ const SAME: &[&str] = &[
     "sigma_v",
     "sigma",
     "theta",
+    "arcsin",
     "tan",
     "sin",
     "exp",
@@ -125,15 +126,16 @@ const SAME: &[&str] = &[
     "booktabs",
     "Levenberg",
     "HTML",
+    "Cauchy",
 ];
 
 /// Whether something in it is English: an entry of the literature, which has its year, is not
 /// translated.
 pub(crate) fn is_english(text: &str) -> bool {
     let has_year = text.as_bytes().windows(4).any(|digits| digits.iter().all(u8::is_ascii_digit));
-    // One that is cut before its year begins with initials, or stands in a bracket that does not
+    // One that is cut before its year begins with initials or its number, or stands in a bracket that does not
     // close.
-    let is_cut = text.ends_with('…') && (text.as_bytes().get(1) == Some(&b'.') || text.contains('（'));
+    let is_cut = text.ends_with('…') && (matches!(text.as_bytes().get(1), Some(b'.' | b')')) || text.contains('（'));
     // Models go by their keys beside the name of a measurement.
     let is_key = |text: &str| PRESETS.iter().any(|preset| preset.key == text);
     let text = match text.rsplit_once(" · ").or_else(|| text.rsplit_once(", ")) {

@@ -77,7 +77,7 @@ const TITLES: [(PaneId, &[&str]); 15] = [
 #[test]
 fn every_pane_with_a_plot_exports_it_with_the_titles_of_its_axes() {
     // Tables and text.
-    let without = [PaneId::Data, PaneId::Planner, PaneId::Models, PaneId::Results];
+    let without = [PaneId::Data, PaneId::Models, PaneId::Results];
     assert!(PaneId::ALL.iter().all(|pane| spec(*pane).has_figure != without.contains(pane)));
     let mut harness = harness();
     order(&mut harness, Action::StartFit);

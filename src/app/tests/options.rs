@@ -142,7 +142,7 @@ fn a_click_in_the_history_returns_to_a_fit() {
     explorer(&mut harness).work.surface_mut().set_bounds(Parameter::K, 1.0, 1.5).expect("sound bounds");
     fit(&mut harness);
     assert_ne!(explorer(&mut harness).work.surface().parameters, first);
-    harness.get_by_label("History of fits (2)").click();
+    harness.get_by_label("History of fits (2)").click_accesskit();
     // The list unfolds, while the intervals of the fit are being found.
     harness.run_steps(30);
     harness.get_by_label("1. 45# steel (simulated) · cauchy").click_accesskit();

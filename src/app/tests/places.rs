@@ -27,7 +27,8 @@ fn bar(harness: &Harness<'static, Option<App>>, tab: egui::Rect) -> egui::Rangef
     };
     let left = beside("Scroll tabs left").iter().map(egui::Rect::right).fold(366.0, f32::max);
     let right = ["Scroll tabs right", "Show in "].into_iter().flat_map(beside);
-    egui::Rangef::new(left, right.map(|rect| rect.left()).fold(960.0, f32::min))
+    let panel = harness.get_by_role_and_label(egui::accesskit::Role::Button, "Fit").rect().left();
+    egui::Rangef::new(left, right.map(|rect| rect.left()).fold(panel, f32::min))
 }
 
 #[test]

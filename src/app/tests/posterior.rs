@@ -251,6 +251,7 @@ fn readings_are_chosen_and_what_cannot_be_reached_is_said() {
     assert_eq!((plan.lines().count(), plan.lines().next()), (13, Some("theta_i,theta_r,dphi,dolp")));
     // A click takes a reading out, or adds one.
     let map = harness.get_by_label_contains("Map: what the next reading would gain").rect();
+    assert!(map.width() > 150.0, "{map:?}");
     click_at(&mut harness, map.center());
     assert!(explorer(&mut harness).work.settings().design.readings.len().abs_diff(12) == 1);
     assert!(explorer(&mut harness).figure(PaneId::Planner).is_some());

@@ -81,7 +81,7 @@ fn every_case_of_the_gallery_can_be_drawn() {
     let count = explorer(&mut harness).benchmarks.stability.as_ref().expect("a report").report.rows.len();
     for index in 0..count {
         explorer(&mut harness).actions.push(Action::UseCase(index));
-        harness.run();
+        wait(&mut harness);
         // Some stand outside the sliders' ranges and none outside the domain.
         assert_eq!(explorer(&mut harness).derived.fault(), None);
     }

@@ -132,7 +132,7 @@ fn fits_of_a_comparison_are_fits() {
 #[test]
 fn the_history_names_file_model_and_values_and_a_click_brings_them_back() {
     let mut harness = with_two_fits();
-    harness.get_by_label("History of fits (2)").click();
+    harness.get_by_label("History of fits (2)").click_accesskit();
     wait(&mut harness);
     let entry = explorer(&mut harness).work.fit_history().get(1, 0).expect("the first fit");
     let n = crate::report::bracketed(entry.report.estimate(Parameter::N).expect("an estimate"));

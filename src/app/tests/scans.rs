@@ -15,7 +15,7 @@ fn fitted() -> Harness<'static, Option<App>> {
     explorer(&mut harness).work.surface_mut().locked = locked;
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
-    harness.get_by_label("Profile and bootstrap").click();
+    harness.get_by_label("Profile and bootstrap").click_accesskit();
     harness.run();
     harness
 }
@@ -49,7 +49,7 @@ fn a_profile_is_scanned_and_its_interval_told() {
 #[test]
 fn a_bootstrap_stands_beside_the_standard_errors() {
     let mut harness = fitted();
-    harness.get_by_label("Bootstrap").click();
+    harness.get_by_label("Bootstrap").click_accesskit();
     harness.step();
     wait(&mut harness);
     let fit = explorer(&mut harness).work.shown_fit().cloned().expect("a fit");
@@ -70,10 +70,10 @@ fn a_bootstrap_stands_beside_the_standard_errors() {
 fn a_scan_is_stopped_and_one_of_another_fit_is_dropped() {
     let mut harness = fitted();
     explorer(&mut harness).work.apply(Edit::SetReplicates(100_000));
-    harness.get_by_label("Bootstrap").click();
+    harness.get_by_label("Bootstrap").click_accesskit();
     harness.step();
     harness.step();
-    harness.get_by_label("Stop the scan").click();
+    harness.get_by_label("Stop the scan").click_accesskit();
     harness.step();
     wait(&mut harness);
     let stopped = explorer(&mut harness).work.diagnostics().scatter.as_ref().expect("what was there is kept");

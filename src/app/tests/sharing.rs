@@ -163,7 +163,7 @@ fn fit_fits_all_measurements_together_where_they_share_something() {
     assert_eq!(fit.report.parameters.n, n[0]);
     assert_eq!(fit.report.course.intervals_complete, Some(true));
     harness.get_by_label("3 measurements");
-    harness.get_by_label_contains("History of fits (1)").click();
+    harness.get_by_label_contains("History of fits (1)").click_accesskit();
     harness.run();
     harness.get_by_label_contains("3 together");
     activate(&mut harness, "red.csv");

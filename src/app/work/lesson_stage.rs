@@ -7,6 +7,7 @@ use crate::app::work::surface::{Surface, another, sigma_of_equal_median};
 use crate::report::PictureQuantity;
 use pbrdf::measurement::{Columns, Measurement, Simulation};
 use pbrdf::model::{DolpFormula, Model, Parameter, Parameters, Pbrdf, Preset, Shape, assignment_from_text, assignments_from_text};
+use tr::tr;
 
 /// What a step shows besides its sliders; what is not set stays as it is.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -237,7 +238,7 @@ impl LessonSimulation {
 
     /// What it is called in the list.
     pub fn name(&self) -> String {
-        format!("simulated, seed {}, {} × {}", self.seed, self.theta_i.len(), self.theta_r.len())
+        tr!("simulated, seed {0}, {1} × {2}", self.seed, self.theta_i.len(), self.theta_r.len())
     }
 }
 

@@ -87,6 +87,7 @@ fn markdown(text: &str) -> Result<Vec<LessonEntry>, LessonError> {
             is_open = false;
         } else if trimmed == HEAD && part != Part::Steps {
             part = if part == Part::BeforeHead { Part::Head } else { Part::Steps };
+            is_open = false;
         } else if let Some(entry) = entry_of(trimmed, line, &part) {
             entries.push(entry);
             is_open = true;

@@ -14,9 +14,12 @@ pub struct WeakestWalk {
     pub geodesic: Geodesic<JointUnknown, Vec<Parameters>>,
 }
 
+/// A point of the way, and its share of a place beside it.
+type Weighted<'a> = (&'a GeodesicPoint<Vec<Parameters>>, f64);
+
 impl WeakestWalk {
     /// The two points around a share, 0 to 1, of the way, and where it lies between them.
-    fn around(&self, share: f64) -> Option<[(&GeodesicPoint<Vec<Parameters>>, f64); 2]> {
+    fn around(&self, share: f64) -> Option<[Weighted<'_>; 2]> {
         let points = &self.geodesic.points;
         let length = share.clamp(0.0, 1.0) * points.last()?.length;
         let after = points.partition_point(|point| point.length < length).min(points.len() - 1);

@@ -80,7 +80,7 @@ mod tests {
             (odds.text(), odds.grade())
         };
         assert_eq!(of(10.0, 9.5), ("1.6 : 1".to_owned(), OddsGrade::NotWorthMention));
-        assert_eq!(of(9.0, 10.0 + 12.0_f64.ln() - 1.0), ("12 : 1".to_owned(), OddsGrade::Positive));
+        assert_eq!(of(9.0, 10.0 + libm::log(12.0) - 1.0), ("12 : 1".to_owned(), OddsGrade::Positive));
         assert_eq!(of(4.0, 0.0), ("55 : 1".to_owned(), OddsGrade::Strong));
         assert_eq!(of(50.0, 0.0), ("10^22 : 1".to_owned(), OddsGrade::VeryStrong));
         let rough = Odds { log: 3.0, std_error: 2.0 };

@@ -10,7 +10,7 @@ use crate::app::shell::app::job_results::poll_jobs;
 use crate::app::shell::app::open::{open_waiting, reopen_if_asked};
 use crate::app::shell::app::title::show_title;
 use crate::app::shell::app::walk::walk_on;
-use crate::app::shell::commands;
+use crate::app::shell::shortcuts;
 use crate::app::text::i18n;
 use crate::app::views::action::{Action, InquiryAction};
 use crate::app::views::pointed_theta_r;
@@ -92,7 +92,7 @@ fn listen_to_keys(app: &mut App, ctx: &egui::Context) {
     if app.jobs.fits.walking_since.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         app.actions.push(Action::Inquire(InquiryAction::CancelWalk));
     }
-    app.actions.extend(commands::pressed(app, ctx));
+    app.actions.extend(shortcuts::pressed(app, ctx));
     let text = |event: &egui::Event| if let egui::Event::Paste(text) = event { Some(text.clone()) } else { None };
     let pasted = ctx.input(|input| input.events.iter().find_map(text));
     app.actions.extend(pasted.map(Action::PasteParameters));

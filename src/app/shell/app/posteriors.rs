@@ -25,22 +25,22 @@ pub fn start_posterior(app: &mut App) -> Result<(), String> {
     let list = app.work.measurements();
     let (of, from) = if is_joint(list) {
         let problem = joint_problem(list, ParameterSet::EMPTY, fit_options).map_err(|error| cannot_begin(&error.localized()))?;
-        let (posterior, from) = posterior(app, problem, list.measured().collect())?;
+        let (posterior, from) = posterior(app, &problem, &list.measured().collect::<Vec<_>>())?;
         (PosteriorOf::Joint(posterior), from)
     } else {
-        let (posterior, from) = posterior(app, problem_of(app, list.active())?, vec![list.active()])?;
+        let (posterior, from) = posterior(app, &problem_of(app, list.active())?, &[list.active()])?;
         (PosteriorOf::One(posterior), from)
     };
     app.jobs.posteriors.draw(of, from, starts)
 }
 
 /// The posterior of a problem, and what is to be remembered of it.
-fn posterior<P: PosteriorProblem>(app: &App, problem: P, about: Vec<&OpenMeasurement>) -> Result<(Box<Posterior<P>>, DrawnFrom), String> {
+fn posterior<P: PosteriorProblem>(app: &App, problem: &P, about: &[&OpenMeasurement]) -> Result<(Box<Posterior<P>>, DrawnFrom), String> {
     let settings = app.work.settings();
     let unknown = |name: &P::Name| JointUnknown { parameter: name.parameter(), set: name.set().map(Arc::from) };
     let free: Vec<JointUnknown> = problem.names().iter().map(unknown).collect();
     let prior_options = settings.panes.posterior.priors_of(&free);
-    let posterior = Posterior::new(&problem, &prior_options, settings.panes.posterior.settings(settings.seed));
+    let posterior = Posterior::new(problem, &prior_options, settings.panes.posterior.settings(settings.seed));
     let posterior = posterior.map_err(|error| cannot_begin(&error.localized()))?;
     let from = DrawnFrom {
         numbers: about.iter().map(|open| open.number).collect(),

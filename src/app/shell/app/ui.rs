@@ -98,7 +98,7 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     let has_parameters = app.window.panels.parameters;
     if width < NARROW {
         if has_parameters || has_fit {
-            let panel = Panel::left("side").resizable(false).exact_size(PARAMETERS.min(half));
+            let panel = Panel::left("side").resizable(false).exact_size(PARAMETERS.min(half - FRAME));
             panel.show(ui, |ui| {
                 let is_fit = if has_parameters && has_fit { front_ui(app, ui) == SidePanel::Fit } else { has_fit };
                 if is_fit { panels::fit_ui(&mut app.split().0, ui) } else { parameters_ui(app, ui) }

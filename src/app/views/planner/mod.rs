@@ -79,9 +79,12 @@ impl View for PlannerView {
         let (before, document) = (&cx.work.settings().design, cx.work.active());
         let mut design = before.clone();
         ScrollArea::both().auto_shrink([false; 2]).show(ui, |ui| {
-            if ui.available_width() > SIDE_BY_SIDE {
+            let width = ui.available_width();
+            if width > SIDE_BY_SIDE {
                 ui.horizontal_top(|ui| {
                     ui.vertical(|ui| {
+                        // Sentences would take all of the width.
+                        ui.set_max_width(0.45 * width);
                         plan::plan_ui(&mut design, cx, ui);
                         ui.separator();
                         angles::angles_ui(&mut design, document, ui);

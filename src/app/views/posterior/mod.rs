@@ -199,7 +199,7 @@ impl PosteriorView {
 
     /// The corner plot; the values of the draw next to a click, by the numbers of the measurements.
     fn corner_ui(&mut self, drawn: &DrawnPosterior, height: f32, ui: &mut Ui) -> Option<Vec<(u64, Parameters)>> {
-        let Some(corner) = self.corner.get() else { return None };
+        let corner = self.corner.get()?;
         let count = corner.shown.len();
         if count == 0 {
             return None;
