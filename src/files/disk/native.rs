@@ -1,9 +1,11 @@
 //! The files of the system.
 
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::io;
-use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::path::Path;
+use std::time::SystemTime;
+#[cfg(feature = "gui")]
+use std::{fs::TryLockError, path::PathBuf, time::UNIX_EPOCH};
 
 pub use std::fs::File as OpenedFile;
 
