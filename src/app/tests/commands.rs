@@ -172,7 +172,8 @@ fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
         harness.run();
     };
     open(&mut harness, "export");
-    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 7 + SheetForm::ALL.len() + plots().count());
+    // Seven that are always there, and the plot of the posterior, which is none of those of `plots`.
+    assert_eq!(harness.query_all_by_label_contains("Export › ").count(), 8 + SheetForm::ALL.len() + plots().count());
     harness.key_press(Key::Escape);
     harness.run();
     open(&mut harness, "");
