@@ -270,7 +270,7 @@ mod tests {
         let problem = Fit::new(&data, Model::CAUCHY).problem().unwrap();
         let manifold = Manifold::new(&problem, problem.unknowns_of(&STEEL), (0..problem.names().len()).collect());
         let u = manifold.start();
-        let heading = DVector::from_iterator(u.len(), (0..9).map(|i| libm::sin(1.0 + 3.0 * f64::from(i)))).normalize();
+        let heading = DVector::from_iterator(u.len(), (0_u32..).map(|i| libm::sin(1.0 + 3.0 * f64::from(i))).take(u.len())).normalize();
         let acceleration = manifold.acceleration(&u, &heading).unwrap();
         // Second difference of the residuals along a straight line, and what the acceleration adds: the sum is at right angles to the surface.
         let h = 1e-4;
