@@ -103,19 +103,19 @@ fn a_path_can_be_typed_into_the_menu_after_a_click() {
     let path = file(&folder, "typed.csv", "theta_i,theta_r,dolp\n30,20,0.1\n30,40,0.2\n");
     let mut harness = harness();
     harness.get_by_label("File").click();
-    harness.run();
+    harness.run_steps(8);
     let label = "Type a path to open and press Enter:";
     let field = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).rect().center();
     harness.hover_at(field);
-    harness.run();
+    harness.run_steps(8);
     harness.drag_at(field);
-    harness.run();
+    harness.run_steps(8);
     harness.drop_at(field);
-    harness.run();
+    harness.run_steps(8);
     harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).type_text(&path.display().to_string());
-    harness.run();
+    harness.run_steps(8);
     harness.key_press(egui::Key::Enter);
-    harness.run();
+    harness.run_steps(8);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.active().name, "typed.csv");
 }
