@@ -67,6 +67,9 @@ fn harness() -> Harness<'static, Option<App>> {
     harness_of(SettingsFile::default())
 }
 
+/// Frames in which a window comes to rest: an autosave or a job that ends asks for some more.
+const STEPS: u64 = 16;
+
 fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
     let frame = move |screen: &mut egui::Ui, state: &mut Option<App>| {
         let explorer = state.get_or_insert_with(|| {
@@ -77,7 +80,7 @@ fn harness_of(stored: SettingsFile) -> Harness<'static, Option<App>> {
         logic(explorer, &screen.ctx().clone());
         ui(explorer, screen);
     };
-    let mut harness = Harness::builder().with_size(egui::vec2(1280.0, 800.0)).build_ui_state(frame, None);
+    let mut harness = Harness::builder().with_max_steps(STEPS).with_size(egui::vec2(1280.0, 800.0)).build_ui_state(frame, None);
     harness.run();
     harness
 }
