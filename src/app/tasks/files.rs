@@ -352,7 +352,7 @@ fn alike(of: &Path, shape: &TableShape, without: &WithoutFiles, context: &JobCon
         if context.is_cancelled() {
             break;
         }
-        let file = open_file(&path).ok().filter(|file| file.metadata().is_ok_and(|data| data.len() <= MOST_BYTES_OF_ALIKE));
+        let file = open_file(&path).ok().filter(|file| disk::length(file).is_some_and(|bytes| bytes <= MOST_BYTES_OF_ALIKE));
         let Some(mut source) = file.map(Hashing::new) else { continue };
         let bytes = import::bytes_of(&mut source, None, &mut progress).ok();
         let bytes = bytes.filter(|_| !without.sha256.contains(&source.finish()));
