@@ -119,6 +119,9 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
     let own = fit.joint.as_ref().map(|part| part.of.problem.own());
     let is_own = |estimate: &&Estimate| own.is_none_or(|own| own.contains(estimate.parameter));
     let is_final = report.course.intervals_complete.is_some();
+    // The intervals come first: in a narrow panel the start is told where the pointer rests on the value.
+    let with_start = ui.available_width() > WITH_START;
+    let row = |estimate: &Estimate, ui: &mut Ui| estimate_ui(estimate, bootstrap, is_final, with_start, ui);
     Grid::new("fit result").num_columns(5).spacing([12.0, 4.0]).striped(true).min_col_width(44.0).show(ui, |ui| {
         ui.label("");
         for (heading, help) in [
@@ -128,27 +131,36 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
                 "± (68.3 %)",
                 "The interval at 68.3 % by profile likelihood, or why there is none; grey: the linear error, until that interval is there",
             ),
-        ] {
+        ]
+        .into_iter()
+        .filter(|(heading, _)| with_start || *heading != "start")
+        {
             ui.strong(translated(heading)).on_hover_text(translated(help));
         }
         if let Some(bootstrap) = bootstrap {
             ui.strong(tr!("± boot")).on_hover_text(bootstrap_help(bootstrap));
         }
         ui.end_row();
-        report.estimates.iter().filter(is_own).for_each(|estimate| estimate_ui(estimate, bootstrap, is_final, ui));
+        report.estimates.iter().filter(is_own).for_each(|estimate| row(estimate, ui));
         let mut shared = report.estimates.iter().filter(|estimate| !is_own(estimate)).peekable();
         if shared.peek().is_some() {
             ui.weak(tr!("shared")).on_hover_text(tr!("One value for all measurements of the fit"));
             ui.end_row();
         }
-        shared.for_each(|estimate| estimate_ui(estimate, bootstrap, is_final, ui));
+        shared.for_each(|estimate| row(estimate, ui));
     });
 }
 
-fn estimate_ui(estimate: &Estimate, bootstrap: Option<&Bootstrap>, is_final: bool, ui: &mut Ui) {
+/// Width of the panel in points from which a column of starts does not cut the intervals off.
+const WITH_START: f32 = 300.0;
+
+fn estimate_ui(estimate: &Estimate, bootstrap: Option<&Bootstrap>, is_final: bool, with_start: bool, ui: &mut Ui) {
     ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
-    ui.monospace(significant(estimate.start));
-    ui.monospace(estimate.value_text()).on_hover_text(significant(estimate.value));
+    if with_start {
+        ui.monospace(significant(estimate.start));
+    }
+    let exact = tr!("{0}; start {1}", significant(estimate.value), significant(estimate.start));
+    ui.monospace(estimate.value_text()).on_hover_text(exact);
     uncertainty_ui(estimate, is_final, ui);
     let scatter = bootstrap.and_then(|bootstrap| bootstrap.estimates.iter().find(|scatter| scatter.parameter == estimate.parameter));
     if let Some(scatter) = scatter {
