@@ -93,6 +93,6 @@ fn row(plan: &Plan, table: &[u8], observer: Observer<'_>) -> Option<RowOrError> 
     if result.stop_reason == StopReason::Cancelled || (observer.cancelled)() {
         return None;
     }
-    let used = measurement.rows.iter().filter(|row| !row.masked).count();
+    let used = measurement.used_rows();
     Some((result.row(used).into_iter().map(value).collect(), String::new()))
 }

@@ -5,7 +5,7 @@ use crate::cli::batch_table::{BatchTable, FileRows, KEYS};
 use crate::cli::failure::Failure;
 use crate::cli::output::{Progress, exit_code, notice};
 use crate::cli::problem::{NoProblem, check_once, described, fitted, model, notice_strangers};
-use crate::cli::sets::{MeasurementSets, NamedMeasurement};
+use crate::cli::sets::{MeasurementSets, NamedMeasurement, file_name};
 use crate::cli::{input, interrupt};
 use crate::files::export;
 use pbrdf::fit::{Fit, Observer, StopReason, on_one_thread, row_columns, thread_count};
@@ -254,14 +254,10 @@ impl Batch<'_> {
         if result.stop_reason == StopReason::Cancelled || interrupt::asked() {
             return None;
         }
-        let rows = measurement.rows.iter().filter(|row| !row.masked).count();
+        let rows = measurement.used_rows();
         let cells = result.row(rows).iter().map(ToString::to_string).collect::<Vec<_>>();
         Some(cells.into_iter().chain([input::notices(measurement).join("; "), String::new()]).collect())
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 #[cfg(test)]

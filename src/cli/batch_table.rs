@@ -1,7 +1,7 @@
 //! The table of `fit --batch`: rows are appended as they come, so that a run that was killed goes on where it was; at the end they stand in
 //! the order of the files.
 //!
-//! Above the header, comment lines hold the program, and a hash of the options: rows of other options are not mixed in. The rows of a file
+//! Above the header, comment lines hold the program and the options: rows of other options are not mixed in. The rows of a file
 //! are written at once, and the file counts as done where all of them are there and its content is still the same.
 
 use crate::cli::failure::Failure;

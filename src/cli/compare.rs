@@ -77,7 +77,7 @@ fn json_of(sets: &MeasurementSets, set: &NamedMeasurement, results: &[ModelResul
 
 /// The fits of a measurement as columns of a table.
 fn columns(sets: &MeasurementSets, set: &NamedMeasurement, results: &[ModelResult]) -> Vec<ResultColumn> {
-    let rows = set.measurement.rows.iter().filter(|row| !row.masked).count();
+    let rows = set.measurement.used_rows();
     let title = |preset: &Preset| if sets.all.len() > 1 { format!("{}, {}", set.name, preset.key) } else { preset.key.to_owned() };
     let fits = results.iter().filter_map(|(preset, result)| Some((preset, &result.as_ref().ok()?.1)));
     fits.map(|(preset, fit)| ResultColumn::single(title(preset), fit, rows)).collect()

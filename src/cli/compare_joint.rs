@@ -25,7 +25,7 @@ pub fn run(arguments: &CompareArguments, sets: &MeasurementSets) -> Result<ExitC
     let presets: Vec<&'static Preset> = if arguments.models.is_empty() { PRESETS.iter().collect() } else { arguments.models.clone() };
     let results = results(&presets, arguments, sets)?;
     let is_complete = !interrupt::asked();
-    let rows: Vec<usize> = sets.all.iter().map(|set| set.measurement.rows.iter().filter(|row| !row.masked).count()).collect();
+    let rows: Vec<usize> = sets.all.iter().map(|set| set.measurement.used_rows()).collect();
     write_figure(arguments.figure.as_deref(), || figure(sets, &results))?;
     if arguments.json {
         let sources: Vec<(String, usize)> =

@@ -64,7 +64,7 @@ fn run_single(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCo
         add_scans(&mut json, &profiles, scatter.as_ref());
         output::write_json(&json)?;
     } else if let Some(format) = arguments.table {
-        let rows = measurement.rows.iter().filter(|row| !row.masked).count();
+        let rows = measurement.used_rows();
         let table = ResultTable { columns: vec![ResultColumn::single(sets.all[0].name.clone(), &report, rows)] };
         output::write(None, |out| write!(out, "{}", table.text(format, &English)))?;
     } else {
@@ -93,7 +93,7 @@ fn write_documents(
 
 /// The report for a person.
 fn print(out: &mut dyn Write, arguments: &FitArguments, measurement: &Measurement, report: &FitResult) -> io::Result<()> {
-    let used = measurement.rows.iter().filter(|row| !row.masked).count();
+    let used = measurement.used_rows();
     writeln!(
         out,
         "{}: {used} of {} rows, model {} ({})",

@@ -39,7 +39,7 @@ pub fn run(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode,
     write_documents(arguments, sets, &problem, &result)?;
     if arguments.json {
         let sources: Vec<(String, usize)> =
-            sets.all.iter().map(|set| (sets.path(set).display().to_string(), used(&set.measurement))).collect();
+            sets.all.iter().map(|set| (sets.path(set).display().to_string(), set.measurement.used_rows())).collect();
         let mut json = joint_json(arguments.model, &result, &sources);
         if is_cut_short(result.stop_reason, &result.course) {
             json["complete"] = json!(false);
@@ -48,7 +48,7 @@ pub fn run(arguments: &FitArguments, sets: &MeasurementSets) -> Result<ExitCode,
         output::write_json(&json)?;
     } else if let Some(format) = arguments.table {
         let column =
-            |(index, set): (usize, &NamedMeasurement)| ResultColumn::of_set(set.name.clone(), &result, index, used(&set.measurement));
+            |(index, set): (usize, &NamedMeasurement)| ResultColumn::of_set(set.name.clone(), &result, index, set.measurement.used_rows());
         let table = ResultTable { columns: sets.all.iter().enumerate().map(column).collect() };
         output::write(None, |out| write!(out, "{}", table.text(format, &English)))?;
     } else {
@@ -88,11 +88,6 @@ fn write_documents(arguments: &FitArguments, sets: &MeasurementSets, problem: &J
     write_figure(arguments.figure.as_deref(), || fitted.figure())
 }
 
-/// Number of rows that are not masked.
-fn used(measurement: &Measurement) -> usize {
-    measurement.rows.iter().filter(|row| !row.masked).count()
-}
-
 /// All rows with the fitted columns beside them: the table itself where there is one file, else all in one table with a column `set`.
 fn write_fitted(arguments: &FitArguments, sets: &MeasurementSets, result: &JointResult) -> Result<(), Failure> {
     let Some(path) = &arguments.output else { return Ok(()) };
@@ -127,7 +122,7 @@ fn print(
     let own = result.model.parameters().intersection(problem.own());
     let own = if own.is_empty() { "all parameters shared".to_owned() } else { format!("own {}", keys(own)) };
     let (used, all) =
-        sets.all.iter().fold((0, 0), |(used, all), set| (used + self::used(&set.measurement), all + set.measurement.rows.len()));
+        sets.all.iter().fold((0, 0), |(used, all), set| (used + set.measurement.used_rows(), all + set.measurement.rows.len()));
     writeln!(
         out,
         "{} measurements: {used} of {all} rows, model {} ({}), {own}",
@@ -144,7 +139,7 @@ fn print(
     let width = sets.all.iter().map(|set| set.name.chars().count()).max().unwrap_or(0).max(NAME_WIDTH);
     writeln!(out, "\n{:<width$} {:>8} {:>14}", "", "rows", "ΔE")?;
     for (set, fitted) in sets.all.iter().zip(&result.sets) {
-        writeln!(out, "{:<width$} {:>8} {:>14}", set.name, self::used(&set.measurement), number(fitted.objective))?;
+        writeln!(out, "{:<width$} {:>8} {:>14}", set.name, set.measurement.used_rows(), number(fitted.objective))?;
     }
     if is_cut_short(result.stop_reason, &result.course) {
         return print_cut_short(out);

@@ -62,6 +62,12 @@ impl Measurement {
         self.rows.iter().any(|row| row.brdf.is_some())
     }
 
+    /// Number of rows that are not masked.
+    #[must_use]
+    pub fn used_rows(&self) -> usize {
+        self.rows.iter().filter(|row| !row.masked).count()
+    }
+
     /// Whether every value that is not masked comes with its standard deviation.
     #[must_use]
     pub fn states_sigmas(&self) -> bool {
