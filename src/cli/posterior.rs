@@ -10,8 +10,7 @@ use crate::cli::watched::Watched;
 use crate::cli::{interrupt, output};
 use crate::report::write_draws;
 use pbrdf::fit::posterior::{
-    Convergence, DerivedQuantity, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict,
-    SampleOf,
+    DerivedQuantity, MarginalSummary, NoiseQuantiles, Posterior, PosteriorProblem, PosteriorSettings, PosteriorVerdict, SampleOf,
 };
 use pbrdf::fit::{Intervals, Loss, Observer, Starts, UnknownName, Weights, fit, fit_jointly};
 use pbrdf::model::Parameters;
@@ -82,9 +81,8 @@ fn draw<P: PosteriorProblem>(
     if let Some(path) = &arguments.output {
         output::write(Some(path), |out| write_draws(out, &sample))?;
     }
-    let summaries: Vec<(P::Name, MarginalSummary)> =
-        sample.parameters.iter().map(|parameter| (parameter.clone(), sample.summary(parameter))).collect();
-    let verdict = verdict::<P>(&sample, &summaries);
+    let summaries: Vec<MarginalSummary> = sample.parameters.iter().map(|parameter| sample.summary(parameter)).collect();
+    let verdict = sample.verdict_of(&summaries);
     let derived = derived::<P>(&sample, sets, of_set);
     if arguments.json {
         output::write_json(&document(arguments, problem, &sample, &summaries, &derived, &verdict))?;
@@ -92,12 +90,6 @@ fn draw<P: PosteriorProblem>(
         output::write(None, |out| print(out, problem, &sample, &summaries, &derived, &verdict))?;
     }
     Ok(output::exit_code())
-}
-
-fn verdict<P: PosteriorProblem>(sample: &SampleOf<P>, summaries: &[(P::Name, MarginalSummary)]) -> PosteriorVerdict<P::Name> {
-    let all: Option<Vec<(P::Name, Convergence)>> =
-        summaries.iter().map(|(parameter, summary)| Some((parameter.clone(), summary.convergence?))).collect();
-    all.map_or(PosteriorVerdict::TooFewDraws, |all| sample.verdict_of(&all))
 }
 
 /// Names of the free parameters in files.
@@ -133,7 +125,7 @@ fn document<P: PosteriorProblem>(
     arguments: &PosteriorArguments,
     problem: &P,
     sample: &SampleOf<P>,
-    summaries: &[(P::Name, MarginalSummary)],
+    summaries: &[MarginalSummary],
     derived: &[(DerivedQuantity, String, MarginalSummary)],
     verdict: &PosteriorVerdict<P::Name>,
 ) -> Value {
@@ -148,7 +140,7 @@ fn document<P: PosteriorProblem>(
         values.insert("ess_tail".to_owned(), json!(convergence.map(|of| of.ess_tail)));
         Value::Object(values)
     };
-    let parameters = summaries.iter().map(|(parameter, summary)| (parameter.key().into_owned(), of(summary)));
+    let parameters = sample.parameters.iter().zip(summaries).map(|(parameter, summary)| (parameter.key().into_owned(), of(summary)));
     let derived = derived.iter().map(|(quantity, set, summary)| (format!("{}{set}", quantity.key()), of(summary)));
     let names = keys::<P>(sample);
     let matrix: Vec<Vec<f64>> = sample.correlations().row_iter().map(|row| row.iter().copied().collect()).collect();
@@ -185,7 +177,7 @@ fn print<P: PosteriorProblem>(
     out: &mut dyn Write,
     problem: &P,
     sample: &SampleOf<P>,
-    summaries: &[(P::Name, MarginalSummary)],
+    summaries: &[MarginalSummary],
     derived: &[(DerivedQuantity, String, MarginalSummary)],
     verdict: &PosteriorVerdict<P::Name>,
 ) -> io::Result<()> {
@@ -200,7 +192,7 @@ fn print<P: PosteriorProblem>(
     )?;
     let width = sample.parameters.iter().map(|parameter| parameter.key().chars().count()).max().unwrap_or(0).max(NAME_WIDTH);
     writeln!(out, "\n{:<width$} {:>11} {:>11} {:>11} {:>11} {:>11} {:>7} {:>7}", "", "mean", "sd", "16 %", "median", "84 %", "R̂", "size")?;
-    for (parameter, summary) in summaries {
+    for (parameter, summary) in sample.parameters.iter().zip(summaries) {
         let [_, q16, q50, q84, _] = summary.quantiles;
         let (rhat, size) = summary.convergence.map_or((f64::NAN, f64::NAN), |of| (of.rhat, of.ess_bulk.min(of.ess_tail)));
         writeln!(

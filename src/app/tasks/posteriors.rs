@@ -10,7 +10,7 @@ use crate::app::tasks::start_error::start_error;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::posterior::{DrawnFrom, DrawnPosterior, Draws, PosteriorOptions};
 use pbrdf::fit::posterior::{LogEvidence, Posterior, PosteriorError, PosteriorProblem, SampleOf};
-use pbrdf::fit::{Intervals, JointProblem, JointUnknown, Observer, Problem, Starts, UnknownName as _, fit, fit_jointly};
+use pbrdf::fit::{Intervals, JointProblem, JointUnknown, Observer, Problem, Starts, fit, fit_jointly};
 use pbrdf::model::Parameters;
 use std::sync::Arc;
 use std::time::Duration;
@@ -139,8 +139,7 @@ fn evidence_of<P: PosteriorProblem>(
     seed: u64,
     observer: Observer<'_>,
 ) -> Option<LogEvidence> {
-    let unknown = |name: &P::Name| JointUnknown { parameter: name.parameter(), set: name.set().map(Arc::from) };
-    let free: Vec<JointUnknown> = problem.names().iter().map(unknown).collect();
+    let free: Vec<JointUnknown> = problem.names().iter().map(JointUnknown::of).collect();
     let posterior = Posterior::new(problem, &options.priors_of(&free), options.settings(seed)).ok()?;
     posterior.run(minima, observer, &mut |_, _| {}).ok()?.log_evidence
 }

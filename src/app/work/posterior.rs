@@ -116,8 +116,7 @@ impl DrawnPosterior {
     /// Draws with what they say; that takes some milliseconds.
     pub fn new(from: DrawnFrom, draws: Draws, is_complete: bool) -> Self {
         let summaries: Vec<MarginalSummary> = draws.parameters.iter().map(|unknown| draws.summary(unknown)).collect();
-        let convergence = draws.parameters.iter().zip(&summaries).map(|(unknown, summary)| Some((unknown.clone(), summary.convergence?)));
-        let verdict = convergence.collect::<Option<Vec<_>>>().map_or(PosteriorVerdict::TooFewDraws, |all| draws.verdict_of(&all));
+        let verdict = draws.verdict_of(&summaries);
         let free: ParameterSet = draws.parameters.iter().map(|unknown| unknown.parameter).collect();
         let follows = |quantity: &DerivedQuantity| !quantity.parameters(draws.model).intersection(free).is_empty();
         let summary = |quantity: DerivedQuantity, set: usize| draws.summary_of(|of| quantity.value(draws.model, &of[set]));

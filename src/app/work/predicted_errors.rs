@@ -26,9 +26,7 @@ impl PredictedErrors {
     /// Of the planned angles, at the sliders.
     pub fn of_design(surface: &Surface, design: &DesignSettings, free: ParameterSet) -> Result<Self, String> {
         let (incidences, views) = design.counts();
-        if incidences * views > MOST_PLANNED {
-            return Err(tr!("{0} × {1} angles are more than the {2} points that can be planned at once.", incidences, views, MOST_PLANNED));
-        }
+        check_count(incidences, views)?;
         Self::new(surface, design, free, design.geometries())
     }
 
@@ -73,6 +71,14 @@ impl PredictedErrors {
     }
 }
 
+/// Refuses more pairs of angles than can be planned at once.
+fn check_count(incidences: usize, views: usize) -> Result<(), String> {
+    if incidences * views <= MOST_PLANNED {
+        return Ok(());
+    }
+    Err(tr!("{0} × {1} angles are more than the {2} points that can be planned at once.", incidences, views, MOST_PLANNED))
+}
+
 /// Angles that were chosen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedAngles {
@@ -98,14 +104,7 @@ pub fn angle_choice(surface: &Surface, design: &DesignSettings, measurement: &Me
     let free = free_in_design(surface, design, design.has_brdf());
     let [theta_i, theta_r] = design.lists();
     let grid = CandidateGrid::new(&theta_i, &theta_r, &[design.dphi]).map_err(|error| tr!("{}.", error.localized()))?;
-    if grid.len() > MOST_PLANNED {
-        return Err(tr!(
-            "{0} × {1} angles are more than the {2} points that can be planned at once.",
-            theta_i.len(),
-            theta_r.len(),
-            MOST_PLANNED
-        ));
-    }
+    check_count(theta_i.len(), theta_r.len())?;
     let criterion = match design.goal {
         DesignGoal::All => DesignCriterion::Determinant,
         DesignGoal::Index | DesignGoal::Roughness => {

@@ -5,7 +5,7 @@ use crate::fit::design::prediction::NoiseModel;
 use crate::fit::estimate::symbols;
 use crate::fit::problem_error::ProblemError;
 use crate::measurement::Row;
-use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters};
+use crate::model::{Model, Parameter, ParameterError, ParameterSet, Parameters, Pbrdf};
 use crate::optics::GeometryError;
 
 /// What the angles are to be good for.
@@ -46,6 +46,34 @@ pub struct AngleChoice {
     pub repeats: bool,
     /// What they are to be good for.
     pub criterion: DesignCriterion,
+}
+
+impl AngleChoice {
+    /// Refuses to ask for no error, or for that of a parameter that is not free.
+    pub(crate) fn check_asked(&self) -> Result<(), AngleChoiceError> {
+        let asked = match &self.criterion {
+            DesignCriterion::Variances(asked) => asked.clone(),
+            _ => self.free.iter().collect(),
+        };
+        if self.free.is_empty() || asked.is_empty() {
+            return Err(AngleChoiceError::Nothing);
+        }
+        match asked.into_iter().find(|&parameter| !self.free.contains(parameter)) {
+            Some(parameter) => Err(AngleChoiceError::NotFree { parameter }),
+            None => Ok(()),
+        }
+    }
+
+    /// The surface of every so many sets of parameters.
+    pub(crate) fn every(&self, step: usize) -> Result<Vec<Pbrdf>, ParameterError> {
+        self.surfaces.iter().step_by(step).map(|&parameters| Pbrdf::new(self.model, parameters)).collect()
+    }
+
+    /// Number of values that are measured already.
+    pub(crate) fn given_values(&self) -> usize {
+        let used = self.given.iter().filter(|row| !row.masked);
+        used.map(|row| usize::from(row.dolp.is_some()) + usize::from(row.brdf.is_some())).sum()
+    }
 }
 
 /// Angles, and how good they are.

@@ -5,8 +5,7 @@ use crate::fit::design::discrimination::Discrimination;
 use crate::fit::design::exchange::{Chosen, Exchange, Objective, Scenario};
 use crate::fit::design::information::{Information, Reading};
 use crate::fit::observer::Observer;
-use crate::measurement::Row;
-use crate::model::{Parameter, ParameterError, Pbrdf};
+use crate::model::{Parameter, Pbrdf};
 use crate::optics::GeometryError;
 
 /// Candidates that are exchanged, at most; of more, those that are worth most beside a first choice.
@@ -55,14 +54,9 @@ pub fn choose(choice: &AngleChoice, observer: Observer<'_>, progress: &(dyn Fn(f
         return Err(AngleChoiceError::TooFewCandidates { candidates, count });
     }
     let step = choice.surfaces.len().div_ceil(MOST_SURFACES).max(1);
-    let surfaces: Result<Vec<Pbrdf>, ParameterError> =
-        choice.surfaces.iter().step_by(step).map(|&parameters| Pbrdf::new(choice.model, parameters)).collect();
-    let surfaces = surfaces?;
-    if let DesignCriterion::Discrimination { rival, fixed } = choice.criterion {
-        if rival == choice.model {
-            return Err(AngleChoiceError::SameModel);
-        }
-        return Discrimination { choice, surfaces: &surfaces, rival, fixed }.run(observer, &goes_on);
+    let surfaces = choice.every(step)?;
+    if let Some(discrimination) = Discrimination::of(choice, &surfaces)? {
+        return discrimination.run(observer, &goes_on);
     }
     let free: Vec<Parameter> = choice.free.iter().collect();
     Inquiry { choice, surfaces: &surfaces, free: &free }.run(&goes_on)
@@ -92,17 +86,9 @@ impl<'a> Inquiry<'a> {
     }
 
     fn run(&self, goes_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<ChosenAngles, AngleChoiceError> {
-        if self.free.is_empty() || self.asked().is_empty() {
-            return Err(AngleChoiceError::Nothing);
-        }
-        if let Some(&parameter) = self.asked().iter().find(|parameter| !self.free.contains(parameter)) {
-            return Err(AngleChoiceError::NotFree { parameter });
-        }
         let choice = self.choice;
-        let measured = |row: &&Row| !row.masked;
-        let given: usize =
-            choice.given.iter().filter(measured).map(|row| usize::from(row.dolp.is_some()) + usize::from(row.brdf.is_some())).sum();
-        let (values, parameters) = (choice.count * choice.noise.quantities() + given, self.free.len());
+        choice.check_asked()?;
+        let (values, parameters) = (choice.count * choice.noise.quantities() + choice.given_values(), self.free.len());
         if values < parameters {
             return Err(AngleChoiceError::TooFewReadings { values, parameters });
         }

@@ -6,7 +6,7 @@
 
 use crate::fit::bounds::Bounds;
 use crate::fit::design::candidates::CandidateGrid;
-use crate::fit::design::choice::{AngleChoice, AngleChoiceError, ChosenAngles, repeated};
+use crate::fit::design::choice::{AngleChoice, AngleChoiceError, ChosenAngles, DesignCriterion, repeated};
 use crate::fit::free_parameters::free_by_default;
 use crate::fit::local::solver::{Effort, fit_local};
 use crate::fit::multistart::search::{Starts, multistart};
@@ -55,7 +55,16 @@ struct Answer {
     value: f64,
 }
 
-impl Discrimination<'_> {
+impl<'a> Discrimination<'a> {
+    /// That of a choice that asks for it.
+    pub(crate) fn of(choice: &'a AngleChoice, surfaces: &'a [Pbrdf]) -> Result<Option<Self>, AngleChoiceError> {
+        match choice.criterion {
+            DesignCriterion::Discrimination { rival, .. } if rival == choice.model => Err(AngleChoiceError::SameModel),
+            DesignCriterion::Discrimination { rival, fixed } => Ok(Some(Self { choice, surfaces, rival, fixed })),
+            _ => Ok(None),
+        }
+    }
+
     pub(crate) fn run(&self, observer: Observer<'_>, goes_on: &dyn Fn(f64) -> bool) -> Result<ChosenAngles, AngleChoiceError> {
         let grid = &self.choice.grid;
         let candidates: Vec<usize> = (0..grid.len()).step_by(grid.len().div_ceil(MOST_CANDIDATES)).collect();
@@ -101,9 +110,7 @@ impl Discrimination<'_> {
     /// so few values are given that the rival meets all of them, its best fit to all candidates.
     pub(crate) fn next_squares(&self, observer: Observer<'_>) -> Result<Vec<f64>, AngleChoiceError> {
         let all: Vec<usize> = (0..self.choice.grid.len()).collect();
-        let measured = self.choice.given.iter().filter(|row| !row.masked);
-        let values: usize = measured.map(|row| usize::from(row.dolp.is_some()) + usize::from(row.brdf.is_some())).sum();
-        let places: &[usize] = if values > self.rival.parameters().len() { &[] } else { &all };
+        let places: &[usize] = if self.choice.given_values() > self.rival.parameters().len() { &[] } else { &all };
         let mut rivals = Vec::new();
         self.fitted(&all, places, &mut rivals, Some(THOROUGH), observer)?;
         if (observer.cancelled)() || rivals.is_empty() {

@@ -4,7 +4,7 @@ use crate::fit::design::choice::{AngleChoice, AngleChoiceError, DesignCriterion}
 use crate::fit::design::discrimination::Discrimination;
 use crate::fit::design::information::{Information, Reading};
 use crate::fit::observer::Observer;
-use crate::model::{Parameter, ParameterError, Pbrdf};
+use crate::model::Parameter;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Information that is there before any reading, as a share of that of all candidates together: with it the first readings, which alone
@@ -22,30 +22,16 @@ pub fn next_gains(choice: &AngleChoice, observer: Observer<'_>) -> Result<Vec<f6
     if choice.surfaces.is_empty() || choice.noise.quantities() == 0 || choice.grid.is_empty() {
         return Err(AngleChoiceError::Nothing);
     }
-    let surfaces: Result<Vec<Pbrdf>, ParameterError> =
-        choice.surfaces.iter().map(|&parameters| Pbrdf::new(choice.model, parameters)).collect();
-    let surfaces = surfaces?;
-    if let DesignCriterion::Discrimination { rival, fixed } = choice.criterion {
-        if rival == choice.model {
-            return Err(AngleChoiceError::SameModel);
-        }
-        return Discrimination { choice, surfaces: &surfaces, rival, fixed }.next_squares(observer);
+    let surfaces = choice.every(1)?;
+    if let Some(discrimination) = Discrimination::of(choice, &surfaces)? {
+        return discrimination.next_squares(observer);
     }
+    choice.check_asked()?;
     let free: Vec<Parameter> = choice.free.iter().collect();
-    let asked = match &choice.criterion {
-        DesignCriterion::Variances(asked) => Some(&asked[..]),
-        _ => None,
-    };
-    if free.is_empty() || asked.is_some_and(<[Parameter]>::is_empty) {
-        return Err(AngleChoiceError::Nothing);
-    }
-    if let Some(&parameter) = asked.unwrap_or_default().iter().find(|parameter| !free.contains(parameter)) {
-        return Err(AngleChoiceError::NotFree { parameter });
-    }
     let mut sum = vec![0.0; choice.grid.len()];
     for surface in &surfaces {
         let reading = Reading { surface, free: &free, noise: choice.noise };
-        let gains = gains_of(choice, &reading, asked, observer)?;
+        let gains = gains_of(choice, &reading, observer)?;
         sum.iter_mut().zip(gains).for_each(|(sum, gain)| *sum += gain);
     }
     #[expect(clippy::cast_precision_loss, reason = "a number of surfaces")]
@@ -54,28 +40,24 @@ pub fn next_gains(choice: &AngleChoice, observer: Observer<'_>) -> Result<Vec<f6
 }
 
 /// On one surface.
-fn gains_of(
-    choice: &AngleChoice,
-    reading: &Reading<'_>,
-    asked: Option<&[Parameter]>,
-    observer: Observer<'_>,
-) -> Result<Vec<f64>, AngleChoiceError> {
+fn gains_of(choice: &AngleChoice, reading: &Reading<'_>, observer: Observer<'_>) -> Result<Vec<f64>, AngleChoiceError> {
     let information = Information::new(reading, &choice.grid, &choice.given, &|_| !(observer.cancelled)())?;
     let information = information.ok_or(AngleChoiceError::Cancelled)?;
     let rank = information.rank();
-    let contrasts: Vec<DVector<f64>> =
-        asked.unwrap_or_default().iter().filter_map(|&parameter| information.contrast(reading, parameter)).collect();
+    let asked: &[Parameter] = if let DesignCriterion::Variances(asked) = &choice.criterion { asked } else { &[] };
+    let contrasts: Vec<DVector<f64>> = asked.iter().filter_map(|&parameter| information.contrast(reading, parameter)).collect();
     let before = &information.given + DMatrix::identity(rank, rank) * BEFORE;
     let cholesky = Cholesky::new(before).ok_or(AngleChoiceError::Nothing)?;
     let candidates: Vec<usize> = (0..choice.grid.len()).collect();
     let rows = information.rows(reading, &choice.grid, &candidates)?;
     let rows_each = reading.rows_each();
-    let gains = rows.chunks((rank * rows_each).max(1)).map(|rows| gain(&cholesky, &contrasts, rows, rows_each));
+    let variance: f64 = contrasts.iter().map(|contrast| contrast.dot(&cholesky.solve(contrast))).sum();
+    let gains = rows.chunks((rank * rows_each).max(1)).map(|rows| gain(&cholesky, &contrasts, variance, rows, rows_each));
     Ok(gains.collect())
 }
 
-/// Of one candidate with its rows R: `ln det(1 + R M⁻¹ Rᵀ)`, or the fall of ln Σ cᵀM⁻¹c by Woodbury's formula.
-fn gain(cholesky: &Cholesky<f64, Dyn>, contrasts: &[DVector<f64>], rows: &[f64], rows_each: usize) -> f64 {
+/// Of one candidate with its rows R: `ln det(1 + R M⁻¹ Rᵀ)`, or the fall of the logarithm of the variance Σ cᵀM⁻¹c by Woodbury's formula.
+fn gain(cholesky: &Cholesky<f64, Dyn>, contrasts: &[DVector<f64>], variance: f64, rows: &[f64], rows_each: usize) -> f64 {
     let rank = rows.len() / rows_each.max(1);
     let rows = DMatrix::from_row_slice(rows_each, rank, rows);
     let solved = cholesky.solve(&rows.transpose());
@@ -84,11 +66,10 @@ fn gain(cholesky: &Cholesky<f64, Dyn>, contrasts: &[DVector<f64>], rows: &[f64],
         return libm::log(inner.determinant());
     }
     let Some(inverse) = inner.try_inverse() else { return 0.0 };
-    let (mut variance, mut fall) = (0.0, 0.0);
-    for contrast in contrasts {
-        variance += contrast.dot(&cholesky.solve(contrast));
+    let fall_of = |contrast: &DVector<f64>| {
         let through = solved.transpose() * contrast;
-        fall += through.dot(&(&inverse * &through));
-    }
+        through.dot(&(&inverse * &through))
+    };
+    let fall: f64 = contrasts.iter().map(fall_of).sum();
     -libm::log1p(-(fall / variance).min(1.0 - f64::EPSILON))
 }

@@ -14,9 +14,8 @@ mod manifold;
 use crate::fit::analysis::edge;
 use crate::fit::estimate::Edge;
 use crate::fit::fit_problem::{FitProblem, UnknownName};
-use crate::fit::intervals::quantile::{chi_squared_quantile, f_quantile};
+use crate::fit::intervals::profile::rise;
 use crate::fit::observer::Observer;
-use crate::fit::options::Weights;
 use crate::model::Parameter;
 use manifold::{LONGEST_STEP, Manifold};
 use nalgebra::DVector;
@@ -167,7 +166,8 @@ pub fn weakest_geodesic<P: FitProblem>(
     let manifold = Manifold::new(problem, x, moving);
     let mut at = manifold.start();
     let Some((direction, rank)) = manifold.weakest(&at) else { return nowhere(GeodesicEnd::Lost) };
-    let limit = limit(problem, sum_of_squares, rank);
+    let dof = problem.residual_count().saturating_sub(rank);
+    let limit = sum_of_squares + rise(problem.options().weights, sum_of_squares, dof, LEVEL);
     let Some(forward) = manifold.forward(&at, &direction) else { return nowhere(GeodesicEnd::Lost) };
     let mut heading = if (way == GeodesicWay::Nearer) == forward { direction } else { -direction };
     let names = |heading: &DVector<f64>| {
@@ -219,17 +219,6 @@ fn bound_met<P: FitProblem>(
         last.sum_of_squares = sum_of_squares;
     }
     GeodesicEnd::Bound { unknown: problem.names()[unknown].clone(), edge, value }
-}
-
-/// The sum of squares up to which the data allow a surface.
-#[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-fn limit<P: FitProblem>(problem: &P, smallest: f64, rank: usize) -> f64 {
-    let dof = problem.residual_count().saturating_sub(rank);
-    match problem.options().weights {
-        Weights::Sigma => smallest + chi_squared_quantile(LEVEL),
-        Weights::None if dof == 0 => f64::INFINITY,
-        Weights::None => smallest * (1.0 + f_quantile(LEVEL, dof) / dof as f64),
-    }
 }
 
 #[cfg(test)]

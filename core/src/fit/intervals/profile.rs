@@ -173,14 +173,17 @@ fn is_idle<P: FitProblem>(analysis: &Analysis<P>, name: &P::Name) -> bool {
 fn rises<P: FitProblem>(problem: &P, analysis: &Analysis<P>, sum_of_squares: f64, unknown: usize) -> [f64; 2] {
     let inflation = analysis.uncertainty.inflation(&problem.names()[unknown]);
     let dof = analysis.statistics.dof;
-    LEVELS.map(|level| {
-        let rise = match problem.options().weights {
-            Weights::Sigma => chi_squared_quantile(level),
-            #[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
-            Weights::None => sum_of_squares.max(ROUNDING) * f_quantile(level, dof) / dof as f64,
-        };
-        inflation * rise
-    })
+    LEVELS.map(|level| inflation * rise(problem.options().weights, sum_of_squares, dof, level))
+}
+
+/// By how much the sum of squares may rise above its minimum at that level; without a degree of freedom there is no limit.
+#[expect(clippy::cast_precision_loss, reason = "a number of residuals")]
+pub(crate) fn rise(weights: Weights, minimum: f64, dof: usize, level: f64) -> f64 {
+    match weights {
+        Weights::Sigma => chi_squared_quantile(level),
+        Weights::None if dof == 0 => f64::INFINITY,
+        Weights::None => minimum.max(ROUNDING) * f_quantile(level, dof) / dof as f64,
+    }
 }
 
 /// The same fit, or the better one that a second search with other starts finds. Where the first met several minima, a narrow one may

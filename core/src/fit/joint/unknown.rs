@@ -42,6 +42,12 @@ impl From<Parameter> for JointUnknown {
 }
 
 impl JointUnknown {
+    /// The unknown of any problem: of one measurement all are shared.
+    #[must_use]
+    pub fn of(name: &impl UnknownName) -> Self {
+        Self { parameter: name.parameter(), set: name.set().map(Arc::from) }
+    }
+
     fn named(&self, name: &'static str) -> Cow<'_, str> {
         self.set.as_ref().map_or(Cow::Borrowed(name), |set| Cow::Owned(format!("{name}@{set}")))
     }

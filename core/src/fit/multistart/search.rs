@@ -38,7 +38,8 @@ const ROUND: usize = 12;
 const PROBES: usize = 96;
 /// Probes over the whole box where all starts have not hit the best minimum often enough.
 const BROAD_PROBES: usize = 1024;
-/// The same of a problem whose first guesses come from searches of its parts: what is left to be searched for is how these go together.
+/// Starts of a round, and the effort of lobe restarts, of a problem whose first guesses come from searches of its parts: what is left to
+/// be searched for is how these go together.
 const ROUND_OF_COMPOSED: usize = 6;
 const LOBE_BASINS_OF_COMPOSED: usize = 4;
 const LOBE_EFFORT_OF_COMPOSED: (usize, usize) = (4, 2);
@@ -61,7 +62,7 @@ const POLISH_PASSES: usize = 12;
 const POLISH_TOLERANCE: f64 = 1e-8;
 /// Lobe restarts: number of best minima whose lobes are searched again, the right optical constants being among them.
 const LOBE_BASINS: usize = 14;
-/// The same where the search has found more distinct minima than `RUGGED`.
+/// Lobe restarts: numbers as in [`Patience`] where the search has found more distinct minima than `RUGGED`.
 const RUGGED_LOBE_EFFORT: (usize, usize) = (14, 4);
 /// Guesses of total reflection that are followed from each minimum.
 const TOTAL_REFLECTION: usize = 6;
@@ -102,18 +103,17 @@ pub(crate) fn multistart_with<P: FitProblem>(
     observer: Observer<'_>,
 ) -> MultistartResult<P::Point> {
     let mut found = MultistartResult::default();
-    let most = match starts {
-        _ if problem.residual_count() == 0 || problem.names().is_empty() => 1,
-        Starts::One | Starts::Exactly(0) => 1,
-        Starts::Automatic => StoppingRule::of(problem).most_starts,
-        Starts::Until(rule) => rule.most_starts.max(1),
-        Starts::Exactly(count) => count,
-    };
     let rule = match starts {
         Starts::Automatic => Some(StoppingRule::of(problem)),
         Starts::Until(rule) => Some(rule),
         Starts::One | Starts::Exactly(_) => None,
     };
+    let most = match (rule, starts) {
+        (Some(rule), _) => rule.most_starts,
+        (None, Starts::Exactly(count)) => count,
+        (None, _) => 1,
+    };
+    let most = if problem.residual_count() == 0 || problem.names().is_empty() { 1 } else { most.max(1) };
     if most == 1 {
         found.add(fit_local(problem, Effort::Thorough, observer));
         found.add_further(further_fits(problem, Effort::Thorough, observer));

@@ -216,14 +216,15 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
     /// Whether the draws are to be trusted.
     #[must_use]
     pub fn verdict(&self) -> PosteriorVerdict<N> {
-        let each = || self.parameters.iter().map(|parameter| Some((parameter.clone(), self.summary(parameter).convergence?)));
-        let Some(all) = each().collect::<Option<Vec<(N, Convergence)>>>() else { return PosteriorVerdict::TooFewDraws };
-        self.verdict_of(&all)
+        let summaries: Vec<MarginalSummary> = self.parameters.iter().map(|parameter| self.summary(parameter)).collect();
+        self.verdict_of(&summaries)
     }
 
-    /// The same, given the convergence of each parameter.
+    /// The same, given the summary of each parameter in their order.
     #[must_use]
-    pub fn verdict_of(&self, all: &[(N, Convergence)]) -> PosteriorVerdict<N> {
+    pub fn verdict_of(&self, summaries: &[MarginalSummary]) -> PosteriorVerdict<N> {
+        let each = self.parameters.iter().zip(summaries).map(|(parameter, summary)| Some((parameter.clone(), summary.convergence?)));
+        let Some(all) = each.collect::<Option<Vec<(N, Convergence)>>>() else { return PosteriorVerdict::TooFewDraws };
         let size = |of: &Convergence| of.ess_bulk.min(of.ess_tail);
         let worst_rhat = all.iter().max_by(|a, b| a.1.rhat.total_cmp(&b.1.rhat));
         let smallest = all.iter().min_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));

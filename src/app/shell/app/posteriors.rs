@@ -11,7 +11,7 @@ use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::posterior::{DrawnFrom, DrawnPosterior, PosteriorOptions};
 use crate::app::work::settings::Settings;
 use pbrdf::fit::posterior::{Posterior, PosteriorError, PosteriorProblem};
-use pbrdf::fit::{JointUnknown, Loss, UnknownName};
+use pbrdf::fit::{JointUnknown, Loss};
 use pbrdf::model::ParameterSet;
 use std::sync::Arc;
 use tr::tr;
@@ -37,8 +37,7 @@ pub fn start_posterior(app: &mut App) -> Result<(), String> {
 /// The posterior of a problem, and what is to be remembered of it.
 fn posterior<P: PosteriorProblem>(app: &App, problem: &P, about: &[&OpenMeasurement]) -> Result<(Box<Posterior<P>>, DrawnFrom), String> {
     let settings = app.work.settings();
-    let unknown = |name: &P::Name| JointUnknown { parameter: name.parameter(), set: name.set().map(Arc::from) };
-    let free: Vec<JointUnknown> = problem.names().iter().map(unknown).collect();
+    let free: Vec<JointUnknown> = problem.names().iter().map(JointUnknown::of).collect();
     let prior_options = settings.panes.posterior.priors_of(&free);
     let posterior = Posterior::new(problem, &prior_options, settings.panes.posterior.settings(settings.seed));
     let posterior = posterior.map_err(|error| cannot_begin(&error.localized()))?;
