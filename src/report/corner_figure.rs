@@ -70,17 +70,17 @@ impl CornerFigure {
         let values_of = |unknown: usize| draws.draws().map(|draw| draw.unknowns[unknown]).collect();
         let values: Vec<Vec<f64>> = shown.iter().map(|&unknown| values_of(unknown)).collect();
         let ranges: Vec<[f64; 2]> = shown.iter().zip(&values).map(|(&unknown, of)| range(of, priors[unknown])).collect();
-        let names: Vec<String> = shown.iter().map(|&unknown| draws.parameters[unknown].symbol().into_owned()).collect();
+        let unknowns: Vec<&N> = shown.iter().map(|&unknown| &draws.parameters[unknown]).collect();
         let count = shown.len();
         let panel = |row: usize, column: usize| {
             let (x, y) = (&ranges[column], &ranges[row]);
             let fits = [fitted[shown[column]], fitted[shown[row]]];
-            let rim = |is_outer: bool, of: usize| is_outer.then(|| names[of].as_str());
+            let rim = |is_outer: bool, of: usize| is_outer.then(|| unknowns[of]);
             match row.cmp(&column) {
                 std::cmp::Ordering::Less => Panel::default(),
                 std::cmp::Ordering::Equal => {
                     let series = marginal(&values[row], *x, priors[shown[row]], fits[0]);
-                    let y = Axis { ticks: Some(Vec::new()), ..Axis::linear(if row == 0 { names[0].as_str() } else { "" }, "") };
+                    let y = Axis { ticks: Some(Vec::new()), ..Axis::linear(if row == 0 { unknowns[0].symbol() } else { "".into() }, "") };
                     Panel { x: axis(rim(row + 1 == count, column), *x), y: y.between(0.0, TOP), series, legend: false, ..Panel::default() }
                 }
                 std::cmp::Ordering::Greater => {
@@ -102,9 +102,9 @@ impl CornerFigure {
 }
 
 /// An axis, named with numbers if it stands at the rim.
-fn axis(name: Option<&str>, [low, high]: [f64; 2]) -> Axis {
-    let ticks = name.is_none().then(Vec::new);
-    Axis { ticks, ..Axis::linear(name.unwrap_or_default(), "") }.between(low, high)
+fn axis<N: UnknownName>(of: Option<&N>, [low, high]: [f64; 2]) -> Axis {
+    let named = of.map(|unknown| Axis::linear(unknown.symbol(), unknown.parameter().unit()));
+    named.unwrap_or_else(|| Axis { ticks: Some(Vec::new()), ..Axis::linear("", "") }).between(low, high)
 }
 
 /// Where the draws are, within the ends of the prior.

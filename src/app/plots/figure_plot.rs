@@ -12,7 +12,7 @@ use crate::app::plots::range::Range;
 use crate::app::plots::theme;
 use crate::figure::{Figure, Panel};
 use egui::{Align2, FontId, Rect, Role, TextureHandle, Ui, Vec2, WidgetInfo, vec2};
-use egui_plot::{AxisHints, HoverPosition, PlotResponse};
+use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, PlotResponse};
 use tr::tr;
 
 /// A figure with its panels ready to be painted, made anew when its inputs `K` are others.
@@ -259,7 +259,8 @@ impl PanelPlot {
         let x_axis = axis(AxisHints::new_x(), ui, &x.title, |at, step| x.label(at, step)).min_thickness(room.y);
         let y_axis = axis(AxisHints::new_y(), ui, &y.title, |at, step| y.label(at, step)).min_thickness(room.x);
         let figure = plot("tile", ui, size.y, x_axis, y_axis).width(size.x).show_axes([below, left]).show_x(false).show_y(false);
-        let figure = figure.x_grid_spacer(|input| x.marks(&input, TILE_SPREAD[0])).y_grid_spacer(|input| y.marks(&input, TILE_SPREAD[1]));
+        let figure = figure.x_grid_spacer(|input| tile_marks(x, &input, TILE_SPREAD[0]));
+        let figure = figure.y_grid_spacer(|input| tile_marks(y, &input, TILE_SPREAD[1]));
         let figure = figure.allow_drag(false).allow_zoom(false).allow_boxed_zoom(false).show_grid(false).label_formatter(|_| None);
         let response = figure.show(ui, |plot| {
             plot.set_plot_bounds_x(x.range.low..=x.range.high);
@@ -275,6 +276,17 @@ impl PanelPlot {
 /// Between marks of a tile along either axis, in units of egui's smallest spacing.
 const TILE_SPREAD: [f64; 2] = [4.0, 2.2];
 
+/// Share of an axis from which on a number would run into the first one of the tile beside it.
+const TILE_NUMBERS: f64 = 0.88;
+
+/// The marks of an axis of a tile.
+fn tile_marks(axis: &PlotAxis, input: &GridInput, spread: f64) -> Vec<GridMark> {
+    let Range { low, high } = axis.range;
+    let mut marks = axis.marks(input, spread);
+    marks.retain(|mark| mark.value <= low + TILE_NUMBERS * (high - low));
+    marks
+}
+
 /// Both ranges, the shorter one widened around its middle until one unit is as long on both axes of
 /// a plot of that size.
 fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {
@@ -287,8 +299,17 @@ fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{FigurePlot, Range, of_equal_units};
+    use super::{FigurePlot, Range, of_equal_units, tile_marks};
+    use crate::app::plots::plot_axis::PlotAxis;
     use crate::figure::{Axis, Figure, Panel, Series};
+    use egui_plot::GridInput;
+
+    #[test]
+    fn no_number_stands_at_the_end_of_a_tile_where_the_next_one_begins() {
+        let axis = PlotAxis::new(&Axis::linear("q", "").between(0.0, 20.0), std::iter::empty());
+        let marks = tile_marks(&axis, &GridInput { bounds: (0.0, 20.0), base_step_size: 2.5 }, 2.0);
+        assert_eq!(marks.iter().map(|mark| mark.value).collect::<Vec<f64>>(), [0.0, 5.0, 10.0, 15.0]);
+    }
 
     #[test]
     fn what_a_logarithm_has_no_place_for_is_a_gap() {

@@ -82,7 +82,8 @@ fn bar_menu_ui(title: String, by_key: bool, ui: &mut Ui, content: impl FnOnce(&m
     popup.open_memory(set).close_behavior(behavior).info(info).show(|ui| {
         // Many lessons in a low window: the last ones are reached by the wheel.
         let room = ui.ctx().content_rect().bottom() - button.rect.bottom() - MARGIN;
-        egui::ScrollArea::vertical().max_height(room).show(ui, content)
+        // A menu of egui is 400 points high by itself.
+        egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, content)
     });
     button.id
 }

@@ -61,6 +61,17 @@ fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
 }
 
 #[test]
+fn the_last_lesson_of_the_menu_is_seen_without_scrolling() {
+    let mut harness = harness();
+    let last = explorer(&mut harness).lessons.all.last().expect("lessons").title.in_language("en").to_owned();
+    harness.get_by_label("Lessons").click();
+    harness.run();
+    harness.get_by_label_contains(&last).click();
+    wait(&mut harness);
+    assert!(explorer(&mut harness).lessons.current().is_some(), "{last}");
+}
+
+#[test]
 fn lessons_speak_chinese() {
     let mut harness = harness();
     explorer(&mut harness).window.language = Language::Chinese;
