@@ -66,7 +66,7 @@ def measure(program, measurements, points, pins, panes):
     os.environ.pop("WAYLAND_DISPLAY", None)
     settings = folder / "config/pbrdf-explorer/settings.json"
     settings.parent.mkdir(parents=True)
-    settings.write_text(json.dumps({"window": {"show_frame_times": True, "size": [1280, 800], "theme": "Light"}}))
+    settings.write_text(json.dumps({"window": {"show_frame_times": True, "knows_tour": True, "size": [1280, 800], "theme": "Light"}}))
     work = folder / "frames.pbrdf.json"
     work.write_text(json.dumps(session(program, measurements, points, pins, panes)))
     read, write = os.pipe()

@@ -34,8 +34,11 @@ const HALF: f32 = 4.0;
 const LINE: f32 = 1.0;
 /// A bar up to this length lies under a disc with its caps: `2 sqrt(RADIUS² − CAP²)`.
 const UNDER_A_DISC: f32 = 3.2;
-/// Bars of one item that have caps: those of more are a blur, and thrice as much to draw.
-const MOST_WITH_CAPS: usize = 100;
+/// Points of one item with symbols of full size and bars with caps: those of more are a blur, and
+/// what they cover is most of the time to draw.
+const MANY: usize = 100;
+/// The size of the symbols of many points over the full size.
+const SIZE_OF_MANY: f32 = 2.0 / 3.0;
 /// The symbols in the order of their pictures.
 const SYMBOLS: [Symbol; 4] = [Symbol::Disc, Symbol::Circle, Symbol::Square, Symbol::Cross];
 
@@ -61,7 +64,7 @@ impl<'a> Markers<'a> {
             }
             let left = snap(low.x - 0.5 * width);
             quad(&mut mesh, Rect::from_min_max(pos2(left, high.y), pos2(left + width, low.y)), Rect::from_pos(WHITE_UV), self.color);
-            let ends = [low, high].into_iter().filter(|_| self.bars.len() <= MOST_WITH_CAPS);
+            let ends = [low, high].into_iter().filter(|_| self.bars.len() <= MANY);
             for end in ends {
                 let top = snap(end.y - 0.5 * width);
                 let cap = Rect::from_min_max(pos2(snap(end.x - CAP), top), pos2(snap(end.x + CAP), top + width));
@@ -75,7 +78,8 @@ impl<'a> Markers<'a> {
         let mut mesh = Mesh::with_texture(texture);
         mesh.reserve_vertices(4 * self.points.len());
         mesh.reserve_triangles(2 * self.points.len());
-        let edge = pixel * cells(pixel);
+        let size = if self.points.len() > MANY { SIZE_OF_MANY } else { 1.0 };
+        let edge = size * pixel * cells(pixel);
         let index = SYMBOLS.iter().position(|symbol| *symbol == self.symbol).unwrap_or(0);
         #[expect(clippy::cast_precision_loss, reason = "one of four")]
         let [left, right] = [index, index + 1].map(|place| place as f32 / SYMBOLS.len() as f32);
