@@ -89,6 +89,27 @@ async function command(page, words) {
   await page.waitForTimeout(300);
 }
 
+// What stands where: a page that is opened with `?probe` tells it, as readers of screens are told.
+const widgets = async (page) => JSON.parse((await page.evaluate(() => window.widgets)) || '[]');
+
+// The widget of that role and label (a text or a pattern), once it is there.
+async function widget(page, role, label, seconds = 20) {
+  const end = Date.now() + seconds * 1000;
+  for (;;) {
+    const all = await widgets(page);
+    const fits = (text) => (label instanceof RegExp ? label.test(text) : text === label);
+    const found = all.find((one) => one.role === role && (fits(one.label) || fits(one.value)));
+    if (found) return found;
+    if (Date.now() > end) {
+      const there = all.filter((one) => one.role === role).map((one) => one.label || one.value);
+      throw new Error(`no ${role} ${label}; there are: ${there.join(' | ')}`);
+    }
+    await page.waitForTimeout(50);
+  }
+}
+
+const middle = ({ place: [left, top, right, bottom] }) => [(left + right) / 2, (top + bottom) / 2];
+
 const shot = (page, name) => page.screenshot({ path: path.join(SHOTS, `${name}.png`) });
 
 async function opened(context, address) {

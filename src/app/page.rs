@@ -1,6 +1,7 @@
 //! The window in a page of a browser.
 
 use crate::app::platform;
+use crate::app::platform::probe::tell_widgets;
 use crate::app::platform::worker::{serve, warm_up};
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::{keep_work, save_on_exit};
@@ -85,6 +86,9 @@ fn keep_on_leaving(runner: eframe::WebRunner) -> Result<(), JsValue> {
 
 fn app(ctx: &egui::Context) -> App {
     let query = Query::new(&platform::query());
+    if query.is_probed {
+        tell_widgets(ctx);
+    }
     let (stored, notice) = if query.embedded.is_some() { (settings_file::fresh(), None) } else { settings_file::load() };
     let mut app = App::new(ctx, stored);
     app.jobs.files.ask = ask_user;

@@ -46,14 +46,16 @@ pub struct Query {
     pub embedded: Option<Embedded>,
     /// The lesson by its place in the list.
     pub lesson: Option<usize>,
+    /// Whether the page tells what stands where, for a program that tries it out.
+    pub is_probed: bool,
 }
 
 impl Query {
-    /// Reads `embed=dolp,lobes,sliders&lesson=02`; what means nothing is left out.
+    /// Reads `embed=dolp,lobes,sliders&lesson=02&probe`; what means nothing is left out.
     #[cfg_attr(not(target_arch = "wasm32"), allow(dead_code, reason = "windows of a desktop have no address"))]
     pub fn new(text: &str) -> Self {
         let mut query = Self::default();
-        for (key, value) in text.trim_start_matches('?').split('&').filter_map(|part| part.split_once('=')) {
+        for (key, value) in text.trim_start_matches('?').split('&').map(|part| part.split_once('=').unwrap_or((part, ""))) {
             match key {
                 "embed" => {
                     let words = || value.split("%2C").flat_map(|part| part.split(','));
@@ -67,6 +69,7 @@ impl Query {
                     query.embedded = (!panes.is_empty() || has_sliders).then_some(Embedded { panes, has_sliders });
                 }
                 "lesson" => query.lesson = value.parse().ok().and_then(|number: usize| number.checked_sub(1)),
+                "probe" => query.is_probed = true,
                 _ => {}
             }
         }
@@ -91,7 +94,8 @@ mod tests {
     fn an_address_says_what_a_frame_shows() {
         let embedded = |panes: &[PaneId], has_sliders| Some(Embedded { panes: panes.to_vec(), has_sliders });
         let both = [PaneId::Dolp, PaneId::Lobes];
-        assert_eq!(Query::new("?embed=dolp,lobes&lesson=02"), Query { embedded: embedded(&both, false), lesson: Some(1) });
+        assert_eq!(Query::new("?embed=dolp,lobes&lesson=02"), Query { embedded: embedded(&both, false), lesson: Some(1), is_probed: false });
+        assert!(Query::new("?lesson=02&probe").is_probed);
         assert_eq!(Query::new("?embed=dolp%2Clobes,sliders,dolp,x").embedded, embedded(&both, true));
         for nothing in ["", "?", "?embed=", "?embed=x&lesson=0", "?lesson=two&&=", "?lesson=-1"] {
             assert_eq!(Query::new(nothing), Query::default(), "{nothing}");
