@@ -10,8 +10,9 @@ cd "$(dirname "$0")/.."
 target=${CARGO_TARGET_DIR:-$PWD/target}
 tools=$target/web-tools
 export CARGO_TARGET_DIR=$target/wasm
-# Vectors of 128 bits, which browsers have had since 2021 (Safari since 2023); a stack of 4 MiB, half of what a desktop gives.
-export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-Ctarget-feature=+simd128 -Clink-arg=-zstack-size=4194304"
+# Vectors of 128 bits, which browsers have had since 2021 (Safari since 2023); no tables of references, which Debian's wasm-opt mixes up with
+# those of functions; a stack of 4 MiB, half of what a desktop gives.
+export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-Ctarget-feature=+simd128,-reference-types -Clink-arg=-zstack-size=4194304"
 profile=${PROFILE:-web}
 mkdir -p "$tools"
 
@@ -50,12 +51,12 @@ cargo build --profile "$profile" --target wasm32-unknown-unknown "${own_std[@]}"
 dist=web/dist
 rm -rf "$dist"
 mkdir -p "$dist"
-"$wasm_bindgen" --target web --no-typescript --out-dir "$dist" "$CARGO_TARGET_DIR/wasm32-unknown-unknown/$profile/pbrdf-explorer.wasm"
+"$wasm_bindgen" --target web --no-typescript --remove-name-section --remove-producers-section --out-dir "$dist" "$CARGO_TARGET_DIR/wasm32-unknown-unknown/$profile/pbrdf-explorer.wasm"
 program=$dist/pbrdf-explorer_bg.wasm
 if command -v wasm-opt >/dev/null; then
   # Releases of wasm-opt that do not know what the compiler uses leave the program as it is.
-  if wasm-opt -O2 --enable-bulk-memory --enable-nontrapping-float-to-int --enable-sign-ext --enable-mutable-globals \
-    --enable-reference-types --enable-multivalue --enable-simd "$program" -o "$program.small" 2>"$tools/wasm-opt.log"; then
+  if wasm-opt -Os --enable-bulk-memory --enable-nontrapping-float-to-int --enable-sign-ext --enable-mutable-globals \
+    --enable-multivalue --enable-simd "$program" -o "$program.small" 2>"$tools/wasm-opt.log"; then
     mv "$program.small" "$program"
   else
     rm -f "$program.small"

@@ -51,8 +51,14 @@ pub fn command() -> clap::Command {
     Arguments::command()
 }
 
+/// With `portable`, numbers are those of a processor without fused multiply–add, and of a browser, to the bit.
+const INSTRUCTIONS: &str = "PBRDF_INSTRUCTIONS";
+
 /// Runs what the arguments say; without a command opens the window, where this build has one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open_window: Option<OpenWindow>) -> ExitCode {
+    if std::env::var_os(INSTRUCTIONS).is_some_and(|value| value == "portable") {
+        pbrdf::model::Instructions::use_portable_only();
+    }
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => return Failure::usage(sentence(&error)).report(),

@@ -1,6 +1,7 @@
 //! What stands where in the window, for a program that tries it out: a page draws it all into one
 //! canvas, which tells a driver of browsers nothing.
 
+use egui::accesskit::Node;
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
@@ -35,10 +36,15 @@ impl egui::Plugin for Probe {
     fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
         let Some(update) = &output.platform_output.accesskit_update else { return };
         let zoom = f64::from(ctx.zoom_factor());
-        let widget = |(_, node): &'_ (_, egui::accesskit::Node)| {
+        // A slider has its name from the label beside it.
+        let label_beside = |node: &Node| {
+            let beside = update.nodes.iter().find(|(id, _)| node.labelled_by().contains(id));
+            beside.and_then(|(_, label)| label.label().or(label.value())).unwrap_or_default()
+        };
+        let widget = |(_, node): &'_ (_, Node)| {
             let bounds = node.bounds()?;
             let place = [bounds.x0, bounds.y0, bounds.x1, bounds.y1].map(|at| at * zoom);
-            let (label, value) = (node.label().unwrap_or_default(), node.value().unwrap_or_default());
+            let (label, value) = (node.label().unwrap_or_else(|| label_beside(node)), node.value().unwrap_or_default());
             serde_json::to_string(&Widget { role: format!("{:?}", node.role()), label, value, number: node.numeric_value(), place }).ok()
         };
         let widgets: Vec<String> = update.nodes.iter().filter_map(widget).collect();

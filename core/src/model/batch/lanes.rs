@@ -7,6 +7,7 @@
 use crate::model::batch::prepared::{LANES, PointBlock};
 use fearless_simd::{Level, prelude::*};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Points that one thread takes at once: some 20 µs of work, ten times what handing it over costs.
 #[cfg(feature = "threads")]
@@ -37,7 +38,16 @@ pub enum Instructions {
     Portable,
 }
 
+/// Set by [`Instructions::use_portable_only`].
+static ARE_PORTABLE: AtomicBool = AtomicBool::new(false);
+
 impl Instructions {
+    /// From here on the whole program uses no wider instructions than [`Self::Portable`]. On x86 none of these multiplies and adds in one
+    /// rounding: numbers are then the same to the bit on old processors, on new ones, and in browsers.
+    pub fn use_portable_only() {
+        ARE_PORTABLE.store(true, Ordering::Relaxed);
+    }
+
     /// What is used on this machine, for people: `AVX-512`, `AVX2`, `SSE2`, `NEON`, `portable`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -57,9 +67,11 @@ impl Instructions {
     fn level(self) -> Level {
         let widest = Level::new();
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let this = if ARE_PORTABLE.load(Ordering::Relaxed) { Self::Portable } else { self };
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
-            let avx512 = if self == Self::Widest { widest.as_avx512() } else { None };
-            let avx2 = if self == Self::Portable { None } else { widest.as_avx2() };
+            let avx512 = if this == Self::Widest { widest.as_avx512() } else { None };
+            let avx2 = if this == Self::Portable { None } else { widest.as_avx2() };
             // SSE4.2 adds nothing that the kernels use.
             match (avx512, avx2, widest.as_sse2()) {
                 (Some(avx512), ..) => return Level::Avx512(avx512),
