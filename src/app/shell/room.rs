@@ -94,7 +94,10 @@ mod tests {
     fn an_address_says_what_a_frame_shows() {
         let embedded = |panes: &[PaneId], has_sliders| Some(Embedded { panes: panes.to_vec(), has_sliders });
         let both = [PaneId::Dolp, PaneId::Lobes];
-        assert_eq!(Query::new("?embed=dolp,lobes&lesson=02"), Query { embedded: embedded(&both, false), lesson: Some(1), is_probed: false });
+        assert_eq!(
+            Query::new("?embed=dolp,lobes&lesson=02"),
+            Query { embedded: embedded(&both, false), lesson: Some(1), is_probed: false }
+        );
         assert!(Query::new("?lesson=02&probe").is_probed);
         assert_eq!(Query::new("?embed=dolp%2Clobes,sliders,dolp,x").embedded, embedded(&both, true));
         for nothing in ["", "?", "?embed=", "?embed=x&lesson=0", "?lesson=two&&=", "?lesson=-1"] {
