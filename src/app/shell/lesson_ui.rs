@@ -78,7 +78,7 @@ fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action
             actions.push(Action::CloseLesson);
         }
         let help = tr!("Close the lesson and go on from here; your work of before is given up");
-        if ui.small_button(tr!("Keep this")).on_hover_text(help).clicked() {
+        if ui.button(tr!("Keep this")).on_hover_text(help).clicked() {
             actions.push(Action::KeepLesson);
         }
         ui.weak(tr!("Your own work comes back when you close the lesson."));

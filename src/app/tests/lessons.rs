@@ -61,6 +61,18 @@ fn a_lesson_sets_the_sliders_and_goes_on_at_a_click() {
 }
 
 #[test]
+fn the_buttons_of_a_lesson_stand_in_a_line() {
+    let mut harness = harness();
+    explorer(&mut harness).actions.push(Action::ShowStep(0, 0));
+    wait(&mut harness);
+    let next = harness.get_by_label("Next step").rect();
+    for name in ["Previous step", "Set up again", "Close lesson", "Keep this"] {
+        let button = harness.get_by_label(name).rect();
+        assert_eq!((button.top(), button.bottom()), (next.top(), next.bottom()), "{name}");
+    }
+}
+
+#[test]
 fn the_last_lesson_of_the_menu_is_seen_without_scrolling() {
     let mut harness = harness();
     let last = explorer(&mut harness).lessons.all.last().expect("lessons").title.in_language("en").to_owned();

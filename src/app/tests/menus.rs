@@ -1,7 +1,8 @@
-//! Menus under the pointer.
+//! Menus under the pointer and by keys.
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness};
+use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -39,4 +40,16 @@ fn a_click_on_the_title_of_a_menu_that_opened_under_the_pointer_leaves_it_open()
     harness.get_by_label("Logarithmic lobes").click();
     harness.run();
     assert!(explorer(&mut harness).work.settings().log_brdf && harness.query_by_label("Logarithmic lobes").is_none());
+}
+
+#[test]
+fn alt_and_a_letter_open_a_menu_and_close_it_again() {
+    let mut harness = harness();
+    for (letter, item) in [(Key::F, "Open measurement"), (Key::E, "Undo"), (Key::V, "Logarithmic lobes")] {
+        for is_open in [true, false] {
+            harness.key_press_modifiers(Modifiers::ALT, letter);
+            harness.run();
+            assert_eq!(harness.query_by_label_contains(item).is_some(), is_open, "{letter:?}");
+        }
+    }
 }
