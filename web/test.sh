@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opens web/dist in Debian's Chromium without a screen and tries it out as a user would; see web/drive.mjs.
+# Opens web/dist in Debian's Chromium without a screen and tries it out as a user would; see web/drive.cjs.
 #
 #   web/build.sh && web/test.sh
 #
