@@ -363,6 +363,16 @@ fn what_leaves_room_for_doubt_is_refused_with_its_place() {
 }
 
 #[test]
+fn an_angle_of_incidence_of_90_degrees_in_a_heading_is_refused_with_its_column() {
+    let table = |last: &str| format!("theta_r,DoLP AOI 30,DoLP AOI {last}\n20,0.1,0.2\n30,0.2,0.3\n");
+    assert!(read(table("89"), &TableOptions::default()).is_ok());
+    for last in ["90", "120", "-90"] {
+        let error = read(table(last), &TableOptions::default()).expect_err("no light arrives at grazing incidence").to_string();
+        assert!(["line 2", "column 3", last, "angle of incidence"].iter().all(|part| error.contains(part)), "{error}");
+    }
+}
+
+#[test]
 fn odd_rows_are_told() {
     let text = "#;theta_i;theta_r;dolp\n1;30;20;0,0441\n2;30;30;nan\n\n3;30;40;0,09\nMittelwert;;;0,07\n";
     let imported = assert_values(text, text.as_bytes(), &TableOptions::default(), false, &[(30.0, 20.0, 0.0441), (30.0, 40.0, 0.09)]);

@@ -92,13 +92,18 @@ impl<'a> ForeignRowReader<'a> {
     /// The values of a row: one for each place of a wide table.
     ///
     /// # Errors
-    /// A cell is no number, or a number outside its range.
+    /// A cell is no number, or a number outside its range; a heading states an angle of incidence of 90°
+    /// or more.
     pub(crate) fn read(&mut self, row: usize, cells: &[&str], set: u32, rows: &mut Vec<RawRow>) -> Result<(), ReadError> {
         let line = self.grid.line(row);
         let shared = self.shared(line, cells)?;
         let first = rows.len();
         for group in &self.plan.groups {
             let theta_i = group.theta_i.or(shared.theta_i).unwrap_or(0.0);
+            if theta_i.abs() >= 90.0 {
+                let kind = ReadErrorKind::OutOfRange { found: theta_i.to_string(), expected: Expected::ThetaI };
+                return Err(self.error(line, group.first_column(), kind));
+            }
             let theta_r = group.theta_r.or(shared.theta_r).unwrap_or(theta_i);
             let mut raw = RawRow {
                 line,
