@@ -24,14 +24,6 @@ pub(crate) struct Group {
     pub(crate) polarimeter: Option<(Polarimeter, Vec<ValueColumns>)>,
 }
 
-impl Group {
-    /// The column of its first value.
-    pub(crate) fn first_column(&self) -> usize {
-        let of_polarimeter = self.polarimeter.as_ref().and_then(|(_, channels)| channels.first());
-        [self.dolp.as_ref(), self.brdf.as_ref(), of_polarimeter].into_iter().flatten().next().map_or(0, |(column, _)| *column)
-    }
-}
-
 /// What the columns of a section are.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plan {

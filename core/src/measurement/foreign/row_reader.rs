@@ -68,6 +68,12 @@ pub(crate) struct ForeignRowReader<'a> {
 /// Values of a wide table that are all 0 in one row: the detector was in the way of the light.
 const SHADED_FROM: usize = 3;
 
+/// The column of the first value of a place.
+fn first_column(group: &Group) -> usize {
+    let of_polarimeter = group.polarimeter.as_ref().and_then(|(_, channels)| channels.first());
+    [group.dolp.as_ref(), group.brdf.as_ref(), of_polarimeter].into_iter().flatten().next().map_or(0, |(column, _)| *column)
+}
+
 impl<'a> ForeignRowReader<'a> {
     pub(crate) fn new(grid: &'a CellGrid, plan: &'a Plan, is_normalised: bool, fills_down: bool) -> Self {
         let place = |field| plan.column(field);
@@ -100,9 +106,9 @@ impl<'a> ForeignRowReader<'a> {
         let first = rows.len();
         for group in &self.plan.groups {
             let theta_i = group.theta_i.or(shared.theta_i).unwrap_or(0.0);
-            if theta_i.abs() >= 90.0 {
-                let kind = ReadErrorKind::OutOfRange { found: theta_i.to_string(), expected: Expected::ThetaI };
-                return Err(self.error(line, group.first_column(), kind));
+            if let Some(stated) = group.theta_i.filter(|stated| stated.abs() >= 90.0) {
+                let kind = ReadErrorKind::OutOfRange { found: stated.to_string(), expected: Expected::ThetaI };
+                return Err(self.error(line, first_column(group), kind));
             }
             let theta_r = group.theta_r.or(shared.theta_r).unwrap_or(theta_i);
             let mut raw = RawRow {
