@@ -3,7 +3,7 @@
 
 Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading; the chapter of
 options is that of the program's help; with mdbook on the PATH the book builds without a warning; and with
-the path of pbrdf-explorer given, every block of ```sh in the chapters runs,
+the path of pbrdf-explorer given, every block of ```sh in the chapters and in README.md runs,
 in one folder a chapter that holds the measurements that the chapters speak of.
 """
 
@@ -89,12 +89,10 @@ def main():
     for path in [*sorted(DOCS.rglob("*.md")), *sorted(ROOT.glob("*.md")), ROOT / "python" / "README.md"]:
         text = path.read_text(encoding="utf-8")
         faults += faulty_links(path, text)
-        if not path.is_relative_to(DOCS):
-            continue
-        name = path.relative_to(DOCS).as_posix()
+        name = path.relative_to(DOCS).as_posix() if path.is_relative_to(DOCS) else "SUMMARY.md"
         if name != "SUMMARY.md" and f"({name})" not in summary:
             faults.append(f"{name} is not in SUMMARY.md")
-        if len(sys.argv) > 1:
+        if len(sys.argv) > 1 and (path.is_relative_to(DOCS) or path == ROOT / "README.md"):
             faults += failing_commands(path, text, pathlib.Path(sys.argv[1]))
     print("\n".join(faults) or "the book is in order")
     return 1 if faults else 0
