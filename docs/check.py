@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks the book: python3 docs/check.py [PROGRAM]
 
-Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading; the chapter of
-options is that of the program's help; with mdbook on the PATH the book builds without a warning; and with
-the path of pbrdf-explorer given, every block of ```sh in the chapters and in README.md runs,
-in one folder a chapter that holds the measurements that the chapters speak of.
+Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a heading, also between the
+book and the library's documentation; the chapter of options is that of the program's help; with mdbook on
+the PATH the book builds without a warning; and with the path of pbrdf-explorer given, every block of ```sh
+in the chapters and in README.md runs, in one folder a chapter that holds the measurements that the chapters
+speak of.
 """
 
 import os
@@ -20,6 +21,7 @@ import make_commands
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 EXAMPLES = ROOT / "assets" / "examples"
+LIBRARY = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "doc"
 # Names that chapters give to a reader's own measurements, and the example that stands in for each.
 # Blocks of Python and Rust run elsewhere: python/tests/test_examples.py, and as documentation tests of the core.
 OWN = {"mine": "steel45", "blue": "copper_650nm", "green": "copper_650nm", "red": "copper_650nm", "copper": "copper_650nm",
@@ -33,16 +35,31 @@ def anchors(text):
 
 
 def faulty_links(path, text):
+    """Links that lead nowhere. Those to ../doc lead to what `cargo doc` makes, and are looked at where it has."""
     text = re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.S)
     for target in re.findall(r"\]\(([^)\s]+)\)", text):
         if "://" in target:
             continue
         name, _, anchor = target.partition("#")
+        if name.startswith("../doc/"):
+            if (LIBRARY / "pbrdf").exists() and not (LIBRARY / name.removeprefix("../doc/")).exists():
+                yield f"{path.name}: cargo doc makes no {target}"
+            continue
         goal = path.parent / name if name else path
         if not goal.exists():
             yield f"{path.name}: there is no {target}"
         elif anchor and anchor not in anchors(goal.read_text(encoding="utf-8")):
             yield f"{path.name}: {name} has no heading {anchor}"
+
+
+def faulty_links_of_the_library():
+    """Links of the library's documentation to chapters, which mdBook makes beside it."""
+    text = (ROOT / "core" / "src" / "lib.rs").read_text(encoding="utf-8")
+    links = re.findall(r"\]\(\.\./\.\./book/(\w+)\.html(#[\w-]+)?\)", text)
+    if not links or len(links) != text.count("](../../book/"):
+        yield "lib.rs: there are links to the book that are no links to a chapter"
+    chapters = "\n".join(f"[]({name}.md{anchor})" for name, anchor in links)
+    yield from (f"lib.rs: {fault}" for fault in faulty_links(DOCS / "rust.md", chapters))
 
 
 def measurements(folder):
@@ -86,6 +103,7 @@ def main():
     if (DOCS / "commands.md").read_text(encoding="utf-8") != make_commands.page():
         faults.append("commands.md is not what the program prints: run docs/make_commands.py")
     faults += faults_of_the_book()
+    faults += faulty_links_of_the_library()
     for path in [*sorted(DOCS.rglob("*.md")), *sorted(ROOT.glob("*.md")), ROOT / "python" / "README.md"]:
         text = path.read_text(encoding="utf-8")
         faults += faulty_links(path, text)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the book: python3 docs/make_images.py PROGRAM [--check] [NAME ...]
+"""Makes the pictures of the book and of README.md: python3 docs/make_images.py PROGRAM [--check] [NAME ...]
 
 Pictures of the window need Xvfb, xdotool and scrot; Pillow puts the others together. With --check nothing is
 written: what the program makes now is compared with the pictures of the book, within the tolerance of the
@@ -25,7 +25,7 @@ COLORS = 128
 LITTLE = 32
 SHARE = 5e-4
 # Where the time of the fit stands, which is another one each time.
-TIMES = {"window": (1078, 358, 1278, 380), "planner": (1078, 358, 1278, 380), "joint": (1104, 422, 1278, 443)}
+TIMES = {"window": (1078, 358, 1278, 380), "screenshot": (1078, 358, 1278, 380), "planner": (1078, 358, 1278, 380), "joint": (1104, 422, 1278, 443)}
 # Seconds after which a window has to be still.
 PATIENCE = 90
 LAB_TABLE = """Messung vom 3. Mai;;
@@ -54,7 +54,9 @@ WINDOWS = {
     "planner": (["steel45_simulated.csv"], ["planner"], ["key F5"]),
     "pane_picture": (["steel45_simulated.csv"], ["picture", "dolp"], []),
     "presentation": (["steel45_simulated.csv"], ["dolp", "lobes"], ["key F11"]),
+    "screenshot": (["steel45_simulated.csv"], ["dolp", "landscape"], ["key F5"]),
 }
+DARK = {"screenshot"}
 
 
 def measurements(program, folder):
@@ -116,7 +118,7 @@ def window(program, name, folder):
     (settings / "settings.json").write_text(json.dumps({
         "settings": {"posterior": {"draws": 4000, "chains": 4, "priors": [], "bands": True}},
         "layout": {"rows": parts},
-        "window": {"theme": "Light", "language": "English", "size": list(SIZE), "maximized": False, "knows_tour": True},
+        "window": {"theme": "Dark" if name in DARK else "Light", "language": "English", "size": list(SIZE), "maximized": False, "knows_tour": True},
     }))
     running = subprocess.Popen([program, *files], cwd=folder, stdout=subprocess.DEVNULL)
     try:
@@ -166,11 +168,14 @@ def main():
     program, *names = [argument for argument in sys.argv[1:] if argument != "--check"]
     program = pathlib.Path(program).resolve()
     made = {"picture": (spheres, DOCS / "picture.png"), **{name: (window, DOCS / "images" / f"{name}.png") for name in WINDOWS}}
-    display = f":{os.environ.get('DISPLAY_NUMBER', '15')}"
-    server = subprocess.Popen(["Xvfb", display, "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-noreset"], stderr=subprocess.DEVNULL)
+    made["screenshot"] = (window, DOCS.parent / "assets" / "screenshot.png")
+    told, tells = os.pipe()
+    screen = ["Xvfb", "-displayfd", str(tells), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-noreset"]
+    server = subprocess.Popen(screen, pass_fds=[tells], stderr=subprocess.DEVNULL)
     faults = 0
     try:
-        time.sleep(1)
+        # The number of a display that was free.
+        display = f":{os.read(told, 16).decode().strip()}"
         for name in names or made:
             make, path = made[name]
             with tempfile.TemporaryDirectory() as place:

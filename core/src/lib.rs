@@ -11,15 +11,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The book in `docs/` says what all of this is for: `docs/model.md` every formula, `docs/fits.md` and `docs/intervals.md` what the numbers of a
-//! fit mean, `docs/numerics.md` how exact they are; its chapter `docs/rust.md` leads back here.
+//! The book says what all of this is for: [The model](../../book/model.html) has every formula,
+//! [Fits](../../book/fits.html) and [Intervals](../../book/intervals.html) what the numbers of a fit mean, and
+//! [Numerics](../../book/numerics.html) how exact they are. Its chapter [Rust](../../book/rust.html) leads back here. `mdbook build docs`
+//! puts it beside this documentation; its sources are in the folder `docs` of the repository.
 //!
 //! # Tour
 //!
 //! ## Evaluate
 //!
 //! A [`Pbrdf`] is a [`Model`] with values of its [`Parameters`]. A [`Geometry`] is prepared once ([`optics::Facet`]) and evaluated for
-//! any number of surfaces.
+//! any number of surfaces. In the book: [The facet](../../book/model.html#the-facet-2), [Parameters](../../book/model.html#parameters).
 //!
 //! ```
 //! use pbrdf::optics::Facet;
@@ -55,7 +57,8 @@
 //!
 //! ## Many geometries at once
 //!
-//! [`model::Batch`] evaluates a fixed list of geometries with the vector units of the processor.
+//! [`model::Batch`] evaluates a fixed list of geometries with the vector units of the processor. In the book:
+//! [Error against time](../../book/numerics.html#error-against-time), [Time and memory](../../book/numerics.html#time-and-memory).
 //!
 //! ```
 //! use pbrdf::model::Batch;
@@ -73,7 +76,7 @@
 //! ## Measurements, read and simulated
 //!
 //! [`Measurement::read`] reads a table from anything that is [`std::io::Read`]. [`measurement::Simulation`] makes one with seeded
-//! noise.
+//! noise. In the book: [A measurement](../../book/command_line.html#a-measurement), [Import](../../book/import.html).
 //!
 //! ```
 //! use pbrdf::measurement::{Columns, Simulation};
@@ -99,6 +102,8 @@
 //!
 //! [`Fit`] describes a fit and runs it. Each [`fit::Estimate`] of the [`FitResult`] has a status and displays accordingly: rounded by
 //! its standard error, undetermined, at a bound, or fixed. Directions in parameter space that the data do not determine are listed.
+//! In the book: [How the minimum is found](../../book/fits.html#how-the-minimum-is-found); [`fit::JointFit`] fits
+//! [several measurements at once](../../book/joint.html).
 //!
 //! ```
 //! use pbrdf::fit::Starts;
@@ -115,7 +120,7 @@
 //! ## Profiles and bootstrap
 //!
 //! Linear standard errors are a first answer. [`fit::profile`] follows the valley of one parameter; [`fit::bootstrap`] refits resampled
-//! residuals. Both take the problem and its result.
+//! residuals. Both take the problem and its result. In the book: [How the ends are found](../../book/intervals.html#how-the-ends-are-found).
 //!
 //! ```
 //! use pbrdf::fit::{Observer, Starts, profile};
@@ -148,7 +153,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`fit::choose`] picks the angles, and [`fit::posterior::Posterior`] draws all surfaces that a measurement allows.
+//! [`fit::choose`] picks the angles, and [`fit::posterior::Posterior`] draws all surfaces that a measurement allows. In the book:
+//! [Which angles to measure](../../book/angles.html), [The posterior](../../book/posterior.html).
 //!
 //! Programs: `examples/evaluate.rs`, `fit.rs`, `compare_distributions.rs`, `profile.rs`, `choose_angles.rs`.
 //!

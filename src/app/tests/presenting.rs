@@ -76,6 +76,24 @@ fn a_presentation_shows_the_panes_of_the_screen_without_panels_and_ends_with_esc
 }
 
 #[test]
+fn titles_of_vertical_axes_are_whole_in_a_presentation() {
+    let mut harness = sized(1280.0, 720.0);
+    harness.key_press(Key::F11);
+    wait(&mut harness);
+    act(&mut harness, Action::ShowPane(PaneId::Landscape));
+    let mut titles = 0;
+    for clipped in &harness.output().shapes {
+        let egui::Shape::Text(text) = &clipped.shape else { continue };
+        if text.angle != 0.0 {
+            titles += 1;
+            let place = text.visual_bounding_rect();
+            assert!(clipped.clip_rect.contains_rect(place), "{}: {place:?} in {:?}", text.galley.text(), clipped.clip_rect);
+        }
+    }
+    assert!(titles >= 3, "{titles}");
+}
+
+#[test]
 fn the_read_out_says_what_the_model_says_in_the_mirror_direction() {
     let mut harness = harness();
     act(&mut harness, Action::Present);
