@@ -62,6 +62,15 @@ def faulty_links_of_the_library():
     yield from (f"lib.rs: {fault}" for fault in faulty_links(DOCS / "rust.md", chapters))
 
 
+def unnamed_panes():
+    """Panes that the chapter on lessons does not name, though a lesson may."""
+    table = (ROOT / "src" / "app" / "work" / "pane_id.rs").read_text(encoding="utf-8")
+    lessons = (DOCS / "lessons.md").read_text(encoding="utf-8")
+    for key in re.findall(r"^ +\w+ (\w+) (?:Upper|Lower),$", table, re.M):
+        if f"`{key}`" not in lessons:
+            yield f"lessons.md does not name the pane {key}"
+
+
 def measurements(folder):
     """What the commands read."""
     for example in EXAMPLES.iterdir():
@@ -128,6 +137,7 @@ def main():
         faults.append("commands.md is not what the program prints: run docs/make_commands.py")
     faults += faults_of_the_book()
     faults += faulty_links_of_the_library()
+    faults += unnamed_panes()
     for path in [*sorted(DOCS.rglob("*.md")), *sorted(ROOT.glob("*.md")), ROOT / "python" / "README.md"]:
         text = path.read_text(encoding="utf-8")
         faults += faulty_links(path, text)

@@ -20,7 +20,7 @@ from PIL import Image, ImageChops
 DOCS = pathlib.Path(__file__).resolve().parent
 EXAMPLES = DOCS.parent / "assets" / "examples"
 SIZE = (1280, 720)
-COLORS = 128
+COLORS = 256
 # What a colour may differ by, of 255, and the share of pixels that may differ by more.
 LITTLE = 32
 SHARE = 5e-4
