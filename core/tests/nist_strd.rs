@@ -15,7 +15,7 @@ const DIGITS: f64 = 8.0;
 /// NIST prints 11 digits: a difference below them is none.
 const CERTIFIED_DIGITS: f64 = 11.0;
 /// The bar: problems that reach it from both starts, of 27.
-const PROBLEMS: usize = 26;
+const PROBLEMS: usize = 27;
 
 type Model = fn(&[Dual], &[f64]) -> Dual;
 

@@ -123,6 +123,11 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
         }
     }
 
+    /// Whether every unknown moved in the last step: none was held by a bound, and none was without any effect, as on a plateau.
+    pub(crate) fn moves_all(&self) -> bool {
+        self.moving.len() == self.bounds.len()
+    }
+
     /// Minimises until the minimum or a limit is reached, or no step improves.
     pub(crate) fn run(&mut self, limits: Limits, recorder: &mut Recorder<'_>) -> StopReason {
         self.current.sum_of_squares = recorder.evaluate(self.problem, &self.current.x, &mut self.current.residuals);

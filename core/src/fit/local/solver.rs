@@ -19,7 +19,7 @@ use nalgebra::DVector;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Effort {
-    /// To the minimum: the bounded solver, then MINPACK and the bounded solver again where the first ends on a bound or fails.
+    /// To the minimum: the bounded solver, then MINPACK and the bounded solver again where the first fails or ends on a bound or a plateau.
     Thorough,
     /// From a far start until another start is worth more: MINPACK until progress is slow, then the bounded solver.
     Coarse,
@@ -98,12 +98,14 @@ fn coarse<P: LeastSquares>(problem: &P, start: &DVector<f64>, minpack: MinpackLi
     BoundedLm::new(problem, &from).run(limits, recorder)
 }
 
-/// The bounded Levenberg–Marquardt; where it fails or ends on a bound, once more from the point that MINPACK reaches from the same start.
+/// The bounded Levenberg–Marquardt; where it fails, ends on a bound or where an unknown changes nothing, once more from the point that
+/// MINPACK reaches from the same start.
 fn thorough<P: LeastSquares>(problem: &P, start: &DVector<f64>, limits: Limits, recorder: &mut Recorder<'_>) -> StopReason {
-    let first = BoundedLm::new(problem, start).run(limits, recorder);
+    let mut solver = BoundedLm::new(problem, start);
+    let first = solver.run(limits, recorder);
     let is_done = match first {
         StopReason::ResidualsZero | StopReason::Cancelled => true,
-        StopReason::Converged => is_inside(problem, recorder.best()),
+        StopReason::Converged => is_inside(problem, recorder.best()) && solver.moves_all(),
         _ => false,
     };
     if is_done {
