@@ -5,9 +5,10 @@ Every chapter is in SUMMARY.md; every link leads to a file and every anchor to a
 book and the library's documentation; the chapter of options is that of the program's help; with mdbook on
 the PATH the book builds without a warning; and with the path of pbrdf-explorer given, every block of ```sh
 in the chapters and in README.md runs, in one folder a chapter that holds the measurements that the chapters
-speak of.
+speak of, and prints the lines that stand right below it; and the errors that numerics.md states are found.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -21,6 +22,8 @@ import make_commands
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 EXAMPLES = ROOT / "assets" / "examples"
+# The error that `report stability` allows.
+TEXTBOOK_LIMIT = 1e-13
 LIBRARY = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "doc"
 # Names that chapters give to a reader's own measurements, and the example that stands in for each.
 # Blocks of Python and Rust run elsewhere: python/tests/test_examples.py, and as documentation tests of the core.
@@ -130,6 +133,27 @@ def faults_of_the_book():
             yield f"mdbook: {said}"
 
 
+def false_figures(program):
+    """Errors that the chapter on numerics and README.md state, and the program does not find."""
+    def rows(report):
+        done = subprocess.run([program.resolve(), "report", report, "--json"], capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)["rows"]
+
+    numerics = (DOCS / "numerics.md").read_text(encoding="utf-8")
+    for row in rows("error-vs-time"):
+        if row["task"] == "evaluate":
+            shown = f"| {row['method']} | {row['worst_relative_error']:.1e} | {row['median_relative_error']:.1e} |"
+            if shown not in numerics:
+                yield f"numerics.md does not state: {shown}"
+    cases = rows("stability")
+    textbook = [case["textbook_error"] for case in cases if case["textbook_error"] is not None]
+    passed, missed = sum(case["pass"] for case in cases), sum(error > TEXTBOOK_LIMIT for error in textbook)
+    for path, sentence in [("docs/numerics.md", f"All {passed} pass."), ("docs/numerics.md", f"in {missed} of the {len(textbook)}."),
+                           ("README.md", f"{passed} of {len(cases)} pass; textbook formulas miss {missed} of {len(textbook)}")]:
+        if sentence not in (ROOT / path).read_text(encoding="utf-8"):
+            yield f"{path} does not state: {sentence}"
+
+
 def main():
     summary = (DOCS / "SUMMARY.md").read_text(encoding="utf-8")
     faults = []
@@ -146,6 +170,8 @@ def main():
             faults.append(f"{name} is not in SUMMARY.md")
         if len(sys.argv) > 1 and (path.is_relative_to(DOCS) or path == ROOT / "README.md"):
             faults += failing_commands(path, text, pathlib.Path(sys.argv[1]))
+    if len(sys.argv) > 1:
+        faults += false_figures(pathlib.Path(sys.argv[1]))
     print("\n".join(faults) or "the book is in order")
     return 1 if faults else 0
 
