@@ -8,7 +8,7 @@
 //!    ▼
 //! sampler      chains in parallel; warm-up in windows
 //!    ├─ metric, bend     whitened and straightened coordinates, learnt in the warm-up
-//!    ├─ nuts             trajectories
+//!    ├─ nuts             trajectories of strides, divided where the density is narrow
 //!    └─ step_size        dual averaging
 //!    ▼
 //! PosteriorSample: diagnostics (R̂, effective sizes), evidence (bridge sampling), verdict
@@ -16,6 +16,7 @@
 
 mod bend;
 mod density;
+mod depolarised_light;
 mod derived;
 mod diagnostics;
 mod evidence;
@@ -25,11 +26,13 @@ mod metric;
 mod nuts;
 mod odds;
 mod parts;
+mod phase;
 mod prior;
 mod run;
 mod sample;
 mod sampler;
 mod step_size;
+mod stride;
 mod transform;
 mod valley;
 mod walls;

@@ -2,60 +2,17 @@
 //!
 //! A trajectory doubles, forwards or backwards, until it turns back on itself. Its points are weighted by `exp(−H)`; the next draw is
 //! taken within a new half by weight, between the halves in favour of the new one. The metric is the unit matrix: the coordinates
-//! are whitened ([`crate::fit::posterior::metric`]). A half is built leaf by leaf, without recursion: of the subtrees that a leaf
-//! completes, the momenta of the first leaves wait on a stack.
+//! are whitened ([`crate::fit::posterior::metric`]). A step is divided where the density is narrow, which multiplies the weights of all
+//! points beyond by a ratio of probabilities ([`crate::fit::posterior::stride`]). A half is built leaf by leaf, without recursion: of
+//! the subtrees that a leaf completes, the momenta of the first leaves wait on a stack.
 
 use crate::fit::posterior::log_density::LogDensity;
+use crate::fit::posterior::phase::{Phase, add_scaled, dot};
+use crate::fit::posterior::stride::{Stride, StrideOutcome};
 use crate::measurement::Deviates;
 
 /// Doublings of a trajectory, at most: 1,023 steps.
 const MAX_DEPTH: usize = 10;
-/// Rise of the energy from which a trajectory has diverged: its points have weights below e⁻¹⁰⁰⁰.
-const DIVERGENCE: f64 = 1000.0;
-
-/// A point of phase space.
-#[derive(Debug, Clone, Default)]
-struct Phase {
-    position: Vec<f64>,
-    momentum: Vec<f64>,
-    gradient: Vec<f64>,
-    log_density: f64,
-}
-
-impl Phase {
-    fn new(dimension: usize) -> Self {
-        let zeros = || vec![0.0; dimension];
-        Self { position: zeros(), momentum: zeros(), gradient: zeros(), log_density: f64::NEG_INFINITY }
-    }
-
-    fn copy_from(&mut self, other: &Self) {
-        self.position.copy_from_slice(&other.position);
-        self.momentum.copy_from_slice(&other.momentum);
-        self.gradient.copy_from_slice(&other.gradient);
-        self.log_density = other.log_density;
-    }
-
-    fn energy(&self) -> f64 {
-        0.5 * dot(&self.momentum, &self.momentum) - self.log_density
-    }
-
-    /// One leapfrog step.
-    fn step(&mut self, density: &mut impl LogDensity, step_size: f64) {
-        add_scaled(&mut self.momentum, 0.5 * step_size, &self.gradient);
-        add_scaled(&mut self.position, step_size, &self.momentum);
-        self.log_density = density.value_and_gradient(&self.position, &mut self.gradient);
-        add_scaled(&mut self.momentum, 0.5 * step_size, &self.gradient);
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn add_scaled(to: &mut [f64], factor: f64, other: &[f64]) {
-    to.iter_mut().zip(other).for_each(|(slot, other)| *slot += factor * other);
-}
-
 fn log_add(a: f64, b: f64) -> f64 {
     let larger = a.max(b);
     if larger == f64::NEG_INFINITY { larger } else { larger + libm::log1p(libm::exp(a.min(b) - larger)) }
@@ -70,9 +27,9 @@ fn turns(sum: &[f64], begin: &[f64], end: &[f64]) -> bool {
 /// What a transition did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Transition {
-    /// Mean acceptance probability of the trajectory's points, 0 to 1.
+    /// Mean over the trajectory of exp(−|ΔE|), ΔE the change of the energy in an undivided step: 0 to 1.
     pub acceptance: f64,
-    /// Whether the energy ran away.
+    /// Whether the energy ran away even in the shortest steps.
     pub diverged: bool,
     /// Whether the trajectory was cut at its greatest length.
     pub cut: bool,
@@ -93,6 +50,7 @@ pub(crate) struct Nuts {
 #[derive(Debug, Clone)]
 struct Half {
     walker: Phase,
+    stride: Stride,
     proposal: Phase,
     sum: Vec<f64>,
     first_momentum: Vec<f64>,
@@ -105,11 +63,12 @@ struct Half {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum HalfOutcome {
     Whole,
+    /// It turns back, or a step in it can't be taken back.
     Turned,
     Diverged,
 }
 
-/// Acceptance summed over the points of a trajectory.
+/// exp(−|ΔE|) summed over the points of a trajectory.
 #[derive(Debug, Clone, Copy, Default)]
 struct AcceptanceSum {
     sum: f64,
@@ -126,6 +85,7 @@ impl Nuts {
         here.log_density = density.value_and_gradient(position, &mut here.gradient);
         let half = Half {
             walker: phase(),
+            stride: Stride::new(position.len()),
             proposal: phase(),
             sum: zeros(),
             first_momentum: zeros(),
@@ -178,6 +138,7 @@ impl Nuts {
     /// Moves to the next draw.
     pub(crate) fn advance(&mut self, density: &mut impl LogDensity, step_size: f64, deviates: &mut Deviates) -> Transition {
         self.draw_momentum(deviates);
+        self.here.log_ratio = 0.0;
         let energy = self.here.energy();
         self.backward.copy_from(&self.here);
         self.forward.copy_from(&self.here);
@@ -243,19 +204,20 @@ impl Half {
         self.sum.fill(0.0);
         self.log_weight = f64::NEG_INFINITY;
         for leaf in 0..1_usize << depth {
-            self.walker.step(density, step_size);
-            let rise = self.walker.energy() - energy;
+            let (outcome, change) = self.stride.take(&mut self.walker, density, step_size, deviates);
             accepted.points += 1.0;
-            // Not a number has diverged too.
-            if rise >= DIVERGENCE || rise.is_nan() {
-                return HalfOutcome::Diverged;
+            accepted.sum += libm::exp(-change.abs());
+            match outcome {
+                StrideOutcome::Taken => {}
+                StrideOutcome::OneWay => return HalfOutcome::Turned,
+                StrideOutcome::Diverged => return HalfOutcome::Diverged,
             }
-            accepted.sum += libm::exp(-rise).min(1.0);
-            self.log_weight = log_add(self.log_weight, -rise);
+            let log_weight = energy - self.walker.energy() + self.walker.log_ratio;
+            self.log_weight = log_add(self.log_weight, log_weight);
             if leaf == 0 {
                 self.first_momentum.copy_from_slice(&self.walker.momentum);
             }
-            if deviates.uniform() <= libm::exp(-rise - self.log_weight) {
+            if deviates.uniform() <= libm::exp(log_weight - self.log_weight) {
                 self.proposal.copy_from(&self.walker);
             }
             if self.turned_at(leaf) {

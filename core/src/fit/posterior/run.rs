@@ -201,15 +201,13 @@ impl<P: PosteriorProblem> Posterior<P> {
             chain.points.iter().zip(&chain.log_density).take(length).map(|(point, &log)| draw(point, log)).collect()
         };
         let sum = |of: fn(&ChainDraws) -> usize| chains.iter().map(of).sum();
-        #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
-        let count = (length * chains.len()).max(1) as f64;
         PosteriorSample {
             model: self.problem.model(),
             parameters: self.problem.names().to_vec(),
             evaluations: sum(|chain| chain.evaluations),
             divergences: sum(|chain| chain.divergences),
             cut: sum(|chain| chain.cut),
-            accepted: chains.iter().map(|chain| chain.acceptance).sum::<f64>() / count,
+            transitions: sum(|chain| chain.transitions),
             chains: chains.iter().map(of_chain).collect(),
             noise: [None; 2],
             log_evidence: None,

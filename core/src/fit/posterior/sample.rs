@@ -50,10 +50,10 @@ pub struct PosteriorSample<N = Parameter, P = Parameters> {
     pub evaluations: usize,
     /// Transitions after the warm-up whose energy ran away.
     pub divergences: usize,
-    /// Transitions after the warm-up that were cut at 1,023 steps.
+    /// Transitions after the warm-up that were cut at 1,023 steps, divided ones counted once.
     pub cut: usize,
-    /// Mean acceptance probability, 0 to 1.
-    pub accepted: f64,
+    /// Transitions after the warm-up: one or more from draw to draw, by how far one goes.
+    pub transitions: usize,
     /// Of the noise of DoLP and of BRDF where it is not stated; none of what is not measured.
     pub noise: [Option<NoiseQuantiles>; 2],
     /// Evidence of the model; none of too few draws.
@@ -156,7 +156,7 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
             evaluations: self.evaluations,
             divergences: self.divergences,
             cut: self.cut,
-            accepted: self.accepted,
+            transitions: self.transitions,
             noise: self.noise,
             log_evidence: self.log_evidence,
             elapsed_ms: self.elapsed_ms,
@@ -229,7 +229,7 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
         let worst_rhat = all.iter().max_by(|a, b| a.1.rhat.total_cmp(&b.1.rhat));
         let smallest = all.iter().min_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
         #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
-        let share = self.divergences as f64 / self.len().max(1) as f64;
+        let share = self.divergences as f64 / self.transitions.max(1) as f64;
         match (worst_rhat, smallest) {
             (Some((parameter, of)), _) if of.rhat > LARGEST_RHAT || of.rhat.is_nan() => {
                 PosteriorVerdict::NotMixed { parameter: parameter.clone(), rhat: of.rhat }

@@ -4,6 +4,7 @@
 //! draws of the window for their metric. Chains run in parallel where there are threads, each with its own random numbers, and meet
 //! after each block of draws: no draw depends on the number of threads.
 
+use crate::fit::posterior::diagnostics::convergence;
 use crate::fit::posterior::log_density::LogDensity;
 use crate::fit::posterior::metric::{Metric, Whitened};
 use crate::fit::posterior::nuts::Nuts;
@@ -12,16 +13,12 @@ use crate::measurement::Deviates;
 
 /// Draws of the windows of a warm-up. The first forgets the starts, the last settles the step size.
 const WINDOWS: [usize; 6] = [100, 100, 150, 250, 400, 150];
-/// The first window whose draws are made in straightened coordinates.
-const STRAIGHT: usize = 3;
-/// Acceptance rate that step sizes are adapted to, and that after a window with more than a few divergences.
-const ACCEPTANCE: f64 = 0.85;
-const CAREFUL_ACCEPTANCE: f64 = 0.9;
-/// Divergences in a window are few where there are fewer than one in so many draws.
-const FEW_DIVERGENCES: usize = 500;
-/// After divergences this share of the transitions goes by a part of the step size, so that no chain is stuck in a narrow place.
-const SHORT_SHARE: f64 = 0.2;
-const SHORT_STEP: f64 = 0.125;
+/// What exp(−|ΔE|) of an undivided step is on average, ΔE its change of the energy.
+const ACCEPTANCE: f64 = 0.8;
+/// Effective draws of the worst coordinate that one draw is to be worth, at least.
+const WORTH: f64 = 0.15;
+/// Transitions from one draw to the next, at most.
+const MOST_TRANSITIONS: f64 = 8.0;
 /// Draws of each chain between two meetings after the warm-up.
 const BLOCK: usize = 250;
 
@@ -34,8 +31,8 @@ pub(crate) struct ChainDraws {
     pub divergences: usize,
     /// Trajectories that were cut at their greatest length.
     pub cut: usize,
-    /// Sum of the mean acceptance probabilities of the transitions.
-    pub acceptance: f64,
+    /// Transitions: one or more from draw to draw.
+    pub transitions: usize,
     /// Evaluations of value and gradient, those of the warm-up among them.
     pub evaluations: usize,
 }
@@ -63,10 +60,8 @@ struct Chain<D> {
 struct Pace {
     /// Whether the step size is adapted.
     adapts: bool,
-    /// Acceptance rate that it is adapted to.
-    acceptance: f64,
-    /// Whether some transitions go by shorter steps.
-    mixes: bool,
+    /// Transitions from one draw to the next.
+    transitions: usize,
 }
 
 /// How far the chains are, 0 to 1, the warm-up being a part of it.
@@ -81,27 +76,25 @@ impl<D: LogDensity> Chain<D> {
         let mut nuts = Nuts::new(&mut whitened, &here);
         let mut adapted = None;
         if pace.adapts {
-            adapted = Some(DualAveraging::new(nuts.reasonable_step_size(&mut whitened, deviates), pace.acceptance));
+            adapted = Some(DualAveraging::new(nuts.reasonable_step_size(&mut whitened, deviates), ACCEPTANCE));
         }
         *window = ChainDraws::default();
         for _ in 0..count {
             if cancelled() {
                 break;
             }
-            let shorter = if pace.mixes && deviates.uniform() < SHORT_SHARE { SHORT_STEP } else { 1.0 };
-            let whole = adapted.map_or(*step_size, |adapted| adapted.step_size());
-            let transition = nuts.advance(&mut whitened, shorter * whole, deviates);
-            if shorter == 1.0
-                && let Some(adapted) = &mut adapted
-            {
-                adapted.update(transition.acceptance);
+            for _ in 0..pace.transitions {
+                let transition = nuts.advance(&mut whitened, adapted.map_or(*step_size, |adapted| adapted.step_size()), deviates);
+                if let Some(adapted) = &mut adapted {
+                    adapted.update(transition.acceptance);
+                }
+                window.divergences += usize::from(transition.diverged);
+                window.cut += usize::from(transition.cut);
             }
+            window.transitions += pace.transitions;
             metric.to_density(nuts.position(), position);
             window.points.push(position.clone());
             window.log_density.push(nuts.log_density());
-            window.divergences += usize::from(transition.diverged);
-            window.cut += usize::from(transition.cut);
-            window.acceptance += transition.acceptance;
         }
         if let Some(adapted) = adapted {
             *step_size = adapted.average();
@@ -127,19 +120,17 @@ pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
     #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
     let share = |done: usize| done as f64 / (WINDOWS.iter().sum::<usize>() + draws) as f64;
     let mut done = 0;
-    let mut pace = Pace { adapts: true, acceptance: ACCEPTANCE, mixes: false };
+    let mut pace = Pace { adapts: true, transitions: 1 };
     for (i, &window) in WINDOWS.iter().enumerate() {
         run_all(&mut chains, |chain| chain.run(&metric, window, pace, cancelled));
         done += window;
         progress(share(done), &drawn);
         let points: Vec<Vec<f64>> = chains.iter().flat_map(|chain| chain.window.points.iter().cloned()).collect();
-        let divergences: usize = chains.iter().map(|chain| chain.window.divergences).sum();
-        // Before the coordinates are straight, divergences tell nothing.
-        if i >= STRAIGHT && divergences * FEW_DIVERGENCES > points.len() {
-            (pace.acceptance, pace.mixes) = (CAREFUL_ACCEPTANCE, true);
-        }
         if i + 1 < WINDOWS.len() {
             metric = metric.of_draws(&points).unwrap_or(metric);
+        }
+        if i + 2 == WINDOWS.len() {
+            pace.transitions = transitions(&chains);
         }
     }
     pace.adapts = false;
@@ -156,6 +147,19 @@ pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
         progress(share(done), &drawn);
     }
     Some(Sampled { chains: drawn, metric })
+}
+
+/// Transitions from one draw to the next, by the effective draws of the present window.
+#[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of draws")]
+fn transitions<D>(chains: &[Chain<D>]) -> usize {
+    let of = |coordinate: usize| {
+        let columns = chains.iter().map(|chain| chain.window.points.iter().map(|point| point[coordinate]).collect());
+        convergence(&columns.collect::<Vec<Vec<f64>>>())
+    };
+    let dimension = chains.first().map_or(0, |chain| chain.position.len());
+    let worst = (0..dimension).filter_map(of).map(|found| found.ess_bulk).fold(f64::INFINITY, f64::min);
+    let drawn: usize = chains.iter().map(|chain| chain.window.points.len()).sum();
+    (WORTH * drawn as f64 / worst).ceil().clamp(1.0, MOST_TRANSITIONS) as usize
 }
 
 impl<D: LogDensity + Clone> Chain<D> {
@@ -179,7 +183,7 @@ impl ChainDraws {
         self.log_density.append(&mut other.log_density);
         self.divergences += other.divergences;
         self.cut += other.cut;
-        self.acceptance += other.acceptance;
+        self.transitions += other.transitions;
     }
 }
 
@@ -197,6 +201,7 @@ fn run_all<D: Send>(chains: &mut [Chain<D>], run: impl Fn(&mut Chain<D>) + Send 
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
 mod tests {
     use super::draw_chains;
+    use crate::fit::posterior::diagnostics::convergence;
     use crate::fit::posterior::log_density::LogDensity;
     use nalgebra::{DMatrix, DVector};
 
@@ -243,6 +248,39 @@ mod tests {
             }
         }
         assert_eq!(chains.iter().map(|chain| chain.divergences).sum::<usize>(), 0);
+    }
+
+    /// y is normal of deviation 1.5, and x of deviation e^y: the width in x varies by four orders of magnitude.
+    #[derive(Clone)]
+    struct Funnel;
+
+    impl LogDensity for Funnel {
+        fn dimension(&self) -> usize {
+            2
+        }
+
+        fn value_and_gradient(&mut self, at: &[f64], gradient: &mut [f64]) -> f64 {
+            const PRECISION: f64 = 1.0 / (1.5 * 1.5);
+            let square = at[0] * at[0] * libm::exp(-2.0 * at[1]);
+            gradient[0] = -at[0] * libm::exp(-2.0 * at[1]);
+            gradient[1] = square - 1.0 - PRECISION * at[1];
+            -0.5 * square - at[1] - 0.5 * PRECISION * at[1] * at[1]
+        }
+    }
+
+    #[test]
+    fn a_funnel_has_its_quantiles_in_its_neck_too() {
+        let sampled = draw_chains(&Funnel, &vec![vec![0.0, 0.0]; 4], 5000, 11, &|| false, &mut |_, _| {}).unwrap();
+        let chains: Vec<Vec<f64>> = sampled.chains.iter().map(|chain| chain.points.iter().map(|point| point[1] / 1.5).collect()).collect();
+        let found = convergence(&chains).unwrap();
+        assert!(found.rhat < 1.01 && found.ess_bulk > 1000.0, "{found:?}");
+        let all: Vec<f64> = chains.concat();
+        // Normal quantiles, and five standard errors of a share of so many effective draws.
+        for (quantile, share) in [(-2.326_347_9, 0.01), (-1.281_551_6, 0.1), (0.0, 0.5), (1.281_551_6, 0.9), (2.326_347_9, 0.99)] {
+            let below = all.iter().filter(|&&y| y < quantile).count() as f64 / all.len() as f64;
+            let error = 5.0 * f64::sqrt(share * (1.0 - share) / found.ess_bulk.min(found.ess_tail));
+            assert!((below - share).abs() < error, "{share}: {below} ± {error}");
+        }
     }
 
     #[test]

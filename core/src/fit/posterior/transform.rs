@@ -1,22 +1,27 @@
 //! From the box of the free parameters to all of ℝᵈ, in coordinates in which the valleys of the objective are straight.
 //!
 //! A parameter p in a … b has the coordinate `ln(p − a) − ln(1 − (p − a)/(b − a))`: its logarithm, with soft walls. Two pairs enter by
-//! combinations ([`crate::fit::posterior::valley`]). DoLP knows k_d and k_v relative to the peak of the specular lobe alone:
-//! `ln(σ²/(h k_s))` is added to their coordinates (h = 1 for Gauss, q − 1 for Cauchy). A measured BRDF determines that peak: `ln(h/σ²)`
-//! is added to the coordinate of k_s. Depolarised light lowers DoLP as a larger D = n + k²/n does: to the coordinate of D,
-//! `ln(1 + Σ a eᵘ)` is added, where u are the coordinates of k_d and k_v, and a eᵘ is the mean ratio of their light to the specular one.
+//! combinations ([`crate::fit::posterior::valley`]). DoLP knows k_d and k_v relative to the light of the specular lobe alone:
+//! `ln(σ²/(h k_s R))` is added to their coordinates (h = 1 for Gauss, q − 1 for Cauchy; R the reflectance at normal incidence), and what
+//! the shapes of their lobes do at a mean point. A measured BRDF determines that peak: `ln(h/σ²)` is added to the coordinate of k_s.
+//! Depolarised light lowers DoLP as a larger D = n + k²/n does: what it does to the mean of ln DoLP is added to the coordinate of D
+//! ([`crate::fit::posterior::depolarised_light`]).
 //!
 //! Of several measurements each has its transform. A shared coordinate is one of several transforms, and gives the same value in each: what
 //! is added to it depends on shared parameters alone.
 
 use crate::fit::objective::Problem;
+use crate::fit::posterior::depolarised_light::{DepolarisedLight, LIGHT_PARAMETERS, MeanPoint};
 use crate::fit::posterior::valley::Valley;
 use crate::fit::posterior::walls::{Walled, Walls};
-use crate::model::{Model, Parameter, ParameterSet, Parameters, Pbrdf};
+use crate::model::{Model, Parameter, ParameterSet, Parameters};
 use crate::optics::SlopeDistribution;
 
 /// Share of a range that a start keeps away from either wall.
 const START_MARGIN: f64 = 1e-3;
+
+/// Added to (n − 1)² + k², so that a surface that reflects nothing has a finite coordinate.
+const FAINTEST_MIRROR: f64 = 1e-3;
 
 /// The part that a measurement's parameters play among those of all.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +66,11 @@ pub(crate) struct Transform {
     valleys: Vec<(Valley, [usize; 2])>,
     /// Places of the other free ones, those before whose parameters the coordinates of others depend on.
     single: Vec<usize>,
-    /// Where weights of depolarised light are among the free ones, and their light over the specular one per eᵘ.
-    depolarised: Vec<(usize, f64)>,
+    /// What is added to the coordinate of D; nothing where n and k are no pair.
+    light: DepolarisedLight,
+    mean_point: MeanPoint,
+    /// Stands for parameters that the coordinate of D may not follow.
+    reference: Parameters,
 }
 
 /// The parameters at a point of ℝᵈ.
@@ -72,9 +80,8 @@ pub(crate) struct Transformed {
     /// ln of the volume that a unit volume of ℝᵈ has in the box.
     pub log_jacobian: f64,
     walled: Vec<Walled>,
-    /// Light of each depolarising weight over the specular one, and one over their sum with 1.
-    ratios: Vec<f64>,
-    specular_share: f64,
+    /// Derivatives of what is added to the coordinate of D.
+    light_slopes: [f64; 4],
 }
 
 impl Transform {
@@ -105,47 +112,67 @@ impl Transform {
             Parameter::Ks => 1,
             _ => 0,
         });
-        let (depolarised, held) = (Vec::new(), *problem.start());
-        let mut transform = Self { model: problem.model(), role, free, held, low, high, valleys, single, depolarised };
+        let held = *problem.start();
+        let (light, mean_point) = (DepolarisedLight::default(), MeanPoint::default());
+        let mut transform =
+            Self { model: problem.model(), role, free, held, low, high, valleys, single, light, mean_point, reference: *reference };
+        let light = transform.depolarised_light(problem);
+        transform.mean_point = light.mean_point();
         if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) {
-            transform.depolarised = transform.depolarised_ratios(problem, reference);
+            transform.light = light;
         }
         transform
     }
 
-    /// The same with the ratios of depolarised light of another measurement, where n and k are shared with it.
-    pub(crate) fn with_ratios_of(mut self, first: &Self) -> Self {
+    /// Of another measurement beside a first one, whose functions shared coordinates have.
+    pub(crate) fn beside(mut self, first: &Self) -> Self {
+        self.mean_point = first.mean_point;
         if !self.role.own.contains(Parameter::N) {
-            let place = |parameter: Parameter| self.free.iter().position(|&free| free == parameter);
-            let of_first = first.depolarised.iter().filter_map(|&(other, ratio)| Some((place(first.free[other])?, ratio)));
-            self.depolarised = of_first.collect();
+            (self.light, self.reference) = (first.light.clone(), first.reference);
         }
         self
     }
 
-    /// Light of each free weight over the specular one, per eᵘ of its coordinate: mean over the geometries, weighted by DoLP².
-    fn depolarised_ratios(&self, problem: &Problem, reference: &Parameters) -> Vec<(usize, f64)> {
-        let bare = Parameters { kd: 0.0, kv: 0.0, ..*reference };
-        let facets = problem.geometries().facets();
-        let mean = |place: usize| {
-            let mut with = bare;
-            with[self.free[place]] = 1.0;
-            let (bare, with) = (Pbrdf::new(self.model, bare).ok()?, Pbrdf::new(self.model, with).ok()?);
-            let (mut sum, mut whole) = (0.0, 0.0);
-            for facet in facets {
-                let (limit, dolp) = (bare.dolp(facet), with.dolp(facet));
-                if limit > 0.0 && dolp > 0.0 {
-                    sum += limit * limit * (limit / dolp - 1.0);
-                    whole += limit * limit;
-                }
-            }
-            let (shear, _) = self.shear(self.free[place], reference)?;
-            Some(sum / whole / libm::exp(shear)).filter(|ratio| ratio.is_finite())
+    /// The depolarised light that lowers DoLP, as far as D may follow it.
+    fn depolarised_light(&self, problem: &Problem) -> DepolarisedLight {
+        let added = [Parameter::Kd, Parameter::Kv].map(|weight| {
+            let follows = self.role.knows_only_ratios(weight) && self.role.may_follow(Parameter::N, weight);
+            (follows && self.free.contains(&weight)).then(|| self.peak_shear(weight, &self.reference)).flatten()
+        });
+        DepolarisedLight::new(problem, &self.reference, added.map(|added| added.map(|(shear, _)| shear)))
+    }
+
+    /// What is added to the coordinate of D, and its derivatives by [`LIGHT_PARAMETERS`]: by the coordinates of the weights.
+    fn shear_of_d(&self, u: &[f64], p: &Parameters) -> (f64, [f64; 4]) {
+        let mut at = self.reference;
+        for shape in [Parameter::C, Parameter::SigmaV].into_iter().filter(|&shape| self.role.may_follow(Parameter::N, shape)) {
+            at[shape] = p[shape];
+        }
+        let of = |weight: Parameter| {
+            self.place(weight).map_or((0.0, 0.0), |place| {
+                let (shape, slope) = self.shape_shear(weight, p);
+                (u[place] - shape, slope)
+            })
         };
-        let follows = |weight: Parameter| self.role.knows_only_ratios(weight) && self.role.may_follow(Parameter::N, weight);
-        let is_weight = |parameter: Parameter| matches!(parameter, Parameter::Kd | Parameter::Kv) && follows(parameter);
-        let weights = self.single.iter().copied().filter(|&place| is_weight(self.free[place]));
-        weights.filter_map(|place| mean(place).map(|ratio| (place, ratio))).collect()
+        let ((u_kd, by_c), (u_kv, by_sigma_v)) = (of(Parameter::Kd), of(Parameter::Kv));
+        let (mean, mut slopes) = self.light.mean([u_kd, u_kv], at.c, at.sigma_v);
+        slopes[2] -= slopes[0] * by_c;
+        slopes[3] -= slopes[1] * by_sigma_v;
+        for (slope, shape) in slopes[2..].iter_mut().zip([Parameter::C, Parameter::SigmaV]) {
+            if !self.role.may_follow(Parameter::N, shape) {
+                *slope = 0.0;
+            }
+        }
+        (mean, slopes)
+    }
+
+    fn place(&self, parameter: Parameter) -> Option<usize> {
+        self.free.iter().position(|&free| free == parameter)
+    }
+
+    /// Whether the shape of a depolarising lobe stands there: no other parameter moves its coordinate.
+    fn is_shape(&self, place: usize) -> bool {
+        matches!(self.free[place], Parameter::C | Parameter::SigmaV)
     }
 
     /// Lower end of a parameter's range, and its walls counted from there.
@@ -154,8 +181,25 @@ impl Transform {
         (low, Walls::between(0.0, self.high[parameter] - low))
     }
 
+    /// The part of what is added to the coordinate of k_d or k_v that depends on the shape of its lobe, and its derivative.
+    fn shape_shear(&self, weight: Parameter, p: &Parameters) -> (f64, f64) {
+        match weight {
+            Parameter::Kd if self.role.may_follow(weight, Parameter::C) => self.mean_point.ln_diffuse(p.c),
+            Parameter::Kv if self.role.may_follow(weight, Parameter::SigmaV) => self.mean_point.ln_volume(p.sigma_v),
+            _ => (0.0, 0.0),
+        }
+    }
+
     /// What is added to the coordinate of a weight, and the derivatives of that by other parameters.
-    fn shear(&self, parameter: Parameter, p: &Parameters) -> Option<(f64, [(Parameter, f64); 3])> {
+    fn shear(&self, parameter: Parameter, p: &Parameters) -> Option<(f64, [(Parameter, f64); 6])> {
+        let (log, [sigma, q, ks, n, k]) = self.peak_shear(parameter, p)?;
+        let shape = if parameter == Parameter::Kv { Parameter::SigmaV } else { Parameter::C };
+        let (of_shape, slope) = self.shape_shear(parameter, p);
+        Some((log + of_shape, [sigma, q, ks, n, k, (shape, slope)]))
+    }
+
+    /// The part of it that depends on the specular lobe.
+    fn peak_shear(&self, parameter: Parameter, p: &Parameters) -> Option<(f64, [(Parameter, f64); 5])> {
         let knows_only_ratios = self.role.knows_only_ratios(parameter);
         let has_one_peak = [Parameter::Sigma, Parameter::Q].iter().all(|&shape| self.role.may_follow(parameter, shape));
         let sign = match parameter {
@@ -166,25 +210,29 @@ impl Transform {
         };
         let by_ks = knows_only_ratios && self.free.contains(&Parameter::Ks) && self.role.may_follow(parameter, Parameter::Ks);
         let (ks_log, ks_slope) = if by_ks { (libm::log(p.ks), 1.0 / p.ks) } else { (0.0, 0.0) };
+        let by_index = knows_only_ratios && [Parameter::N, Parameter::K].iter().all(|&index| self.role.may_follow(parameter, index));
+        let (mirror_log, [by_n, by_k]) = if by_index { log_mirror(p) } else { (0.0, [0.0; 2]) };
         let height = self.model.distribution.height(p.q);
         let q_slope = if self.model.distribution == SlopeDistribution::Cauchy { 1.0 / height } else { 0.0 };
-        let log = libm::log(p.sigma * p.sigma / height) - ks_log;
-        let slopes = [(Parameter::Sigma, 2.0 / p.sigma), (Parameter::Q, -q_slope), (Parameter::Ks, -ks_slope)];
-        Some((sign * log, slopes.map(|(by, slope)| (by, sign * slope))))
+        let log = libm::log(p.sigma * p.sigma / height) - ks_log - mirror_log;
+        let by_peak = [(Parameter::Sigma, 2.0 / p.sigma), (Parameter::Q, -q_slope), (Parameter::Ks, -ks_slope)];
+        let ([sigma, q, ks], n, k) = (by_peak, (Parameter::N, -by_n), (Parameter::K, -by_k));
+        Some((sign * log, [sigma, q, ks, n, k].map(|(by, slope)| (by, sign * slope))))
     }
 
     /// The parameters at a point of ℝᵈ; reuses the memory of another.
     pub(crate) fn transform(&self, u: &[f64], to: &mut Transformed) {
-        to.ratios.clear();
-        to.ratios.extend(self.depolarised.iter().map(|&(place, ratio)| ratio * libm::exp(u[place])));
-        let depolarised: f64 = to.ratios.iter().sum();
-        to.specular_share = 1.0 / (1.0 + depolarised);
         to.walled.resize(u.len(), Walled::default());
         to.parameters = self.held;
         // A product of slopes: each lies well within f64 wherever a chain may go, but not all together.
         to.log_jacobian = 0.0;
+        for &place in self.single.iter().filter(|&&place| self.is_shape(place)) {
+            to.parameters[self.free[place]] = self.single_value(place, u[place]).1;
+        }
+        let (shear_of_d, light_slopes) = self.shear_of_d(u, &to.parameters);
+        to.light_slopes = light_slopes;
         for &(valley, [first, second]) in &self.valleys {
-            let shear = if valley == Valley::Index { libm::log1p(depolarised) } else { 0.0 };
+            let shear = if valley == Valley::Index { shear_of_d } else { 0.0 };
             let one = valley.first_walls(&self.low, &self.high).value(u[first] - shear);
             let moving = valley.second_walls(one.value, &self.low, &self.high);
             let other = moving.walls.value(u[second]);
@@ -200,15 +248,22 @@ impl Transform {
         }
         for &place in &self.single {
             let parameter = self.free[place];
-            let (low, walls) = self.walls(parameter);
             let shear = self.shear(parameter, &to.parameters).map_or(0.0, |(shear, _)| shear);
-            let walled = walls.value(u[place] - shear);
-            to.parameters[parameter] = (low + walled.value).min(self.high[parameter]);
+            let (walled, value) = self.single_value(place, u[place] - shear);
+            to.parameters[parameter] = value;
             if self.role.counted[place] {
                 to.log_jacobian += libm::log(walled.slope);
             }
             to.walled[place] = walled;
         }
+    }
+
+    /// The value of a parameter that is no pair's, given its coordinate without what is added to it.
+    fn single_value(&self, place: usize, coordinate: f64) -> (Walled, f64) {
+        let parameter = self.free[place];
+        let (low, walls) = self.walls(parameter);
+        let walled = walls.value(coordinate);
+        (walled, (low + walled.value).min(self.high[parameter]))
     }
 
     /// 1 where the volume of a free parameter counts here, else 0.
@@ -239,8 +294,11 @@ impl Transform {
             gradient[first] =
                 (by_first + by_second * (moved + jumped) + count * log_slope_moved) * one.slope + count * one.log_slope_change();
             if valley == Valley::Index {
-                for (&(place, _), ratio) in self.depolarised.iter().zip(&at.ratios) {
-                    gradient[place] -= gradient[first] * ratio * at.specular_share;
+                for (parameter, slope) in LIGHT_PARAMETERS.into_iter().zip(at.light_slopes) {
+                    if let Some(place) = self.place(parameter) {
+                        let by_coordinate = if self.is_shape(place) { at.walled[place].slope } else { 1.0 };
+                        gradient[place] -= gradient[first] * slope * by_coordinate;
+                    }
                 }
             }
         }
@@ -273,11 +331,20 @@ impl Transform {
             let moving = valley.second_walls(one, &self.low, &self.high);
             u[second] = moving.walls.coordinate(moving.without_gap(other));
             if valley == Valley::Index {
-                u[first] += libm::log1p(self.depolarised.iter().map(|&(place, ratio)| ratio * libm::exp(u[place])).sum());
+                u[first] += self.shear_of_d(&u, p).0;
             }
         }
         u
     }
+}
+
+/// ln of the reflectance at normal incidence, `((n − 1)² + k²)/((n + 1)² + k²)`, and its derivatives by n and k.
+fn log_mirror(p: &Parameters) -> (f64, [f64; 2]) {
+    let k_sq = p.k * p.k;
+    let above = (p.n - 1.0) * (p.n - 1.0) + k_sq + FAINTEST_MIRROR;
+    let below = (p.n + 1.0) * (p.n + 1.0) + k_sq;
+    let by_n = 2.0 * ((p.n - 1.0) / above - (p.n + 1.0) / below);
+    (libm::log(above / below), [by_n, 2.0 * p.k * (1.0 / above - 1.0 / below)])
 }
 
 #[cfg(test)]
