@@ -5,7 +5,8 @@ mod common;
 
 use common::{DARK_VALUE, gradient_error, relative_error, table};
 use pbrdf::model::{
-    Batch, Diffuse, DolpFormula, DolpGradients, GradientRequest, Instructions, Model, Parameter, Parameters, Pbrdf, PerParameter, Radiances,
+    AngleColumns, AngleColumnsError, Batch, Diffuse, DolpFormula, DolpGradients, GradientRequest, Instructions, Model, Parameter,
+    Parameters, Pbrdf, PerParameter, Radiances,
 };
 use pbrdf::optics::{Geometry, Masking, SlopeDistribution};
 
@@ -59,9 +60,29 @@ fn gradients_agree(name: &str, instructions: Instructions) {
     println!("{name}, {}: worst gradient error {worst:.1e}", instructions.name());
 }
 
+/// Values at columns of angles, whose geometry is prepared in vectors too.
+fn values_of_columns_agree(name: &str, instructions: Instructions) {
+    for row in table(name) {
+        let geometry = row.geometry();
+        let angles = [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0];
+        let columns = angles.each_ref().map(std::slice::from_ref);
+        let columns = AngleColumns::new(columns[0], columns[1], columns[2]).expect("one point").with_instructions(instructions);
+        let mut values = [0.0; 3];
+        columns.radiances(&row.surface(), values.each_mut().map(std::slice::from_mut)).expect("a geometry");
+        let bar = VALUE * row.critical_angle_factor();
+        for (column, value) in ["brdf", "dolp", "specular"].into_iter().zip(values) {
+            let error = relative_error(value, row.number(column));
+            let bar = if column == "dolp" && row.is_dark() { DARK_VALUE } else { bar };
+            assert!(error <= bar, "{name} line {} ({}): {column} = {value:e}, relative error {error:.1e}", row.line, row.text("case"));
+        }
+    }
+}
+
 #[test]
 fn values_agree_with_sixty_digits() {
     for instructions in WIDTHS {
+        values_of_columns_agree("golden.csv", instructions);
+        values_of_columns_agree("golden_corners.csv", instructions);
         values_agree("golden.csv", instructions);
         values_agree("golden_corners.csv", instructions);
     }
@@ -170,6 +191,82 @@ fn agrees_with_the_scalar_form_everywhere() {
             }
         }
     }
+}
+
+/// Angles of geometries, column by column.
+fn columns(geometries: &[Geometry]) -> [Vec<f64>; 3] {
+    let column = |of: fn(&Geometry) -> f64| geometries.iter().map(of).collect();
+    [column(|at| at.theta_i().0), column(|at| at.theta_r().0), column(|at| at.dphi().0)]
+}
+
+#[test]
+fn columns_of_angles_agree_with_the_scalar_form_everywhere() {
+    for count in [0, 1, 7, 8, 203, 1200] {
+        let geometries = geometries(count);
+        let [theta_i, theta_r, dphi] = columns(&geometries);
+        let angles = AngleColumns::new(&theta_i, &theta_r, &dphi).expect("one length");
+        let prepared = angles.prepare().expect("geometries");
+        let mut values = [(); 3].map(|()| vec![0.0; count]);
+        let mut again = values.clone();
+        for surface in surfaces().into_iter().step_by(if count > 300 { 40 } else { 1 }) {
+            angles.radiances(&surface, values.each_mut().map(Vec::as_mut_slice)).expect("geometries");
+            prepared.radiances(&surface, again.each_mut().map(Vec::as_mut_slice)).expect("as many numbers");
+            assert_eq!(values.each_ref().map(|column| bits(column)), again.each_ref().map(|column| bits(column)));
+            for (i, geometry) in geometries.iter().enumerate() {
+                let expected = surface.reflection(&pbrdf::optics::Facet::new(*geometry));
+                let [brdf, dolp, specular] = values.each_ref().map(|column| column[i]);
+                for (value, reference) in [(dolp, expected.dolp), (brdf, expected.brdf), (specular, expected.specular)] {
+                    let same = value == reference || relative_error(value, reference) <= APART;
+                    assert!(same, "{value:e} is not {reference:e} at {geometry:?} of {surface:?}");
+                }
+            }
+        }
+    }
+}
+
+fn bits(column: &[f64]) -> Vec<u64> {
+    column.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn a_negative_angle_of_view_is_the_backscatter_side_and_a_far_azimuth_is_reduced() {
+    let surface = Pbrdf::new(Model::CAUCHY, Parameters::default()).expect("the defaults");
+    let brdf = |theta_r: f64, dphi: f64| {
+        let mut values = [[0.0]; 3];
+        let [brdf, dolp, specular] = &mut values;
+        let (theta_i, theta_r, dphi) = ([30.0], [theta_r], [dphi]);
+        AngleColumns::new(&theta_i, &theta_r, &dphi).expect("one point").radiances(&surface, [brdf, dolp, specular]).map(|()| values[0][0])
+    };
+    assert_eq!(brdf(-40.0, 180.0), brdf(40.0, 0.0));
+    // 1e12 is 280° more than a whole number of turns.
+    let (far, near) = (brdf(40.0, 1e12).expect("a geometry"), brdf(40.0, 280.0).expect("a geometry"));
+    assert!((far / near - 1.0).abs() < APART, "{far} {near}");
+    assert_eq!(brdf(-40.0, 90.0), Err(AngleColumnsError::Side { point: 0, theta_r: -40.0, dphi: 90.0 }));
+}
+
+#[test]
+fn the_first_point_that_is_none_is_named() {
+    let surface = Pbrdf::new(Model::CAUCHY, Parameters::default()).expect("the defaults");
+    let good = vec![30.0; 2000];
+    for (point, angle) in [(0, f64::NAN), (511, 90.0), (512, f64::INFINITY), (1999, -90.0)] {
+        for column in 0..3 {
+            let mut columns = [good.clone(), good.clone(), vec![180.0; 2000]];
+            columns[column][point] = angle;
+            if column == 2 && angle.is_finite() {
+                continue;
+            }
+            let [theta_i, theta_r, dphi] = &columns;
+            let mut values = [(); 3].map(|()| vec![0.0; 2000]);
+            let angles = AngleColumns::new(theta_i, theta_r, dphi).expect("one length");
+            for outcome in [angles.radiances(&surface, values.each_mut().map(Vec::as_mut_slice)), angles.prepare().map(|_| ())] {
+                assert!(
+                    matches!(outcome, Err(AngleColumnsError::Point { point: found, .. }) if found == point),
+                    "{column} {angle}: {outcome:?}"
+                );
+            }
+        }
+    }
+    assert_eq!(AngleColumns::new(&good, &good[1..], &good), Err(AngleColumnsError::Lengths(2000, 1999, 2000)));
 }
 
 #[test]

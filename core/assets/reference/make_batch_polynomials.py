@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Prints the polynomials of src/model/batch/elementary.rs: interpolation at Chebyshev nodes in 50-digit arithmetic, rounded to doubles.
+"""Prints the polynomials of src/model/batch/elementary.rs and trigonometry.rs: interpolation at Chebyshev nodes in 50-digit arithmetic, rounded to doubles.
 
 Needs mpmath. Beside each polynomial: the largest relative error of the function with the rounded coefficients, without rounding in its evaluation.
 """
 
-from mpmath import cos, exp, linspace, log, lu_solve, matrix, mp, mpf, nstr, pi, polyval, sqrt
+from mpmath import cos, exp, linspace, log, lu_solve, matrix, mp, mpf, nstr, pi, polyval, sin, sqrt
 
 mp.dps = 50
 
@@ -50,3 +50,27 @@ print("Q", nstr(error, 3), *map(repr, exponential), sep="\n  ")
 logarithm = interpolate(big_r, mpf(0), LARGEST_S_SQ, 6)
 error = max(abs((2 + z * value(logarithm, z)) / (2 + z * big_r(z)) - 1) for z in linspace(0, LARGEST_S_SQ, 2001))
 print("R", nstr(error, 3), *map(repr, logarithm), sep="\n  ")
+
+LARGEST_ANGLE_SQ = (pi / 4) ** 2 * mpf("1.0001")
+
+
+def big_s(z):
+    if z < mpf(10) ** -12:
+        return -mpf(1) / 6 + z / 120
+    x = sqrt(z)
+    return (sin(x) / x - 1) / z
+
+
+def big_c(z):
+    if z < mpf(10) ** -12:
+        return mpf(1) / 24 - z / 720
+    return (cos(sqrt(z)) - 1 + z / 2) / z**2
+
+
+sine = interpolate(big_s, mpf(0), LARGEST_ANGLE_SQ, 5)
+error = max(abs((1 + z * value(sine, z)) / (1 + z * big_s(z)) - 1) for z in linspace(0, LARGEST_ANGLE_SQ, 2001))
+print("S", nstr(error, 3), *map(repr, sine), sep="\n  ")
+
+cosine = interpolate(big_c, mpf(0), LARGEST_ANGLE_SQ, 5)
+error = max(abs((1 - z / 2 + z * z * value(cosine, z)) / cos(sqrt(z)) - 1) for z in linspace(0, LARGEST_ANGLE_SQ, 2001))
+print("C", nstr(error, 3), *map(repr, cosine), sep="\n  ")

@@ -29,7 +29,7 @@ mod validation;
 
 pub use assignment::{AssignmentError, assignment_from_text, assignments_from_text, text_from_parameters};
 pub use audit::{Audit, Check, Finding};
-pub use batch::{Batch, DolpGradients, Instructions, Radiances};
+pub use batch::{AngleColumns, AngleColumnsError, Batch, DolpGradients, Instructions, PreparedAngles, Radiances};
 pub use domain::Domain;
 pub use finishes::{FINISHES, Finish};
 pub use geometry_set::GeometrySet;

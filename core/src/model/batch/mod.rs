@@ -8,6 +8,7 @@
 //! A point's result depends on that point alone: it is the same to the bit with or without threads, at any place of the list and for
 //! all vector widths with fused multiply–add (AVX2, AVX-512, NEON). SSE2 and WebAssembly lack that; there the last digits may differ.
 
+mod angles;
 mod coefficients;
 mod elementary;
 mod gradient;
@@ -15,9 +16,11 @@ mod kernels;
 pub(crate) mod lanes;
 pub(crate) mod prepared;
 pub(crate) mod surface_row;
+mod trigonometry;
 
 use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter, Reflection};
 use crate::optics::{Facet, Geometry, SlopeDistribution};
+pub use angles::{AngleColumns, AngleColumnsError, PreparedAngles};
 use coefficients::Coefficients;
 use gradient::{BrdfGradient, COLUMNS, DolpGradient, Slopewise};
 use kernels::{Both, Brdf, Dolp, LAMBERT, MINNAERT, NONE};

@@ -6,7 +6,7 @@ use crate::optics::Facet;
 pub(crate) const LANES: usize = 8;
 
 /// Eight points, side by side. One cache line a column.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[repr(align(64))]
 pub(crate) struct PointBlock {
     pub sin_beta_sq: [f64; LANES],
