@@ -2,12 +2,13 @@
 
 use crate::error::refused;
 use crate::names::{parameter, surface};
-use numpy::{PyArray1, PyReadonlyArray1};
-use pbrdf::model::{Batch, GradientRequest, ParameterSet, Radiances, Reflection};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pbrdf::model::{AngleColumns, AngleColumnsError, GradientRequest, ParameterSet, PreparedAngles, Reflection};
 use pbrdf::optics::Facet;
 use pbrdf::{Geometry, Pbrdf};
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Points that are prepared and evaluated at once: few enough that what is prepared stays in a processor's cache of the third level, a
 /// multiple of the lanes of any kernel.
@@ -40,25 +41,22 @@ impl Wanted {
     }
 }
 
-/// Fills the columns of [`Wanted::widths`] with the values at prepared points.
-fn fill(batch: &Batch, surface: &Pbrdf, wanted: &Wanted, columns: Vec<&mut [f64]>) {
-    let mut radiances = Radiances::default();
-    batch.radiances(surface, &mut radiances);
-    let mut columns = columns.into_iter();
-    for values in [&radiances.brdf, &radiances.dolp, &radiances.specular] {
-        if let Some(column) = columns.next() {
-            column.copy_from_slice(values);
-        }
+/// Fills the columns of [`Wanted::widths`] beyond the first three with the values at points.
+fn fill_rest(angles: AngleColumns<'_>, surface: &Pbrdf, wanted: &Wanted, columns: Vec<&mut [f64]>) -> Result<(), AngleColumnsError> {
+    if columns.is_empty() {
+        return Ok(());
     }
+    let facets = (0..angles.len()).map(|point| angles.geometry(point).map(Facet::new)).collect::<Result<Vec<_>, _>>()?;
+    let mut columns = columns.into_iter();
     if wanted.terms {
         for of in [|of: Reflection| of.diffuse, |of: Reflection| of.volume] {
             let column = columns.next().into_iter().flatten();
-            column.zip(batch.facets()).for_each(|(out, facet)| *out = of(surface.reflection(facet)));
+            column.zip(&facets).for_each(|(out, facet)| *out = of(surface.reflection(facet)));
         }
     }
     if wanted.mueller {
         let matrices = columns.next().map(|column| column.chunks_exact_mut(MUELLER)).into_iter().flatten();
-        for (matrix, facet) in matrices.zip(batch.facets()) {
+        for (matrix, facet) in matrices.zip(&facets) {
             let mueller = surface.mueller(facet.geometry);
             matrix.iter_mut().enumerate().for_each(|(element, out)| *out = mueller.element(element / 4, element % 4));
         }
@@ -67,73 +65,30 @@ fn fill(batch: &Batch, surface: &Pbrdf, wanted: &Wanted, columns: Vec<&mut [f64]
         let by = wanted.by;
         let request = GradientRequest { by, brdf: true, dolp: true };
         let mut columns: Vec<&mut [f64]> = columns.collect();
-        for (point, facet) in batch.facets().iter().enumerate() {
+        for (point, facet) in facets.iter().enumerate() {
             let (_, gradient) = surface.reflection_and_gradient(facet, request);
             let values = by.iter().map(|parameter| gradient.brdf[parameter]).chain(by.iter().map(|parameter| gradient.dolp[parameter]));
             columns.iter_mut().zip(values).for_each(|(column, value)| column[point] = value);
         }
     }
+    Ok(())
 }
 
-/// Why three angles are no geometry, and the number of the point.
-struct NoPoint(usize, String);
-
-impl NoPoint {
-    /// As an exception that says where the point stands in an array of that shape.
-    fn at(self, shape: &[usize]) -> PyErr {
-        refused(format_args!("{}{}", self.1, place(self.0, shape)))
+/// As an exception that says where the point stands in an array of that shape, which is behind so many others.
+fn exception(error: AngleColumnsError, before: usize, shape: &[usize]) -> PyErr {
+    match error {
+        AngleColumnsError::Lengths(..) => refused(error),
+        AngleColumnsError::Side { point, .. } | AngleColumnsError::Point { point, .. } => {
+            refused(format_args!("{error}{}", place(before + point, shape)))
+        }
     }
 }
 
 /// Degrees; a negative θr is the backscatter side, where Δφ says no other.
 pub fn geometry(theta_i: f64, theta_r: f64, dphi: f64) -> Result<Geometry, String> {
-    if theta_r >= 0.0 || theta_r.is_nan() {
-        return Geometry::new(theta_i, theta_r, dphi).map_err(|error| error.to_string());
-    }
-    if dphi == 180.0 {
-        return Geometry::in_plane(theta_i, theta_r).map_err(|error| error.to_string());
-    }
-    Err(format!("theta_r = {theta_r} with dphi = {dphi}: a negative theta_r is the backscatter side, allowed only where dphi is 180"))
-}
-
-/// Angles of points side by side, in degrees.
-struct Angles<'a> {
-    theta_i: &'a [f64],
-    theta_r: &'a [f64],
-    dphi: &'a [f64],
-}
-
-impl<'a> Angles<'a> {
-    /// Of arrays that stand in memory without gaps, all of one length.
-    fn new(arrays: [&'a PyReadonlyArray1<'_, f64>; 3]) -> PyResult<Self> {
-        let [theta_i, theta_r, dphi] = arrays.map(|array| array.as_slice());
-        let angles = Self { theta_i: theta_i?, theta_r: theta_r?, dphi: dphi? };
-        if angles.theta_r.len() != angles.len() || angles.dphi.len() != angles.len() {
-            return Err(refused("the arrays of angles differ in length"));
-        }
-        Ok(angles)
-    }
-
-    fn len(&self) -> usize {
-        self.theta_i.len()
-    }
-
-    /// The points of a block, prepared.
-    fn block(&self, number: usize) -> Result<Batch, NoPoint> {
-        let first = number * BLOCK;
-        let points = first..self.len().min(first + BLOCK);
-        let at = |point: usize| {
-            let facet = geometry(self.theta_i[point], self.theta_r[point], self.dphi[point]).map(Facet::new);
-            facet.map_err(|reason| NoPoint(point, reason))
-        };
-        Ok(Batch::from_facets(points.map(at).collect::<Result<_, _>>()?).single_threaded())
-    }
-
-    /// All blocks, or why there is a point that is none.
-    fn blocks(&self) -> Result<Vec<Batch>, NoPoint> {
-        let blocks: Vec<_> = (0..self.len().div_ceil(BLOCK)).into_par_iter().map(|number| self.block(number)).collect();
-        blocks.into_iter().collect()
-    }
+    let columns = [[theta_i], [theta_r], [dphi]];
+    let point = AngleColumns::new(&columns[0], &columns[1], &columns[2]).and_then(|columns| columns.geometry(0));
+    point.map_err(|error| error.to_string())
 }
 
 /// Where a point stands in an array of that shape: ` (at [2, 5])`; nothing of a single point.
@@ -147,24 +102,54 @@ fn place(mut point: usize, shape: &[usize]) -> String {
     if index.is_empty() { String::new() } else { format!(" (at [{}])", index.join(", ")) }
 }
 
-/// Columns of values at that many points, block by block side by side; `evaluate` fills the columns of a block of that number.
-fn columns_of(
-    points: usize,
-    wanted: &Wanted,
-    evaluate: impl Fn(usize, Vec<&mut [f64]>) -> Result<(), NoPoint> + Sync,
-) -> Result<Vec<Vec<f64>>, NoPoint> {
-    let widths = wanted.widths();
-    let mut columns: Vec<Vec<f64>> = widths.iter().map(|width| vec![0.0; width * points]).collect();
-    let mut parts: Vec<_> = columns.iter_mut().zip(&widths).map(|(column, width)| column.chunks_mut(width * BLOCK)).collect();
-    let blocks: Vec<Vec<&mut [f64]>> = (0..points.div_ceil(BLOCK)).map(|_| parts.iter_mut().filter_map(Iterator::next).collect()).collect();
-    let outcomes: Vec<_> = blocks.into_par_iter().enumerate().map(|(number, out)| evaluate(number, out)).collect();
-    outcomes.into_iter().collect::<Result<(), _>>()?;
-    Ok(columns)
+/// The points of a block of that number.
+fn points_of_block(number: usize, points: usize) -> Range<usize> {
+    number * BLOCK..points.min((number + 1) * BLOCK)
 }
 
-/// Columns as arrays, without a copy.
-fn arrays<'py>(py: Python<'py>, columns: Vec<Vec<f64>>) -> Vec<Bound<'py, PyArray1<f64>>> {
-    columns.into_iter().map(|column| PyArray1::from_vec(py, column)).collect()
+/// An outcome for each block of so many points, made side by side; the error of the first that has one.
+fn each_block<T: Send>(
+    points: usize,
+    make: impl Fn(usize) -> Result<T, AngleColumnsError> + Send + Sync,
+) -> Result<Vec<T>, (usize, AngleColumnsError)> {
+    let outcomes: Vec<_> = (0..points.div_ceil(BLOCK)).into_par_iter().map(make).collect();
+    outcomes.into_iter().enumerate().map(|(number, outcome)| outcome.map_err(|error| (number * BLOCK, error))).collect()
+}
+
+/// Columns of values at that many points as arrays, filled block by block side by side; `evaluate` fills the columns of a block of that
+/// number.
+fn arrays_of<'py>(
+    py: Python<'py>,
+    shape: &[usize],
+    points: usize,
+    wanted: &Wanted,
+    evaluate: impl Fn(usize, Vec<&mut [f64]>) -> Result<(), AngleColumnsError> + Sync,
+) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
+    // numpy asks the system for large pages, which a `Vec` does not: half the time of an evaluation would go into small ones.
+    let empty = py.import("numpy")?.getattr("empty")?;
+    let widths = wanted.widths();
+    let make = |width: &usize| Ok(empty.call1((width * points,))?.cast_into::<PyArray1<f64>>()?);
+    let arrays = widths.iter().map(make).collect::<PyResult<Vec<_>>>()?;
+    let mut borrowed: Vec<_> = arrays.iter().map(PyArrayMethods::readwrite).collect();
+    let columns = borrowed.iter_mut().map(|array| array.as_slice_mut()).collect::<Result<Vec<_>, _>>()?;
+    let mut parts: Vec<_> = columns.into_iter().zip(&widths).map(|(column, width)| column.chunks_mut(width * BLOCK)).collect();
+    let blocks: Vec<Vec<&mut [f64]>> = (0..points.div_ceil(BLOCK)).map(|_| parts.iter_mut().filter_map(Iterator::next).collect()).collect();
+    let outcome = py.detach(|| {
+        let outcomes: Vec<_> = blocks.into_par_iter().enumerate().map(|(number, out)| evaluate(number, out)).collect();
+        outcomes.into_iter().enumerate().find_map(|(number, outcome)| outcome.err().map(|error| (number * BLOCK, error)))
+    });
+    drop(borrowed);
+    match outcome {
+        Some((before, error)) => Err(exception(error, before, shape)),
+        None => Ok(arrays),
+    }
+}
+
+/// The first three columns, and the others.
+fn radiance_columns(mut columns: Vec<&mut [f64]>) -> ([&mut [f64]; 3], Vec<&mut [f64]>) {
+    let rest = columns.split_off(3.min(columns.len()));
+    let mut columns = columns.into_iter();
+    (std::array::from_fn(|_| columns.next().unwrap_or_default()), rest)
 }
 
 /// What the Python above asks for: a model, values of its parameters by their names, and what is wanted beside BRDF and DoLP.
@@ -195,21 +180,21 @@ pub fn evaluate<'py>(
     shape: Vec<usize>,
 ) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
     let (surface, wanted) = question.surface_and_wanted()?;
-    let angles = Angles::new([&theta_i, &theta_r, &dphi])?;
-    let columns = py.detach(|| {
-        columns_of(angles.len(), &wanted, |number, out| {
-            fill(&angles.block(number)?, &surface, &wanted, out);
-            Ok(())
-        })
-    });
-    Ok(arrays(py, columns.map_err(|error| error.at(&shape))?))
+    let (theta_i, theta_r, dphi) = (theta_i.as_slice()?, theta_r.as_slice()?, dphi.as_slice()?);
+    let angles = AngleColumns::new(theta_i, theta_r, dphi).map_err(refused)?;
+    arrays_of(py, &shape, angles.len(), &wanted, |number, out| {
+        let part = angles.part(points_of_block(number, angles.len()));
+        let (radiances, rest) = radiance_columns(out);
+        part.radiances(&surface, radiances)?;
+        fill_rest(part, &surface, &wanted, rest)
+    })
 }
 
 /// Geometries that are prepared once.
 #[pyclass(frozen, module = "pbrdf._pbrdf")]
 pub struct Prepared {
     points: usize,
-    blocks: Vec<Batch>,
+    blocks: Vec<PreparedAngles>,
 }
 
 #[pymethods]
@@ -222,20 +207,21 @@ impl Prepared {
         dphi: PyReadonlyArray1<'_, f64>,
         shape: Vec<usize>,
     ) -> PyResult<Self> {
-        let angles = Angles::new([&theta_i, &theta_r, &dphi])?;
-        let blocks = py.detach(|| angles.blocks()).map_err(|error| error.at(&shape))?;
+        let (theta_i, theta_r, dphi) = (theta_i.as_slice()?, theta_r.as_slice()?, dphi.as_slice()?);
+        let angles = AngleColumns::new(theta_i, theta_r, dphi).map_err(refused)?;
+        let prepare = |number: usize| angles.part(points_of_block(number, angles.len())).prepare();
+        let blocks = py.detach(|| each_block(angles.len(), prepare)).map_err(|(before, error)| exception(error, before, &shape))?;
         Ok(Self { points: angles.len(), blocks })
     }
 
     /// As `evaluate` has it.
     fn evaluate<'py>(&self, py: Python<'py>, question: Question) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
         let (surface, wanted) = question.surface_and_wanted()?;
-        let columns = py.detach(|| {
-            columns_of(self.points, &wanted, |number, out| {
-                fill(&self.blocks[number], &surface, &wanted, out);
-                Ok(())
-            })
-        });
-        Ok(arrays(py, columns.map_err(|error| error.at(&[]))?))
+        arrays_of(py, &[], self.points, &wanted, |number, out| {
+            let prepared = &self.blocks[number];
+            let (radiances, rest) = radiance_columns(out);
+            prepared.radiances(&surface, radiances)?;
+            fill_rest(prepared.angles(), &surface, &wanted, rest)
+        })
     }
 }

@@ -190,6 +190,7 @@ impl<P: PosteriorProblem> Posterior<P> {
         result.log_evidence = log_evidence(density, sampled, seed);
     }
 
+    #[expect(clippy::cast_precision_loss, reason = "a number of transitions")]
     fn sample(&self, density: &PosteriorDensity<P>, chains: &[ChainDraws]) -> SampleOf<P> {
         let length = chains.iter().map(|chain| chain.points.len()).min().unwrap_or(0);
         let draw = |point: &Vec<f64>, log_density: f64| {
@@ -201,13 +202,15 @@ impl<P: PosteriorProblem> Posterior<P> {
             chain.points.iter().zip(&chain.log_density).take(length).map(|(point, &log)| draw(point, log)).collect()
         };
         let sum = |of: fn(&ChainDraws) -> usize| chains.iter().map(of).sum();
+        let transitions: usize = sum(|chain| chain.transitions);
         PosteriorSample {
             model: self.problem.model(),
             parameters: self.problem.names().to_vec(),
             evaluations: sum(|chain| chain.evaluations),
             divergences: sum(|chain| chain.divergences),
             cut: sum(|chain| chain.cut),
-            transitions: sum(|chain| chain.transitions),
+            transitions,
+            accepted: chains.iter().map(|chain| chain.acceptance).sum::<f64>() / transitions.max(1) as f64,
             chains: chains.iter().map(of_chain).collect(),
             noise: [None; 2],
             log_evidence: None,

@@ -54,6 +54,8 @@ pub struct PosteriorSample<N = Parameter, P = Parameters> {
     pub cut: usize,
     /// Transitions after the warm-up: one or more from draw to draw, by how far one goes.
     pub transitions: usize,
+    /// Mean acceptance probability of the steps before any is divided, 0 to 1.
+    pub accepted: f64,
     /// Of the noise of DoLP and of BRDF where it is not stated; none of what is not measured.
     pub noise: [Option<NoiseQuantiles>; 2],
     /// Evidence of the model; none of too few draws.
@@ -157,6 +159,7 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
             divergences: self.divergences,
             cut: self.cut,
             transitions: self.transitions,
+            accepted: self.accepted,
             noise: self.noise,
             log_evidence: self.log_evidence,
             elapsed_ms: self.elapsed_ms,

@@ -33,6 +33,8 @@ pub(crate) struct ChainDraws {
     pub cut: usize,
     /// Transitions: one or more from draw to draw.
     pub transitions: usize,
+    /// Sum over the transitions of [`Transition::acceptance`](crate::fit::posterior::nuts::Transition).
+    pub acceptance: f64,
     /// Evaluations of value and gradient, those of the warm-up among them.
     pub evaluations: usize,
 }
@@ -90,6 +92,7 @@ impl<D: LogDensity> Chain<D> {
                 }
                 window.divergences += usize::from(transition.diverged);
                 window.cut += usize::from(transition.cut);
+                window.acceptance += transition.acceptance;
             }
             window.transitions += pace.transitions;
             metric.to_density(nuts.position(), position);
@@ -184,6 +187,7 @@ impl ChainDraws {
         self.divergences += other.divergences;
         self.cut += other.cut;
         self.transitions += other.transitions;
+        self.acceptance += other.acceptance;
     }
 }
 
