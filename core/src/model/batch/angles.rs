@@ -4,7 +4,7 @@ use crate::model::Pbrdf;
 use crate::model::batch::elementary::ln_1p;
 use crate::model::batch::lanes::{Instructions, Mask, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::{LANES, PointBlock, blocks};
-use crate::model::batch::radiances_of_blocks;
+use crate::model::batch::runner::radiances_of_blocks;
 use crate::model::batch::trigonometry::{abs_sin_cos, sin_cos_near_zero};
 use crate::optics::{Degrees, Facet, Geometry, GeometryError};
 use fearless_simd::prelude::*;
@@ -214,16 +214,10 @@ impl Vectorised for Preparation<'_, '_> {
     fn run<S: Simd>(self, simd: S) {
         let AngleColumns { theta_i, theta_r, dphi, .. } = *self.angles;
         let mut good = Mask::<S>::splat(simd, true);
-        let mut of = |block: &mut PointBlock, columns: [&[f64]; 3]| {
-            for first in (0..LANES).step_by(V::<S>::LEN) {
-                let lanes = columns.map(|column| V::<S>::from_slice(simd, &column[first..first + V::<S>::LEN]));
-                good &= prepare(simd, lanes, block, first);
-            }
-        };
         let whole = theta_i.len() / LANES;
         for (i, block) in self.out.iter_mut().enumerate().take(whole) {
             let at = LANES * i..LANES * (i + 1);
-            of(block, [&theta_i[at.clone()], &theta_r[at.clone()], &dphi[at]]);
+            good &= prepare_block(simd, [&theta_i[at.clone()], &theta_r[at.clone()], &dphi[at]], block);
         }
         if let Some(block) = self.out.get_mut(whole) {
             // Places that are left over repeat the first point.
@@ -231,12 +225,29 @@ impl Vectorised for Preparation<'_, '_> {
                 let rest = &column[LANES * whole..];
                 std::array::from_fn::<f64, LANES, _>(|lane| rest.get(lane).or(rest.first()).copied().unwrap_or_default())
             });
-            of(block, [&padded[0], &padded[1], &padded[2]]);
+            good &= prepare_block(simd, [&padded[0], &padded[1], &padded[2]], block);
         }
         *self.whole = good.all_true();
     }
 
     fn run_scalar(self) {}
+}
+
+/// Prepares a block of points; returns where the angles of all are some. Without inlining it would be compiled for any processor.
+#[inline(always)]
+fn prepare_block<S: Simd>(simd: S, [theta_i, theta_r, dphi]: [&[f64]; 3], block: &mut PointBlock) -> Mask<S> {
+    let mut good = Mask::<S>::splat(simd, true);
+    for first in (0..LANES).step_by(V::<S>::LEN) {
+        let lanes = [load(simd, theta_i, first), load(simd, theta_r, first), load(simd, dphi, first)];
+        good &= prepare(simd, lanes, block, first);
+    }
+    good
+}
+
+/// As many numbers of a column as a vector has lanes.
+#[inline(always)]
+fn load<S: Simd>(simd: S, column: &[f64], first: usize) -> V<S> {
+    V::<S>::from_slice(simd, &column[first..first + V::<S>::LEN])
 }
 
 /// Writes what [`Facet::new`] and [`PointBlock`] make of angles in degrees; returns where they are some.

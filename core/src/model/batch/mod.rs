@@ -15,18 +15,20 @@ mod gradient;
 mod kernels;
 pub(crate) mod lanes;
 pub(crate) mod prepared;
+pub(crate) mod runner;
 pub(crate) mod surface_row;
 mod trigonometry;
 
-use crate::model::{Diffuse, GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter, Reflection};
-use crate::optics::{Facet, Geometry, SlopeDistribution};
+use crate::model::{GeometrySet, GradientRequest, Parameter, ParameterSet, Pbrdf, PerParameter};
+use crate::optics::{Facet, Geometry};
 pub use angles::{AngleColumns, AngleColumnsError, PreparedAngles};
 use coefficients::Coefficients;
 use gradient::{BrdfGradient, COLUMNS, DolpGradient, Slopewise};
-use kernels::{Both, Brdf, Dolp, LAMBERT, MINNAERT, NONE};
+use kernels::{Both, Brdf, Dolp};
 pub use lanes::Instructions;
 use lanes::{Kernel, KernelRun};
 use prepared::{PointBlock, blocks};
+use runner::{Runner, run_with_terms};
 
 /// Geometries prepared for many evaluations at once.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,27 +60,6 @@ pub struct DolpGradients {
     pub dolp: Vec<f64>,
     /// ∂DoLP/∂p; 0 for parameters that play no part in the model.
     pub by: PerParameter<Vec<f64>>,
-}
-
-/// Runs a kernel with the terms that a model has: `$kernel::<CAUCHY, DIFFUSE, VOLUME>`.
-macro_rules! run_with_terms {
-    ($batch:expr, $run:expr, $kernel:ident, $model:expr, $of:expr) => {
-        match ($model.distribution == SlopeDistribution::Cauchy, $model.diffuse, $model.volume) {
-            (false, Diffuse::Absent, false) => $batch.run($run, &$kernel::<false, NONE, false>($of)),
-            (false, Diffuse::Absent, true) => $batch.run($run, &$kernel::<false, NONE, true>($of)),
-            (false, Diffuse::Lambert, false) => $batch.run($run, &$kernel::<false, LAMBERT, false>($of)),
-            (false, Diffuse::Lambert, true) => $batch.run($run, &$kernel::<false, LAMBERT, true>($of)),
-            (false, Diffuse::Minnaert, false) => $batch.run($run, &$kernel::<false, MINNAERT, false>($of)),
-            (false, Diffuse::Minnaert, true) => $batch.run($run, &$kernel::<false, MINNAERT, true>($of)),
-            (true, Diffuse::Absent, false) => $batch.run($run, &$kernel::<true, NONE, false>($of)),
-            (true, Diffuse::Absent, true) => $batch.run($run, &$kernel::<true, NONE, true>($of)),
-            (true, Diffuse::Lambert, false) => $batch.run($run, &$kernel::<true, LAMBERT, false>($of)),
-            (true, Diffuse::Lambert, true) => $batch.run($run, &$kernel::<true, LAMBERT, true>($of)),
-            (true, Diffuse::Minnaert, false) => $batch.run($run, &$kernel::<true, MINNAERT, false>($of)),
-            (true, Diffuse::Minnaert, true) => $batch.run($run, &$kernel::<true, MINNAERT, true>($of)),
-            (_, Diffuse::Hyde, _) => $run.run_scalar(),
-        }
-    };
 }
 
 impl Batch {
@@ -221,42 +202,6 @@ impl Batch {
 
     fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
         Runner { instructions: self.instructions, single_threaded: self.single_threaded }.run(run, kernel);
-    }
-}
-
-/// How kernels are run.
-struct Runner {
-    instructions: Instructions,
-    single_threaded: bool,
-}
-
-impl Runner {
-    fn run<const OUT: usize>(&self, run: KernelRun<'_, OUT>, kernel: &impl Kernel<OUT>) {
-        if self.single_threaded {
-            run.run(kernel, self.instructions);
-        } else {
-            run.run_parallel(kernel, self.instructions);
-        }
-    }
-}
-
-/// DoLP, BRDF and its specular part of prepared points that no [`Batch`] holds, on the calling thread. `reflection` is the scalar form
-/// at the point of that number.
-pub(crate) fn radiances_of_blocks(
-    surface: &Pbrdf,
-    blocks: &[PointBlock],
-    columns: [&mut [f64]; 3],
-    reflection: &(dyn Fn(usize) -> Reflection + Sync),
-) {
-    let scalar = |point: usize| {
-        let reflection = reflection(point);
-        [reflection.dolp, reflection.brdf, reflection.specular]
-    };
-    let run = KernelRun { blocks, count: columns[0].len(), columns, first: 0, scalar: &scalar };
-    let runner = Runner { instructions: Instructions::Widest, single_threaded: true };
-    match Coefficients::new(surface).map(Coefficients::without_zero_terms) {
-        Some(of) => run_with_terms!(runner, run, Both, of.model, &of),
-        None => run.run_scalar(),
     }
 }
 

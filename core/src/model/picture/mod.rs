@@ -18,7 +18,7 @@ mod sky;
 mod stokes_image;
 
 use crate::model::batch::prepared::{BlockPoint, blocks, over};
-use crate::model::batch::radiances_of_blocks;
+use crate::model::batch::runner::radiances_of_blocks;
 use crate::model::map_parallel::map_parallel;
 use crate::model::pbrdf::mul_zero_absorbing;
 use crate::model::{DolpFormula, Pbrdf, Reflection};
