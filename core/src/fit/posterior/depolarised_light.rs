@@ -14,7 +14,7 @@ use crate::fit::objective::Problem;
 use crate::model::{Parameter, Parameters, Pbrdf};
 
 /// Points that the mean is taken over, at most: enough to follow θr.
-const MOST_POINTS: usize = 16;
+const MOST_POINTS: usize = 9;
 
 /// Light of the volume lobe at the mean point, in sr⁻¹, that is added to it: where σ_v is small, k_v means nothing there.
 const DARK: f64 = 1e-3;
