@@ -131,7 +131,8 @@ mod tests {
 
     fn problem() -> Problem {
         let surface = Pbrdf::new(Model::CAUCHY, Parameters::default()).unwrap();
-        let (theta_i, theta_r) = (vec![30.0, 60.0], vec![10.0, 20.0, 40.0, 60.0, 70.0]);
+        // No more points than the mean is taken over.
+        let (theta_i, theta_r) = (vec![30.0, 60.0], vec![10.0, 20.0, 40.0, 70.0]);
         let (columns, model_name) = (Columns::Dolp, String::new());
         let simulation = Simulation { model_name, surface, theta_i, theta_r, dphi: 180.0, columns, noise: 0.0, brdf_noise: 0.0, seed: 1 };
         let measurement = simulation.run().unwrap();
