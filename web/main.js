@@ -48,7 +48,9 @@ function watched(response) {
 
 async function start() {
   if (typeof WebAssembly !== 'object') return refuse(SENTENCES.wasm);
-  if (!document.createElement('canvas').getContext('webgl2')) return refuse(SENTENCES.webgl);
+  // The program finds this context at the canvas. Its triangles have soft edges of their own, in one plane before an opaque ground.
+  const context = { alpha: false, antialias: false, depth: false, stencil: false };
+  if (!document.getElementById('window').getContext('webgl2', context)) return refuse(SENTENCES.webgl);
   try {
     const response = await fetch(PROGRAM);
     if (!response.ok) throw new Error(`${PROGRAM}: ${response.status}`);

@@ -10,7 +10,7 @@ use crate::app::shell::room::Query;
 use crate::app::storage::kept_work::WorkFolder;
 use crate::app::storage::settings_file;
 use crate::app::tasks::file_request::ask_user;
-use crate::app::tasks::messages::{Wire, answer};
+use crate::app::tasks::answer::{Wire, answer};
 use crate::app::views::action::Action;
 use crate::files::disk;
 use tr::tr;

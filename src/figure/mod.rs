@@ -32,4 +32,4 @@ pub use panel::{Figure, Panel};
 #[cfg(feature = "figures")]
 pub use png::{Image, PngError, icon};
 pub use series::{Dash, Mark, Point, Series, Symbol};
-pub use text::CJK;
+pub use text::{CJK, FONT};

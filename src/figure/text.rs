@@ -6,7 +6,8 @@
 use std::fmt::Write as _;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-static FONT: &[u8] = include_bytes!("../../assets/fonts/figure.ttf");
+/// Letters of Europe, Greek and mathematical signs.
+pub static FONT: &[u8] = include_bytes!("../../assets/fonts/figure.ttf");
 /// Chinese characters.
 pub static CJK: &[u8] = include_bytes!("../../assets/fonts/cjk.ttf");
 

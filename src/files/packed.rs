@@ -17,9 +17,23 @@ pub fn unpack(text: &str, most: usize) -> Option<Vec<u8>> {
     miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(&URL_SAFE_NO_PAD.decode(text).ok()?, most).ok()
 }
 
+/// Numbers to the bit as letters.
+#[cfg(any(test, target_arch = "wasm32"))]
+pub fn text_of(numbers: &[f64]) -> String {
+    URL_SAFE_NO_PAD.encode(numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>())
+}
+
+/// The numbers of such a text; none where it is damaged.
+#[cfg(any(test, target_arch = "wasm32"))]
+pub fn numbers_of(text: &str) -> Option<Vec<f64>> {
+    let bytes = URL_SAFE_NO_PAD.decode(text).ok()?;
+    let (numbers, rest) = bytes.as_chunks::<8>();
+    rest.is_empty().then(|| numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{URL_SAFE_NO_PAD, pack, unpack};
+    use super::{URL_SAFE_NO_PAD, numbers_of, pack, text_of, unpack};
     use base64::Engine as _;
     use proptest::prelude::{any, proptest};
 
@@ -44,6 +58,14 @@ mod tests {
         for text in ["Z", "Zm9vY", "Zg==", "Zm 8", "Zm+/", "é", "Zh", "Zm9"] {
             assert_eq!(decode(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn numbers_come_back_to_the_bit() {
+        let numbers = [0.0, -0.0, 1.0 / 3.0, f64::NAN, f64::NEG_INFINITY, 5e-324];
+        let back = numbers_of(&text_of(&numbers)).expect("numbers");
+        assert_eq!(back.iter().map(|number| number.to_bits()).collect::<Vec<_>>(), numbers.map(f64::to_bits));
+        assert_eq!(numbers_of("Zm9v"), None, "three bytes are no number");
     }
 
     proptest! {

@@ -65,7 +65,7 @@ impl<T: 'static, P: 'static> Slot<T, P> {
         &mut self,
         spawner: &Spawner,
         request: &str,
-        progress: fn(&str) -> Option<P>,
+        progress: impl Fn(&str) -> Option<P> + 'static,
         receive: impl FnOnce(&str) -> Option<T> + 'static,
     ) -> io::Result<()> {
         self.abandon();

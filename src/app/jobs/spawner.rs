@@ -65,7 +65,7 @@ impl Spawner {
     pub fn start_beside<T: 'static, P: 'static>(
         &self,
         request: &str,
-        progress: fn(&str) -> Option<P>,
+        progress: impl Fn(&str) -> Option<P> + 'static,
         receive: impl FnOnce(&str) -> Option<T> + 'static,
     ) -> io::Result<Job<T, P>> {
         use crate::app::platform::worker::{Reply, beside};

@@ -24,7 +24,7 @@ pub mod room;
 mod shortcuts;
 mod stage;
 mod status_bar;
-mod theme;
+pub mod theme;
 mod tiles;
 mod toasts;
 mod tour;

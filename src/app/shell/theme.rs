@@ -3,6 +3,8 @@
 use crate::app::plots;
 use crate::app::work::settings::Theme;
 use crate::figure::CJK;
+#[cfg(any(test, target_arch = "wasm32"))]
+use crate::figure::FONT;
 
 /// Light, dark, or as the desktop has it.
 pub fn set(ctx: &egui::Context, theme: Theme) {
@@ -47,15 +49,47 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
-/// The default fonts, and behind them what they lack: arrows, marks, mathematical signs and
-/// Chinese.
+/// A font and its name.
+type NamedFont = (&'static str, &'static [u8]);
+
+/// Arrows, marks, mathematical signs and Chinese.
+const BEHIND: [NamedFont; 2] = [("symbols", include_bytes!("../../../assets/fonts/symbols.ttf")), ("cjk", CJK)];
+
+/// The default fonts, and behind them what they lack. A page has fewer letters, and behind them those of figures.
 fn fonts() -> egui::FontDefinitions {
+    #[cfg(target_arch = "wasm32")]
+    let mut fonts = page_fonts();
+    #[cfg(not(target_arch = "wasm32"))]
     let mut fonts = egui::FontDefinitions::default();
-    for (name, data) in [("symbols", &include_bytes!("../../../assets/fonts/symbols.ttf")[..]), ("cjk", CJK)] {
-        fonts.font_data.insert(name.to_owned(), std::sync::Arc::new(egui::FontData::from_static(data)));
+    push_behind(&mut fonts, &BEHIND);
+    fonts
+}
+
+fn push_behind(fonts: &mut egui::FontDefinitions, behind: &[NamedFont]) {
+    for (name, data) in behind {
+        fonts.font_data.insert((*name).to_owned(), std::sync::Arc::new(egui::FontData::from_static(data)));
         for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
-            fonts.families.entry(family).or_default().push(name.to_owned());
+            fonts.families.entry(family).or_default().push((*name).to_owned());
         }
     }
+}
+
+/// What a page has in place of the default fonts: the letters of its own texts, a fifth of the bytes.
+#[cfg(any(test, target_arch = "wasm32"))]
+fn page_fonts() -> egui::FontDefinitions {
+    const TEXT: NamedFont = ("page-text", include_bytes!("../../../assets/fonts/page-text.ttf"));
+    const MONO: NamedFont = ("page-mono", include_bytes!("../../../assets/fonts/page-mono.ttf"));
+    let mut fonts = egui::FontDefinitions::empty();
+    fonts.font_data.insert(MONO.0.to_owned(), std::sync::Arc::new(egui::FontData::from_static(MONO.1)));
+    fonts.families.insert(egui::FontFamily::Monospace, vec![MONO.0.to_owned()]);
+    push_behind(&mut fonts, &[TEXT, ("figure", FONT)]);
     fonts
+}
+
+/// Sets the fonts of a page.
+#[cfg(test)]
+pub fn install_page_fonts(ctx: &egui::Context) {
+    let mut fonts = page_fonts();
+    push_behind(&mut fonts, &BEHIND);
+    ctx.set_fonts(fonts);
 }

@@ -5,10 +5,11 @@ use crate::app::jobs::job::{Job, JobContext, Panicked};
 use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
-use crate::app::platform::Instant;
+use crate::app::platform::{self, Instant};
 use crate::app::tasks::start_error::start_error;
 use crate::files::export::{machine, now};
 use pbrdf::selftest::{Cost, ErrorVsTime, Host, Report, Stability};
+use tr::tr;
 
 /// Which benchmark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,8 +71,12 @@ impl BenchmarkJobs {
     /// Runs a benchmark, after the one that runs.
     ///
     /// # Errors
-    /// The job does not start; a sentence.
+    /// The job does not start, or the window is in a page; a sentence.
     pub fn start(&mut self, id: BenchmarkId) -> Result<(), String> {
+        if platform::IS_PAGE {
+            // Known when the program is built: the tables of reference values are not in a page.
+            return Err(tr!("A page does not measure the program: the program on a desktop does."));
+        }
         if self.slot.is_running() {
             if self.can_start(id) {
                 self.waiting.push(id);

@@ -1,6 +1,7 @@
 //! What the jobs around fits do, wherever they run: on a thread, or in the worker of a page.
 
 use crate::app::platform::Instant;
+use crate::app::work::edit::Refit;
 use crate::app::work::fit_history::{FitEntry, JointEntry, JointPart};
 use crate::app::work::model_fit::{ComparedModel, NotFitted};
 use crate::app::work::open_measurement::OpenMeasurement;
@@ -84,6 +85,43 @@ impl Work for FitTogether {
         let Self { problem, about, shared, search } = self;
         let result = watched(watch, |observer| fit_jointly(&problem, search.starts, search.seed, Intervals::Linear, observer));
         FitEntry::of_joint(about, JointEntry { result, problem: Arc::new(problem), shared })
+    }
+}
+
+/// Fits from the sliders alone while they move.
+pub enum RefitSliders {
+    One(Box<FitOneByOne>),
+    Joint(Box<FitTogether>),
+}
+
+impl RefitSliders {
+    const SEARCH: Search = Search { starts: Starts::One, seed: 0 };
+
+    /// Of one measurement.
+    pub fn one(problem: Problem, about: OpenMeasurement) -> Self {
+        Self::One(Box::new(FitOneByOne { about: vec![(problem, about)], search: Self::SEARCH, intervals: false }))
+    }
+
+    /// Of several together.
+    pub fn joint(problem: JointProblem, about: Vec<OpenMeasurement>, shared: ParameterSet) -> Self {
+        Self::Joint(Box::new(FitTogether { problem, about, shared, search: Self::SEARCH }))
+    }
+
+    /// What these fits say of the sliders.
+    pub fn found(fits: Vec<FitEntry>) -> Refit {
+        Refit(fits.into_iter().map(|fit| (fit.number, fit.report.estimates)).collect())
+    }
+}
+
+impl Work for RefitSliders {
+    type Output = Refit;
+    type Progress = TracePoint;
+
+    fn run(self, watch: &impl Watch<TracePoint>) -> Refit {
+        Self::found(match self {
+            Self::One(alone) => alone.run(watch),
+            Self::Joint(together) => together.run(watch),
+        })
     }
 }
 

@@ -7,7 +7,7 @@ use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FinishedIntervals, FitOneByOne, FitTogether, Fitted,
-    ProfileOne, Search, observer,
+    ProfileOne, RefitSliders, Search, observer,
 };
 use crate::app::tasks::portable::start;
 use crate::app::tasks::start_error::start_error;
@@ -18,17 +18,10 @@ use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::weakest_walk::WeakestWalk;
 use pbrdf::fit::{
-    Bootstrap, GeodesicWay, Intervals, JointError, JointProblem, JointUnknown, Problem, ProblemError, Profile, Starts, TracePoint, fit,
-    fit_jointly, weakest_geodesic,
+    Bootstrap, GeodesicWay, JointError, JointProblem, JointUnknown, Problem, ProblemError, Profile, Starts, TracePoint, weakest_geodesic,
 };
 use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
-
-/// What is fitted while sliders move: a measurement by its number, or several.
-pub enum RefitProblem {
-    One(u64, Box<Problem>),
-    Joint(Vec<u64>, Box<JointProblem>),
-}
 
 /// Slots of the jobs around fits.
 pub struct FitJobs {
@@ -37,7 +30,7 @@ pub struct FitJobs {
     pub fit: Slot<Vec<FitEntry>, TracePoint>,
     pub intervals: Slot<FinishedIntervals>,
     /// Fits from the sliders while they move.
-    pub refit: Slot<Refit>,
+    pub refit: Slot<Refit, TracePoint>,
     /// The number of the measurement that refits and scans are about.
     pub active: u64,
     /// The revision at which the user had moved the sliders that the last refit began at.
@@ -115,19 +108,8 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn refit(&mut self, problem: RefitProblem) -> Result<(), String> {
-        let job = move |context: &JobContext| {
-            let (cancelled, starts) = (|| context.is_cancelled(), Starts::One);
-            match problem {
-                RefitProblem::One(number, problem) => Refit(vec![(number, fit(&problem, starts, 0, observer(&cancelled)).estimates)]),
-                RefitProblem::Joint(numbers, problem) => {
-                    let result = fit_jointly(&problem, starts, 0, Intervals::Linear, observer(&cancelled));
-                    let of_set = |(set, number)| (number, result.of_set(set).estimates);
-                    Refit(numbers.into_iter().enumerate().map(of_set).collect())
-                }
-            }
-        };
-        self.refit.start(&self.spawner, "refit", job).map_err(start_error)
+    pub fn refit(&mut self, from_sliders: RefitSliders) -> Result<(), String> {
+        start(&self.spawner, &mut self.refit, "refit", from_sliders)
     }
 
     /// Fits several models to a measurement, one after the other, each also from the best fits of its special cases; a model without a

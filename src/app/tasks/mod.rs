@@ -4,6 +4,8 @@
 //! [`files`], [`fits`], [`posteriors`] or [`benchmarks`], and the line of `shell/job_results.rs` that says where
 //! its result goes.
 
+#[cfg(any(test, target_arch = "wasm32"))]
+pub mod answer;
 pub mod benchmarks;
 pub mod file_request;
 pub mod files;
@@ -14,5 +16,8 @@ pub mod jobs;
 pub mod messages;
 pub mod plans;
 mod portable;
+#[cfg(any(test, target_arch = "wasm32"))]
+mod posterior_message;
+pub mod posterior_work;
 pub mod posteriors;
 mod start_error;

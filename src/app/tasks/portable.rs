@@ -36,7 +36,7 @@ pub fn start<J: Work>(spawner: &Spawner, slot: &mut Slot<J::Output, J::Progress>
 #[cfg(target_arch = "wasm32")]
 pub fn start<J: Work + Message>(spawner: &Spawner, slot: &mut Slot<J::Output, J::Progress>, name: &str, job: J) -> Result<(), String> {
     match job.request().filter(|_| worker::are_there()) {
-        Some(request) => slot.start_beside(spawner, &request, J::progress, move |answer| job.receive(answer)),
+        Some(request) => slot.start_beside(spawner, &request, job.progress(), move |answer| job.receive(answer)),
         None => slot.start(spawner, name, move |context| job.run(context)),
     }
     .map_err(start_error)

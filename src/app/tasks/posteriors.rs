@@ -5,30 +5,15 @@ use crate::app::jobs::job::JobContext;
 use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
-use crate::app::platform::Instant;
+use crate::app::tasks::portable::start;
+use crate::app::tasks::posterior_work::{DrawPosterior, Drawing};
 use crate::app::tasks::start_error::start_error;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::posterior::{DrawnFrom, DrawnPosterior, Draws, PosteriorOptions};
-use pbrdf::fit::posterior::{LogEvidence, Posterior, PosteriorError, PosteriorProblem, SampleOf};
-use pbrdf::fit::{Intervals, JointProblem, JointUnknown, Observer, Problem, Starts, fit, fit_jointly};
+use crate::app::work::posterior::{DrawnPosterior, PosteriorOptions};
+use pbrdf::fit::posterior::{LogEvidence, Posterior, PosteriorError, PosteriorProblem};
+use pbrdf::fit::{JointUnknown, Observer};
 use pbrdf::model::Parameters;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// What draws are from: one measurement, or several together.
-pub enum PosteriorOf {
-    One(Box<Posterior<Problem>>),
-    Joint(Box<Posterior<JointProblem>>),
-}
-
-/// How far the drawing is.
-#[derive(Clone)]
-pub struct Drawing {
-    /// 0 to 1.
-    pub share: f64,
-    /// The draws so far.
-    pub drawn: Option<Arc<DrawnPosterior>>,
-}
 
 /// Slot of the job.
 pub struct PosteriorJobs {
@@ -41,11 +26,6 @@ pub struct PosteriorJobs {
 /// The evidence of a row of the comparison of models; none where the model has no posterior or too few draws came.
 pub type FoundEvidence = (usize, Option<LogEvidence>);
 
-/// Time between two looks at the draws so far: each takes some milliseconds.
-const LOOK_INTERVAL: Duration = Duration::from_millis(400);
-/// Draws that are worth a first look.
-const FIRST_LOOK: usize = 200;
-
 impl PosteriorJobs {
     pub fn new(spawner: Spawner) -> Self {
         Self { spawner, draw: Slot::default(), evidence: Slot::default() }
@@ -57,33 +37,12 @@ impl PosteriorJobs {
         vec![&mut self.draw, &mut self.evidence]
     }
 
-    /// Draws from a posterior, in chains that begin where fits from so many starts end.
+    /// Draws from a posterior.
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn draw(&mut self, of: PosteriorOf, from: DrawnFrom, starts: Starts) -> Result<(), String> {
-        let job = move |context: &JobContext<Drawing>| {
-            context.report(Drawing { share: 0.0, drawn: None });
-            let seed = from.settings.seed;
-            match of {
-                PosteriorOf::One(posterior) => {
-                    let minima = |problem: &Problem, observer: Observer<'_>| {
-                        let result = fit(problem, starts, seed, observer);
-                        result.course.minima.iter().map(|minimum| minimum.parameters).collect()
-                    };
-                    let plain = |sample: SampleOf<Problem>| sample.map(JointUnknown::from, |parameters| vec![parameters]);
-                    drawn(&posterior, from, &minima, &plain, context)
-                }
-                PosteriorOf::Joint(posterior) => {
-                    let minima = |problem: &JointProblem, observer: Observer<'_>| -> Vec<Vec<Parameters>> {
-                        let result = fit_jointly(problem, starts, seed, Intervals::None, observer);
-                        result.course.minima.into_iter().map(|minimum| minimum.parameters).collect()
-                    };
-                    drawn(&posterior, from, &minima, &|sample| sample, context)
-                }
-            }
-        };
-        self.draw.start(&self.spawner, "posterior", job).map_err(start_error)
+    pub fn draw(&mut self, job: DrawPosterior) -> Result<(), String> {
+        start(&self.spawner, &mut self.draw, "posterior", job)
     }
 
     /// Draws from the posterior of each of these rows of a comparison, for its evidence.
@@ -142,32 +101,4 @@ fn evidence_of<P: PosteriorProblem>(
     let free: Vec<JointUnknown> = problem.names().iter().map(JointUnknown::of).collect();
     let posterior = Posterior::new(problem, &options.priors_of(&free), options.settings(seed)).ok()?;
     posterior.run(minima, observer, &mut |_, _| {}).ok()?.log_evidence
-}
-
-fn drawn<P: PosteriorProblem>(
-    posterior: &Posterior<P>,
-    from: DrawnFrom,
-    minima: &dyn Fn(&P, Observer<'_>) -> Vec<P::Point>,
-    plain: &dyn Fn(SampleOf<P>) -> Draws,
-    context: &JobContext<Drawing>,
-) -> Result<Arc<DrawnPosterior>, PosteriorError> {
-    let begun = Instant::now();
-    let cancelled = || context.is_cancelled();
-    let observer = Observer { clock: &|| begun.elapsed().as_secs_f64() * 1e3, cancelled: &cancelled, ..Observer::NONE };
-    let minima = minima(posterior.problem(), observer);
-    let mut looked_at = Instant::now();
-    let mut shown = None;
-    let mut progress = |share: f64, sample: &dyn Fn() -> SampleOf<P>| {
-        if looked_at.elapsed() >= LOOK_INTERVAL {
-            looked_at = Instant::now();
-            let draws = plain(sample());
-            if draws.len() >= FIRST_LOOK {
-                shown = Some(Arc::new(DrawnPosterior::new(from.clone(), draws, false)));
-            }
-        }
-        context.report(Drawing { share, drawn: shown.clone() });
-    };
-    let draws = plain(posterior.run(&minima, observer, &mut progress)?);
-    let is_complete = draws.len() == from.settings.draws * from.settings.chains;
-    Ok(Arc::new(DrawnPosterior::new(from, draws, is_complete)))
 }

@@ -1,15 +1,19 @@
 //! Jobs around fits as texts: what comes back from a worker is what a thread would have found.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::posteriors::job_of_posterior;
 use crate::app::tasks::fit_work::{
-    BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, Search, Watch,
-    WithIntervals, Work,
+    BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, RefitSliders, Search,
+    Watch, WithIntervals, Work,
 };
-use crate::app::tasks::messages::{Message, Wire, answer};
+use crate::app::tasks::answer::{Wire, answer};
+use crate::app::tasks::messages::Message;
 use crate::app::tests::{explorer, harness};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{fit_problem, joint_problem, joint_problem_of};
 use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::posterior::DrawnPosterior;
+use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{Course, FitResult, Observer, Problem, Starts, free_by_default};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 
@@ -29,9 +33,12 @@ impl<P> Watch<P> for Quiet {
 /// The result by way of a worker.
 fn sent<J: Message>(job: J) -> J::Output {
     let request = job.request().expect("it can be written");
-    let told = std::sync::Mutex::new(0);
-    let tell = |text: &str| *told.lock().expect("nobody panics") += usize::from(J::progress(text).is_some());
+    let told = std::sync::Mutex::new(Vec::new());
+    let tell = |text: &str| told.lock().expect("nobody panics").push(text.to_owned());
     let answer = answer(&request, &Wire { is_cancelled: &|| false, tell: &tell }).expect("an answer");
+    let progress = job.progress();
+    let told = told.into_inner().expect("nobody panics");
+    assert!(told.iter().all(|text| progress(text).is_some()), "{told:?}");
     job.receive(&answer).expect("a result")
 }
 
@@ -103,6 +110,50 @@ fn joint_fits_are_the_same_to_the_bit() {
     let fitted = || Fitted { fit: parts[0].clone(), parts: parts.clone() };
     let profile = || ProfileOne { fit: fitted(), parameter: Parameter::Sigma };
     assert_eq!(sent(profile()), profile().run(&Quiet));
+}
+
+#[test]
+fn fits_from_moving_sliders_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let open = example(app);
+    let job = || RefitSliders::one(problem(app, &open), open.clone());
+    assert_eq!(sent(job()).0, job().run(&Quiet).0);
+    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
+    let job = || {
+        let problem = joint_problem(list, [Parameter::N].into_iter().collect(), fit_options).expect("a problem");
+        RefitSliders::joint(problem, list.measured().cloned().collect(), list.shared())
+    };
+    let found = job().run(&Quiet).0;
+    assert_eq!(found.len(), 2);
+    assert_eq!(sent(job()).0, found);
+}
+
+/// All but the time and the stamp.
+fn draws(mut drawn: DrawnPosterior) -> DrawnPosterior {
+    (drawn.draws.elapsed_ms, drawn.stamp) = (0.0, 0);
+    drawn
+}
+
+#[test]
+fn draws_from_a_posterior_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let free = [Parameter::N, Parameter::Kd];
+    app.work.surface_mut().locked = free.into_iter().fold(ParameterSet::ALL, ParameterSet::without);
+    let options = &mut app.work.settings_mut().panes.posterior;
+    (options.draws, options.chains) = (100, 2);
+    options.set_prior(Parameter::N, Prior::Normal { mean: 2.0, sd: 0.3 });
+    let same = |app: &App| {
+        let one = sent(job_of_posterior(app).expect("a posterior")).expect("draws");
+        let other = job_of_posterior(app).expect("a posterior").run(&Quiet).expect("draws");
+        assert_eq!(other.draws.len(), 200);
+        assert_eq!(draws(DrawnPosterior::clone(&one)), draws(DrawnPosterior::clone(&other)));
+    };
+    same(app);
+    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    same(app);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::items;
+use crate::app::shell::theme::install_page_fonts;
 use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::help::{DOI, Help, PAPER};
@@ -285,9 +286,17 @@ fn what_stays_open_is_said_in_the_language_of_the_window() {
     assert!(written(&harness).contains("• k_s, k_d, k_v 一起：只有它们的比值进入 DoLP"));
 }
 
+/// Also those of a page, which are subsets.
 #[test]
 fn the_fonts_have_every_letter() {
-    let harness = chinese();
+    let mut harness = chinese();
+    assert_every_letter(&harness);
+    install_page_fonts(&harness.ctx);
+    harness.step();
+    assert_every_letter(&harness);
+}
+
+fn assert_every_letter(harness: &Harness<'static, Option<App>>) {
     let texts =
         [include_str!("../../../assets/locales/zh_CN.po"), include_str!("../shell/commands.rs"), include_str!("../shell/docking.rs")];
     let font = egui::FontId::proportional(14.0);

@@ -116,12 +116,23 @@ impl DrawnPosterior {
     /// Draws with what they say; that takes some milliseconds.
     pub fn new(from: DrawnFrom, draws: Draws, is_complete: bool) -> Self {
         let summaries: Vec<MarginalSummary> = draws.parameters.iter().map(|unknown| draws.summary(unknown)).collect();
-        let verdict = draws.verdict_of(&summaries);
         let free: ParameterSet = draws.parameters.iter().map(|unknown| unknown.parameter).collect();
         let follows = |quantity: &DerivedQuantity| !quantity.parameters(draws.model).intersection(free).is_empty();
         let summary = |quantity: DerivedQuantity, set: usize| draws.summary_of(|of| quantity.value(draws.model, &of[set]));
         let of_sets = |quantity| (0..from.numbers.len()).map(|set| summary(quantity, set)).collect();
         let derived = DerivedQuantity::ALL.into_iter().filter(follows).map(|quantity| (quantity, of_sets(quantity))).collect();
+        Self::of_parts(from, draws, summaries, derived, is_complete)
+    }
+
+    /// Draws with what was found that they say.
+    pub fn of_parts(
+        from: DrawnFrom,
+        draws: Draws,
+        summaries: Vec<MarginalSummary>,
+        derived: Vec<(DerivedQuantity, Vec<MarginalSummary>)>,
+        is_complete: bool,
+    ) -> Self {
+        let verdict = draws.verdict_of(&summaries);
         Self { from, draws, summaries, derived, verdict, is_complete, stamp: LAST_STAMP.fetch_add(1, Ordering::Relaxed) + 1 }
     }
 

@@ -143,6 +143,13 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
         self.len() == 0
     }
 
+    /// Draws that were made elsewhere; what else is known of them is 0 or none.
+    #[must_use]
+    pub fn of_chains(model: Model, parameters: Vec<N>, chains: Vec<Vec<PosteriorDraw<P>>>) -> Self {
+        let (evaluations, divergences, cut, accepted, elapsed_ms) = (0, 0, 0, 0.0, 0.0);
+        Self { model, parameters, chains, evaluations, divergences, cut, accepted, noise: [None; 2], log_evidence: None, elapsed_ms }
+    }
+
     /// The same draws with other names and points.
     #[must_use]
     pub fn map<M, Q>(self, name: impl Fn(N) -> M, point: impl Fn(P) -> Q) -> PosteriorSample<M, Q> {

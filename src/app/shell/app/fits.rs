@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tasks::fit_work::{FinishedIntervals, Fitted, WithIntervals};
-use crate::app::tasks::fits::RefitProblem;
+use crate::app::tasks::fit_work::RefitSliders;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
@@ -128,25 +128,25 @@ pub fn refit_if_moved(app: &mut App) {
     }
     fits.refitted_at = moved_at;
     // Why a fit is not possible is said when one is asked for.
-    if let Some(problem) = refit_problem(app)
-        && let Err(sentence) = app.jobs.fits.refit(problem)
+    if let Some(from_sliders) = from_sliders(app)
+        && let Err(sentence) = app.jobs.fits.refit(from_sliders)
     {
         app.toasts.error(sentence);
     }
 }
 
-fn refit_problem(app: &App) -> Option<RefitProblem> {
+fn from_sliders(app: &App) -> Option<RefitSliders> {
     let (list, moved, fit_options) = (app.work.measurements(), app.work.moved(), app.work.settings().fit_options);
     if is_joint(list) {
         list.measured().try_for_each(validate).ok()?;
         let problem = joint_problem(list, moved, fit_options).ok().filter(|problem| !problem.unknowns().is_empty())?;
-        return Some(RefitProblem::Joint(list.measured().map(|open| open.number).collect(), Box::new(problem)));
+        return Some(RefitSliders::joint(problem, list.measured().cloned().collect(), list.shared()));
     }
     let open = list.active();
     let free = app.free().without_all(moved);
     validate(open).ok().filter(|()| !free.is_empty())?;
     let problem = fit_problem(&open.surface, &open.measurement, open.surface.model, free, fit_options).ok()?;
-    Some(RefitProblem::One(open.number, Box::new(problem)))
+    Some(RefitSliders::one(problem, open.clone()))
 }
 
 /// Fits the ladder of models to the active measurement, or to all of them where they share something.

@@ -13,7 +13,7 @@ mod lists;
 pub mod logic;
 pub mod open;
 mod plans;
-mod posteriors;
+pub mod posteriors;
 pub mod session;
 pub mod title;
 pub mod ui;

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::fits::problem_of;
-use crate::app::tasks::posteriors::PosteriorOf;
+use crate::app::tasks::posterior_work::{DrawPosterior, PosteriorOf};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::edit::Edit;
 use crate::app::work::fit_setup::{is_joint, joint_problem};
@@ -18,20 +18,26 @@ use tr::tr;
 
 /// Draws from the posterior of the active measurement, or of all where they share anything.
 pub fn start_posterior(app: &mut App) -> Result<(), String> {
+    let job = job_of_posterior(app)?;
+    app.jobs.posteriors.draw(job)
+}
+
+/// The job that draws from it.
+pub fn job_of_posterior(app: &App) -> Result<DrawPosterior, String> {
     let Settings { fit_options, starts, .. } = *app.work.settings();
     if fit_options.loss != Loss::Squared {
         return Err(tr!("A posterior takes squared residuals: its likelihood is Gaussian. Choose the loss “squared” first."));
     }
     let list = app.work.measurements();
-    let (of, from) = if is_joint(list) {
+    let (of, from, about) = if is_joint(list) {
         let problem = joint_problem(list, ParameterSet::EMPTY, fit_options).map_err(|error| cannot_begin(&error.localized()))?;
         let (posterior, from) = posterior(app, &problem, &list.measured().collect::<Vec<_>>())?;
-        (PosteriorOf::Joint(posterior), from)
+        (PosteriorOf::Joint(posterior), from, list.measured().cloned().collect())
     } else {
         let (posterior, from) = posterior(app, &problem_of(app, list.active())?, &[list.active()])?;
-        (PosteriorOf::One(posterior), from)
+        (PosteriorOf::One(posterior), from, vec![list.active().clone()])
     };
-    app.jobs.posteriors.draw(of, from, starts)
+    Ok(DrawPosterior { of, about, shared: list.shared(), from, starts })
 }
 
 /// The posterior of a problem, and what is to be remembered of it.
