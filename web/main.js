@@ -46,11 +46,26 @@ function watched(response) {
   return new Response(body, { headers: { 'Content-Type': 'application/wasm' } });
 }
 
+// Tools that imitate a smaller device tell its size in pixels of the screen that they run on. Where that is so, the program takes the size
+// in the units of the page, times their scale. This observer is older than the program's, and so is asked first.
+function measureAsImitated(canvas) {
+  const observer = new ResizeObserver(([entry]) => {
+    observer.disconnect();
+    const told = entry.devicePixelContentBoxSize?.[0].inlineSize;
+    const meant = canvas.clientWidth * devicePixelRatio;
+    // A pixel is lost by rounding.
+    if (told !== undefined && Math.abs(told - meant) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+  });
+  observer.observe(canvas);
+}
+
 async function start() {
   if (typeof WebAssembly !== 'object') return refuse(SENTENCES.wasm);
+  const canvas = document.getElementById('window');
   // The program finds this context at the canvas. Its triangles have soft edges of their own, in one plane before an opaque ground.
   const context = { alpha: false, antialias: false, depth: false, stencil: false };
-  if (!document.getElementById('window').getContext('webgl2', context)) return refuse(SENTENCES.webgl);
+  if (!canvas.getContext('webgl2', context)) return refuse(SENTENCES.webgl);
+  measureAsImitated(canvas);
   try {
     const response = await fetch(PROGRAM);
     if (!response.ok) throw new Error(`${PROGRAM}: ${response.status}`);
