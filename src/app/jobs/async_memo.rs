@@ -44,15 +44,43 @@ impl<K: PartialEq + Clone + Send + 'static, V: Send + 'static> AsyncMemo<K, V> {
     /// inputs than these. Call it before every frame that shows the value. `make` owns its inputs
     /// and runs apart from the window; its value is dropped after a stop.
     pub fn refresh(&mut self, spawner: &Spawner, key: &K, make: impl FnOnce(Stopped<'_>) -> V + Send + 'static) {
-        self.poll();
-        let is_current = self.note_frame(spawner.frame(), key);
-        if is_current || self.running.is_some() || self.failed.as_ref() == Some(key) {
+        if !self.is_to_be_made(spawner, key) {
             return;
         }
         match spawner.start("derive", move |context| make(&|| context.is_cancelled())) {
             Ok(job) => self.running = Some(Running { key: key.clone(), wanted_at: spawner.frame(), job }),
             Err(_) => self.failed = Some(key.clone()),
         }
+    }
+
+    /// Takes the value of a job that has ended; whether a job is to begin.
+    fn is_to_be_made(&mut self, spawner: &Spawner, key: &K) -> bool {
+        self.poll();
+        let is_current = self.note_frame(spawner.frame(), key);
+        !is_current && self.running.is_none() && self.failed.as_ref() != Some(key)
+    }
+
+    /// The same by a worker of the page, whose request and the reading of its answer `ask` gives; false where there is no worker
+    /// or no request.
+    #[cfg(target_arch = "wasm32")]
+    pub fn refresh_beside<R: FnOnce(&str) -> Option<V> + 'static>(
+        &mut self,
+        spawner: &Spawner,
+        key: &K,
+        ask: impl FnOnce() -> Option<(String, R)>,
+    ) -> bool {
+        if !crate::app::platform::worker::are_there() {
+            return false;
+        }
+        if !self.is_to_be_made(spawner, key) {
+            return true;
+        }
+        let Some((request, receive)) = ask() else { return false };
+        match spawner.start_beside(&request, |_| None, receive) {
+            Ok(job) => self.running = Some(Running { key: key.clone(), wanted_at: spawner.frame(), job }),
+            Err(_) => self.failed = Some(key.clone()),
+        }
+        true
     }
 
     /// Notes which inputs this frame wants; tells whether their value is shown.

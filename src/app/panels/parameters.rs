@@ -13,7 +13,7 @@ use crate::app::views::{Cx, note_stop};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::surface::{Surface, another};
 use egui::{Align, DragValue, Grid, Layout, Role, Ui, WidgetInfo};
-use pbrdf::model::{Diffuse, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
+use pbrdf::model::{Diffuse, Model, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -31,15 +31,27 @@ pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &Slide
     let show_bounds = cx.work.settings().show_bounds;
     egui::ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
         ui.add_space(4.0);
-        preset_ui(cx.work.preset(), &mut surface, ui);
-        shared.iter_mut().for_each(|shared| sharing_ui(shared, ui));
-        bounds_switch_ui(cx, &mut surface, ui);
-        ui.separator();
-        let mut sliders = Sliders { surface: &mut surface, shared: &mut shared, show_bounds, refusals, ranges };
-        specular_ui(&mut sliders, ui);
-        diffuse_ui(&mut sliders, ui);
-        volume_ui(&mut sliders, ui);
-        geometry_ui(cx, ui);
+        let is_wide = ui.available_width() >= WIDE;
+        if !is_wide {
+            model_ui(cx, &mut surface, &mut shared, ui);
+            ui.separator();
+        }
+        let mut sliders = Sliders { surface: &mut surface, shared: &mut shared, show_bounds, refusals, ranges, is_wide };
+        if is_wide {
+            ui.columns(2, |columns| {
+                specular_ui(&mut sliders, &mut columns[0]);
+                geometry_ui(cx, &mut columns[0]);
+                diffuse_ui(&mut sliders, &mut columns[1]);
+                volume_ui(&mut sliders, &mut columns[1]);
+            });
+            ui.separator();
+            model_ui(cx, &mut surface, &mut shared, ui);
+        } else {
+            specular_ui(&mut sliders, ui);
+            diffuse_ui(&mut sliders, ui);
+            volume_ui(&mut sliders, ui);
+            geometry_ui(cx, ui);
+        }
         ui.add_space(4.0);
         if ui.button(tr!("Reset all parameters")).on_hover_right(ui, tr!("All nine parameters to their defaults")).clicked() {
             surface.parameters = Parameters::default();
@@ -53,6 +65,17 @@ pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &Slide
     }
 }
 
+/// Width in points from which groups stand side by side, before the choice of the model: under a pane of a phone, such a panel is three or
+/// four sliders high.
+const WIDE: f32 = 760.0;
+
+/// Which terms there are, what surfaces share, and the switch of the bounds.
+fn model_ui(cx: &mut Cx<'_>, surface: &mut Surface, shared: &mut Option<ParameterSet>, ui: &mut Ui) {
+    preset_ui(cx.work.preset(), surface, ui);
+    shared.iter_mut().for_each(|shared| sharing_ui(shared, ui));
+    bounds_switch_ui(cx, surface, ui);
+}
+
 /// What the groups of sliders share.
 struct Sliders<'a> {
     /// A copy, which becomes an edit.
@@ -62,6 +85,8 @@ struct Sliders<'a> {
     show_bounds: bool,
     refusals: &'a mut Vec<String>,
     ranges: &'a SliderRanges,
+    /// Whether the switch of a lobe and its kinds have room in one line.
+    is_wide: bool,
 }
 
 /// Widths in points, and whether buttons have words.
@@ -161,12 +186,19 @@ fn pin_ui(cx: &mut Cx<'_>, surface: &Surface, ui: &mut Ui) {
 
 fn specular_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
     let surface = &mut *sliders.surface;
-    ui.horizontal(|ui| {
-        ui.checkbox(&mut surface.model.specular, tr!("Specular lobe"))
+    let switch_ui = |model: &mut Model, ui: &mut Ui| {
+        ui.checkbox(&mut model.specular, tr!("Specular lobe"))
             .on_hover_right(ui, tr!("Torrance–Sparrow facets with complex Fresnel reflection, Eqs. (4–10): the only lobe that polarises"));
-    });
+    };
+    let is_in_line = sliders.is_wide && surface.model.specular;
+    if !is_in_line {
+        ui.horizontal(|ui| switch_ui(&mut surface.model, ui));
+    }
     if surface.model.specular {
         ui.horizontal(|ui| {
+            if is_in_line {
+                switch_ui(&mut surface.model, ui);
+            }
             for (distribution, name) in [(SlopeDistribution::Gauss, tr!("Gauss")), (SlopeDistribution::Cauchy, tr!("Cauchy"))] {
                 ui.radio_value(&mut surface.model.distribution, distribution, name).on_hover_right(
                     ui,
@@ -191,14 +223,24 @@ fn specular_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
 
 fn diffuse_ui(sliders: &mut Sliders<'_>, ui: &mut Ui) {
     let surface = &mut *sliders.surface;
-    let mut present = surface.model.diffuse != Diffuse::Absent;
-    let switch =
-        ui.checkbox(&mut present, tr!("Diffuse lobe")).on_hover_right(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
-    if switch.changed() {
-        surface.model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
+    let switch_ui = |model: &mut Model, ui: &mut Ui| {
+        let mut present = model.diffuse != Diffuse::Absent;
+        let switch = ui
+            .checkbox(&mut present, tr!("Diffuse lobe"))
+            .on_hover_right(ui, tr!("Minnaert, Eq. (12), or one of its relatives: depolarises"));
+        if switch.changed() {
+            model.diffuse = if present { Diffuse::Minnaert } else { Diffuse::Absent };
+        }
+    };
+    let is_in_line = sliders.is_wide && surface.model.diffuse != Diffuse::Absent;
+    if !is_in_line {
+        switch_ui(&mut surface.model, ui);
     }
-    if present {
+    if surface.model.diffuse != Diffuse::Absent {
         ui.horizontal(|ui| {
+            if is_in_line {
+                switch_ui(&mut surface.model, ui);
+            }
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Minnaert, tr!("Minnaert")).on_hover_right(ui, "(cos θi cos θr)^c / π");
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Lambert, tr!("Lambert")).on_hover_right(ui, tr!("1/π in all directions: c = 0"));
             ui.radio_value(&mut surface.model.diffuse, Diffuse::Hyde, tr!("Hyde"))
@@ -242,7 +284,7 @@ fn geometry_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
 }
 
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
-    let Sliders { surface, shared, show_bounds, refusals, ranges } = sliders;
+    let Sliders { surface, shared, show_bounds, refusals, ranges, is_wide: _ } = sliders;
     let room = Room::of(ui.available_width(), shared.is_some());
     Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).min_col_width(room.least).show(ui, |ui| {
         for &parameter in parameters {

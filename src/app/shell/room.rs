@@ -29,6 +29,7 @@ impl Default for Room {
 pub enum Below {
     #[default]
     Sliders,
+    Measurements,
     Fit,
     Nothing,
 }

@@ -7,6 +7,7 @@ use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, Watch,
     WithIntervals, Work as _,
 };
+use crate::app::tasks::landscape_message::heights;
 use crate::app::tasks::messages::{Answer, Order, ProfileBits, Request};
 use crate::app::tasks::posterior_message::draw;
 use crate::app::tasks::posterior_work::PosteriorOf;
@@ -120,6 +121,9 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
                 }
             };
             draw(of, &about, starts, wire)
+        }
+        Order::Landscape { across, up, scale_at } => {
+            heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled)
         }
     };
     serde_json::to_string(&answer).ok()

@@ -17,7 +17,7 @@ use crate::app::work::model_fit::NotFitted;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{Bootstrap, BootstrapEstimate, Interval, JointProblem, Problem, Profile, ProfilePoint, Starts, TracePoint};
-use pbrdf::model::{PRESETS, Parameter, Preset};
+use pbrdf::model::{PRESETS, Parameter, Parameters, Preset};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use std::sync::Arc;
@@ -79,6 +79,21 @@ pub enum Order {
         chains: usize,
         seed: u64,
     },
+    /// Over two parameters of the problem of the fit, its scale of a robust loss that of the residuals there.
+    Landscape {
+        across: AxisBits,
+        up: AxisBits,
+        scale_at: Option<Parameters>,
+    },
+}
+
+/// A side of a landscape.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+pub struct AxisBits {
+    pub parameter: Parameter,
+    pub ends: [u64; 2],
+    pub count: usize,
+    pub logarithmic: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -95,6 +110,8 @@ pub enum Answer {
     },
     /// The numbers of draws; none where the likelihood is not finite.
     Drawn(Option<String>),
+    /// The numbers of a landscape; none where it was stopped.
+    Heights(Option<String>),
 }
 
 #[derive(Serialize, Deserialize)]

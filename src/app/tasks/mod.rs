@@ -13,6 +13,8 @@ pub mod fit_work;
 pub mod fits;
 pub mod jobs;
 #[cfg(any(test, target_arch = "wasm32"))]
+pub mod landscape_message;
+#[cfg(any(test, target_arch = "wasm32"))]
 pub mod messages;
 pub mod plans;
 mod portable;

@@ -7,6 +7,7 @@ use crate::app::tasks::fit_work::{
     Watch, WithIntervals, Work,
 };
 use crate::app::tasks::answer::{Wire, answer};
+use crate::app::tasks::landscape_message::{ask, told};
 use crate::app::tasks::messages::Message;
 use crate::app::tests::{explorer, harness};
 use crate::app::work::fit_history::FitEntry;
@@ -14,7 +15,7 @@ use crate::app::work::fit_setup::{fit_problem, joint_problem, joint_problem_of};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::posterior::DrawnPosterior;
 use pbrdf::fit::posterior::Prior;
-use pbrdf::fit::{Course, FitResult, Observer, Problem, Starts, free_by_default};
+use pbrdf::fit::{Course, FitResult, Landscape, LandscapeAxis, Observer, Problem, Starts, free_by_default};
 use pbrdf::model::{PRESETS, Parameter, ParameterSet};
 
 const SEARCH: Search = Search { starts: Starts::Exactly(3), seed: 7 };
@@ -128,6 +129,22 @@ fn fits_from_moving_sliders_are_the_same_to_the_bit() {
     let found = job().run(&Quiet).0;
     assert_eq!(found.len(), 2);
     assert_eq!(sent(job()).0, found);
+}
+
+#[test]
+fn landscapes_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let open = example(app);
+    let problem = problem(app, &open);
+    let axis = |parameter, low, high| LandscapeAxis { parameter, low, high, count: 9, logarithmic: false };
+    let axes = [axis(Parameter::N, 0.5, 4.0), axis(Parameter::K, 0.0, 5.0)];
+    let request = ask(&problem, None, axes, &open).expect("it can be written");
+    let answered = |is_cancelled: &(dyn Fn() -> bool + Sync)| answer(&request, &Wire { is_cancelled, tell: &|_| {} }).expect("an answer");
+    let landscape = told(&answered(&|| false), axes).flatten().expect("heights");
+    let bits = |of: &Landscape| of.objective.iter().map(|height| height.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&landscape), bits(&Landscape::minimised(&problem, axes[0], axes[1], &|| false).expect("heights")));
+    assert_eq!(told(&answered(&|| true), axes), Some(None), "stopped");
 }
 
 /// All but the time and the stamp.

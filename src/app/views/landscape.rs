@@ -77,6 +77,11 @@ impl View for LandscapeView {
         let (Some(fine), Some(coarse)) = (key(true), key(false)) else { return };
         let key = if cx.interacting && self.job.key() != Some(&fine) { coarse.clone() } else { fine };
         self.job.stop_if(|running| !running.is_of_use(&key, &coarse));
+        #[cfg(target_arch = "wasm32")]
+        if self.refresh_beside(cx, &key) {
+            self.refresh_plot(work);
+            return;
+        }
         let (surface, measurement, made_from) = (surface.clone(), document.measurement.clone(), key.clone());
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| LandscapeImage::new(surface, &measurement, &made_from, stopped));
         self.refresh_plot(work);
@@ -120,6 +125,23 @@ impl View for LandscapeView {
 
     fn lag(&self) -> u64 {
         self.job.frames_behind()
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+impl LandscapeView {
+    /// Has a worker of the page find the heights; whether there is one.
+    fn refresh_beside(&mut self, cx: &Cx<'_>, key: &LandscapeKey) -> bool {
+        use crate::app::tasks::landscape_message::{ask, told};
+        let (surface, document) = (cx.work.surface(), cx.work.active());
+        self.job.refresh_beside(&cx.jobs.spawner, key, || {
+            let problem = drawn::problem(surface.clone(), &document.measurement, key)?;
+            let (axes, key) = ([key.across, key.up], key.clone());
+            let request = ask(&problem, key.scale_at, axes, document)?;
+            Some((request, move |answer: &str| {
+                Some(told(answer, axes)?.and_then(|landscape| LandscapeImage::of(landscape, &problem, &key)))
+            }))
+        })
     }
 }
 

@@ -15,7 +15,7 @@ use crate::app::shell::status_bar::status_ui;
 use crate::app::shell::tour::tour_ui;
 use crate::app::views::follow_f6;
 use crate::app::work::settings::SidePanel;
-use egui::{CentralPanel, Frame, Panel, Role, Ui, WidgetInfo};
+use egui::{CentralPanel, Frame, Panel, Role, ScrollArea, Ui, WidgetInfo};
 use tr::tr;
 
 /// One frame.
@@ -61,6 +61,11 @@ fn small_ui(app: &mut App, ui: &mut Ui) {
         Below::Sliders => {
             Panel::bottom("below").exact_size(height * 0.45).resizable(false).show(ui, |ui| parameters_ui(app, ui));
         }
+        Below::Measurements => {
+            Panel::bottom("below").exact_size(height * 0.55).resizable(false).show(ui, |ui| {
+                ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| lists_ui(app, ui));
+            });
+        }
         Below::Fit => {
             Panel::bottom("below").exact_size(height * 0.55).resizable(false).show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
         }
@@ -70,6 +75,7 @@ fn small_ui(app: &mut App, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let below = &mut app.dialogs.room.below;
             ui.selectable_value(below, Below::Sliders, tr!("Sliders"));
+            ui.selectable_value(below, Below::Measurements, tr!("Measurements"));
             ui.selectable_value(below, Below::Fit, tr!("Fit"));
             ui.selectable_value(below, Below::Nothing, tr!("Pane alone"));
         });
@@ -134,13 +140,17 @@ fn front_ui(app: &mut App, ui: &mut Ui) -> SidePanel {
     *front
 }
 
+/// The open measurements and the pinned surfaces.
+fn lists_ui(app: &mut App, ui: &mut Ui) {
+    let (mut cx, lists) = app.split_lists();
+    lists.measurements.ui(&mut cx, ui);
+    lists.pinned.ui(&mut cx, ui);
+}
+
 fn parameters_ui(app: &mut App, ui: &mut Ui) {
-    if app.work.measurements().has_rows() || !app.work.pinned().is_empty() {
-        Panel::top("measurements").show(ui, |ui| {
-            let (mut cx, lists) = app.split_lists();
-            lists.measurements.ui(&mut cx, ui);
-            lists.pinned.ui(&mut cx, ui);
-        });
+    let has_lists = app.work.measurements().has_rows() || !app.work.pinned().is_empty();
+    if has_lists && !app.dialogs.room.is_small {
+        Panel::top("measurements").show(ui, |ui| lists_ui(app, ui));
     }
     let mut refusals = Vec::new();
     let ranges = app.lessons.ranges();

@@ -1,6 +1,7 @@
 //! The map of all directions of view, or the difference of two: its values, their range and colours.
 
 use crate::app::jobs::async_memo::Stopped;
+use crate::app::platform;
 use crate::app::plots::{Range, nice_ceiling};
 use crate::app::views::curves::{DECADES, SETS_AXES};
 use crate::app::work::settings::HemisphereQuantity;
@@ -9,8 +10,8 @@ use pbrdf::model::{Hemisphere, HemisphereMap, Model, Parameters, Pbrdf};
 use pbrdf::optics::Degrees;
 use std::sync::Arc;
 
-/// Cells along an edge of the map.
-pub const SIZE: usize = 256;
+/// Cells along an edge of the map; in a page, whose thread makes it, a quarter of them.
+pub const SIZE: usize = if platform::IS_PAGE { 128 } else { 256 };
 
 /// Parameters, model, θi, and the surface that is taken off.
 pub type MapKey = (Parameters, Model, f64, Option<(Parameters, Model)>);

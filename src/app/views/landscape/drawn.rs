@@ -34,15 +34,14 @@ const LINES: usize = 12;
 impl LandscapeImage {
     /// Of the measurement with the model and the choices of the key, in the bounds of the surface;
     /// none where there is no problem or no node has a value.
-    pub fn new(mut surface: Surface, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
-        let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
-        // Where its own two sliders stand is no matter, not even if that is nowhere.
-        for axis in [key.across, key.up] {
-            surface.parameters[axis.parameter] = axis.low;
-        }
-        let problem = fit_problem(&surface, measurement, key.model, free, key.fit_options).ok()?;
-        let problem = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
-        let landscape = Landscape::minimised(&problem, key.across, key.up, stopped)?;
+    pub fn new(surface: Surface, measurement: &Measurement, key: &LandscapeKey, stopped: Stopped<'_>) -> Option<Self> {
+        let problem = problem(surface, measurement, key)?;
+        let scaled = key.scale_at.map_or_else(|| problem.clone(), |at| problem.with_loss_scale_of(&at));
+        Self::of(Landscape::minimised(&scaled, key.across, key.up, stopped)?, &problem, key)
+    }
+
+    /// Of the heights of that problem; none where no node has a value.
+    pub fn of(landscape: Landscape, problem: &Problem, key: &LandscapeKey) -> Option<Self> {
         let heights: Vec<f64> = landscape.objective.iter().map(|objective| libm::log10(*objective)).collect();
         let finite = || heights.iter().copied().filter(|height| height.is_finite());
         let highest = finite().fold(f64::NEG_INFINITY, f64::max);
@@ -54,7 +53,7 @@ impl LandscapeImage {
         let high = 0.25 * (4.0 * highest).ceil();
         let low = (0.25 * (4.0 * lowest).floor()).clamp(high - DECADES, high - 0.25);
         let range = Range { low, high };
-        Some(Self { landscape, range, contours: contours(&heights, key, range), title: title(&problem) })
+        Some(Self { landscape, range, contours: contours(&heights, key, range), title: title(problem) })
     }
 
     /// The number at the node nearest to a point of the plot.
@@ -69,6 +68,16 @@ impl LandscapeImage {
         let (column, row) = (index(self.landscape.across, x)?, index(self.landscape.up, y)?);
         self.landscape.objective.get(row * self.landscape.across.count + column).copied().filter(|objective| objective.is_finite())
     }
+}
+
+/// What is minimised of the measurement with the model and the choices of the key, in the bounds of the surface.
+pub fn problem(mut surface: Surface, measurement: &Measurement, key: &LandscapeKey) -> Option<Problem> {
+    let free = ParameterSet::EMPTY.with(key.across.parameter).with(key.up.parameter);
+    // Where its own two sliders stand is no matter, not even if that is nowhere.
+    for axis in [key.across, key.up] {
+        surface.parameters[axis.parameter] = axis.low;
+    }
+    fit_problem(&surface, measurement, key.model, free, key.fit_options).ok()
 }
 
 /// What is minimised.

@@ -1,6 +1,7 @@
 //! What the job of the picture makes: numbers, and their colours.
 
 use crate::app::jobs::async_memo::Stopped;
+use crate::app::platform;
 use crate::app::plots::{ColorScale, Range};
 use crate::app::work::picture_options::PictureOptions;
 use crate::app::work::picture_scene::{Scene, SceneKey};
@@ -12,10 +13,10 @@ use pbrdf::optics::{Facet, Geometry};
 use std::sync::Arc;
 use tr::tr;
 
-/// Pixels along an edge.
-const SIZE: usize = 512;
+/// Pixels along an edge; in a page, whose thread makes the picture, a quarter of them.
+const SIZE: usize = if platform::IS_PAGE { 256 } else { 512 };
 /// The same of Hyde's model, which takes an integral for every angle of incidence.
-const SLOW_SIZE: usize = 128;
+const SLOW_SIZE: usize = if platform::IS_PAGE { 64 } else { 128 };
 
 /// All that the job depends on.
 #[derive(Debug, Clone, PartialEq)]
