@@ -49,7 +49,9 @@ async fn start() -> Result<(), JsValue> {
     let canvas: HtmlCanvasElement = canvas.dyn_into().map_err(|_| "the page has no canvas")?;
     let create: eframe::AppCreator<'static> = Box::new(|context| Ok(Box::new(app(&context.egui_ctx))));
     let runner = eframe::WebRunner::new();
-    runner.start(canvas, eframe::WebOptions::default(), create).await?;
+    // No gradient needs it, and where no graphics card draws it is work for every pixel.
+    let options = eframe::WebOptions { dithering: false, ..Default::default() };
+    runner.start(canvas, options, create).await?;
     claim_keys()?;
     keep_on_leaving(runner)
 }
