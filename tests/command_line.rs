@@ -34,6 +34,19 @@ fn evaluate_gives_the_golden_values_row_by_row() {
 }
 
 #[test]
+fn instructions_are_chosen_by_name_or_refused() {
+    let answer = |instructions: &str| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_pbrdf-explorer"));
+        program.args(["metals", "--help"]).env("PBRDF_INSTRUCTIONS", instructions).output().expect("the program")
+    };
+    let refused = answer("fast");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("PBRDF_INSTRUCTIONS: found \"fast\", expected \"portable\"."), "{refused:?}");
+    // An ARM processor has no other numbers, and the program says so.
+    assert_eq!(answer("portable").status.success(), !cfg!(target_arch = "aarch64"));
+}
+
+#[test]
 fn evaluate_writes_nothing_before_all_rows_are_right() {
     let folder = Folder::new();
     let head = "distribution,n,k,sigma,ks,kd,kv,q,c,sigma_v,theta_i,theta_r,dphi\n";

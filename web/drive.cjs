@@ -48,6 +48,7 @@ function watch() {
   }).observe({ type: 'longtask', buffered: true });
   window.frames_ = [];
   const request = window.requestAnimationFrame.bind(window);
+  window.plainFrame = request;
   window.requestAnimationFrame = (callback) =>
     request((time) => {
       const begun = performance.now();
@@ -129,6 +130,19 @@ function longestGap(milliseconds) {
   });
 }
 
+const rounded = (value) => Number(value.toFixed(2));
+
+// What frames took, and how far apart they were.
+function told(frames) {
+  const gaps = frames.slice(1).map((frame, i) => frame.at - frames[i].at);
+  return {
+    frames: frames.length,
+    median_ms: rounded(median(frames.map((frame) => frame.took))),
+    longest_ms: rounded(Math.max(...frames.map((frame) => frame.took))),
+    interval_median_ms: rounded(median(gaps)),
+  };
+}
+
 // Drags a slider to the right in 60 steps; what the frames meanwhile took.
 async function drag(page, slider) {
   const before = await page.evaluate(() => window.frames_.length);
@@ -140,14 +154,72 @@ async function drag(page, slider) {
   for (let step = 1; step <= 60; step += 1) await page.mouse.move(from + step * 0.4, y, { steps: 1 });
   await page.mouse.up();
   await page.waitForTimeout(100);
-  const frames = (await page.evaluate(() => window.frames_)).slice(before);
-  const rounded = (value) => Number(value.toFixed(2));
-  return {
-    frames: frames.length,
-    median_ms: rounded(median(frames.map((frame) => frame.took))),
-    longest_ms: rounded(Math.max(...frames.map((frame) => frame.took))),
-    interval_median_ms: rounded(median(frames.slice(1).map((frame, i) => frame.at - frames[i].at))),
+  return told((await page.evaluate(() => window.frames_)).slice(before));
+}
+
+// The same with one move a frame by the page itself: the driver, which waits for an answer after every move, takes no part.
+function dragInPage({ place: [left, top, right, bottom] }) {
+  const canvas = document.getElementById('window');
+  const y = (top + bottom) / 2;
+  const from = left + 8 + (right - left - 16) * 0.3;
+  const send = (kind, x) => {
+    const at = { bubbles: true, cancelable: true, clientX: x, clientY: y, button: 0, buttons: 1 };
+    canvas.dispatchEvent(new PointerEvent(`pointer${kind}`, { ...at, pointerType: 'mouse', pointerId: 1, isPrimary: true }));
+    canvas.dispatchEvent(new MouseEvent(`mouse${kind}`, at));
   };
+  return new Promise((resolve) => {
+    send('move', from);
+    send('down', from);
+    window.frames_.length = 0;
+    let step = 0;
+    const move = () => {
+      step += 1;
+      send('move', from + (step % 100) * 0.4);
+      if (step < 150) return window.plainFrame(move);
+      send('up', from + 20);
+      return resolve(window.frames_.slice());
+    };
+    window.plainFrame(move);
+  });
+}
+
+// The frames of a page that clears a canvas of the same size and does nothing else: what browser and driver take by themselves.
+async function emptyFrames(browser) {
+  const context = await browser.newContext({ viewport: { width: 1366, height: 768 } });
+  const page = await context.newPage();
+  await page.setContent('<body style="margin:0"><canvas id="window" width="1366" height="768" style="display:block"></canvas>');
+  const at = await page.evaluate(() => new Promise((resolve) => {
+    const gl = document.getElementById('window').getContext('webgl2', { alpha: false, antialias: false, depth: false });
+    const times = [];
+    const frame = () => {
+      times.push(performance.now());
+      gl.clearColor((times.length % 60) / 60, 0.5, 0.5, 1);
+      gl.clear(gl.COLOR_BUFFER_BIT);
+      if (times.length < 150) requestAnimationFrame(frame);
+      else resolve(times);
+    };
+    requestAnimationFrame(frame);
+  }));
+  await context.close();
+  return rounded(median(at.slice(1).map((time, i) => time - at[i])));
+}
+
+const launch = (...more) => chromium.launch({
+  executablePath: process.env.CHROMIUM,
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', ...more],
+});
+
+// Frames of a drag where they do not wait for a screen.
+async function frames(address, slider) {
+  const browser = await launch('--disable-frame-rate-limit', '--disable-gpu-vsync');
+  const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, locale: 'en-GB' });
+  const page = await opened(context, address);
+  await page.waitForTimeout(3000);
+  const dragged = told(await page.evaluate(dragInPage, slider));
+  await context.close();
+  const empty = await emptyFrames(browser);
+  await browser.close();
+  return { ...dragged, empty_page_interval_median_ms: empty };
 }
 
 const shot = (page, name) => page.screenshot({ path: path.join(SHOTS, `${name}.png`) });
@@ -173,10 +245,7 @@ function fitOfCommandLine(environment) {
 
 async function main() {
   const { server, sent, origin } = await serve();
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-  });
+  const browser = await launch();
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, locale: 'en-GB', acceptDownloads: true });
   await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
   const requests = [];
@@ -207,6 +276,7 @@ async function main() {
   await timed.waitForTimeout(1000);
   Object.assign(figures, { drag: await drag(timed, slider) });
   await timed.close();
+  figures.frames_without_screen = await frames(address, slider);
 
   console.log('the fit');
   await page.keyboard.press('Control+z');
@@ -226,6 +296,25 @@ async function main() {
   figures.longest_task_ms = Math.max(0, ...(await page.evaluate(() => window.longTasks.map((task) => task.duration))));
   fs.writeFileSync(path.join(SHOTS, 'fit.json'), JSON.stringify(fitted.fits[0], null, 1));
   compare(fitted.fits[0]);
+
+  console.log('jobs beside the page');
+  figures.longest_gaps_ms = {};
+  for (const [name, words, seconds] of [['landscape', 'Landscape', 4], ['posterior', 'Draw from the posterior', 8]]) {
+    await command(page, words);
+    figures.longest_gaps_ms[name] = Math.round(await page.evaluate(longestGap, 1000 * seconds));
+    await shot(page, `3-${name}`);
+  }
+  const drawn = await widget(page, 'Label', /draws of 27 values/, 120);
+  check(drawn.label + drawn.value !== '', `draws came: ${drawn.value || drawn.label}`);
+  await command(page, 'Keep refitting');
+  await widget(page, 'Slider', 'σ');
+  const before = (await widget(page, 'Slider', 'n')).number;
+  const refits = page.evaluate(longestGap, 3000);
+  await drag(page, await widget(page, 'Slider', 'σ'));
+  figures.longest_gaps_ms.refit = Math.round(await refits);
+  await page.waitForTimeout(1000);
+  check((await widget(page, 'Slider', 'n')).number !== before, 'the others follow a slider that is dragged');
+  await command(page, 'Keep refitting');
 
   console.log('a file');
   await page.keyboard.press('Control+o');
@@ -272,17 +361,26 @@ async function main() {
   for (const [name, width, height] of [['8-tablet', 1024, 768], ['9-phone', 844, 390]]) {
     const small = await browser.newContext({ viewport: { width, height }, hasTouch: true, isMobile: true, deviceScaleFactor: 2, locale: 'en-GB' });
     small.on('request', (request) => requests.push(request.url()));
-    const touch = await opened(small, address);
-    await touch.waitForTimeout(1500);
-    await shot(touch, name);
-    check(touch.faults.length === 0, `no error is reported ${touch.faults}`);
+    await byTouch(await opened(small, `${address}?probe`), name, width);
     await small.close();
   }
 
   console.log('embedded');
-  const embedded = await opened(second, `${address}?embed=dolp,lobes&lesson=02`);
+  const embedded = await opened(second, `${address}?probe&embed=dolp,lobes&lesson=02`);
+  await widget(embedded, 'Image', /^Plot: DoLP/);
   await embedded.waitForTimeout(1500);
+  const shown = await widgets(embedded);
+  const plots = shown.filter((one) => one.role === 'Image' && one.label.startsWith('Plot:')).map((one) => one.label);
+  check(plots.length >= 2 && plots.every((label) => /DoLP|BRDF/.test(label)), `an embedded page shows ${plots.join(' | ')}`);
+  const rest = shown.filter((one) => one.role === 'Slider' || (one.role === 'Button' && /^(File|Fit|Edit)$/.test(one.label)));
+  check(rest.length === 0, `and nothing else ${rest.map((one) => one.label)}`);
+  const lesson = shown.some((one) => /Fresnel limit/.test(one.label + one.value));
+  check(lesson, 'with its lesson');
+  const kept = await embedded.evaluate(() => Object.keys(localStorage).join());
+  await embedded.waitForTimeout(3000);
+  check((await embedded.evaluate(() => Object.keys(localStorage).join())) === kept, 'it keeps nothing');
   await shot(embedded, '10-embedded');
+  check(embedded.faults.length === 0, `no error is reported ${embedded.faults}`);
 
   console.log('requests');
   const foreign = requests.filter((url) => !url.startsWith(address) && !url.startsWith('data:') && !url.startsWith(`blob:${origin}`));
@@ -294,6 +392,58 @@ async function main() {
   await browser.close();
   server.close();
   if (failures.length > 0) throw new Error(`does not hold:\n  ${failures.join('\n  ')}`);
+}
+
+// A finger moves a slider, two zoom a plot, one moves it, one that rests reads it, and a touch brings another pane to the front.
+async function byTouch(page, name, width) {
+  await page.waitForTimeout(1500);
+  await shot(page, name);
+  const canvas = await page.evaluate(() => [document.getElementById('window').width, window.innerWidth]);
+  check(canvas[0] === 2 * canvas[1], `the canvas has the pixels of the screen: ${canvas}`);
+  const plot = await widget(page, 'Image', /^Plot: DoLP/);
+  check(plot.place[2] > 0.8 * width && plot.place[2] <= width, `the plot ends at ${Math.round(plot.place[2])} of ${width} points`);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ...points) =>
+    session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const slider = await widget(page, 'Slider', 'σ');
+  const [, y] = middle(slider);
+  const [left, , right] = slider.place;
+  const from = left + (right - left) * 0.65;
+  await touch('touchStart', [from, y]);
+  for (let step = 1; step <= 10; step += 1) await touch('touchMove', [from - step * 2, y]);
+  await touch('touchEnd');
+  await page.waitForTimeout(700);
+  const sigma = (await widget(page, 'Slider', 'σ')).number;
+  check(sigma !== slider.number, `a finger moves σ from ${slider.number} to ${sigma}`);
+
+  const [x0, y0] = middle(plot);
+  const looks = async (what) => {
+    await page.waitForTimeout(700);
+    return (await page.screenshot({ ...(what && { path: path.join(SHOTS, `${name}-${what}.png`) }) })).toString('base64');
+  };
+  const pictures = [await looks()];
+  await touch('touchStart', [x0 - 30, y0], [x0 + 30, y0]);
+  for (let step = 1; step <= 10; step += 1) await touch('touchMove', [x0 - 30 - 5 * step, y0], [x0 + 30 + 5 * step, y0]);
+  await touch('touchEnd');
+  pictures.push(await looks('pinch'));
+  await touch('touchStart', [x0, y0]);
+  for (let step = 1; step <= 10; step += 1) await touch('touchMove', [x0 - 6 * step, y0]);
+  await touch('touchEnd');
+  pictures.push(await looks('pan'));
+  await touch('touchStart', [x0, y0]);
+  await page.waitForTimeout(1000);
+  pictures.push(await looks('read'));
+  await touch('touchEnd');
+  check(new Set(pictures).size === pictures.length, 'two fingers zoom a plot, one moves it, one that rests reads it');
+
+  const tab = await widget(page, 'Button', 'Picture');
+  const [x, at] = middle(tab);
+  await touch('touchStart', [x, at]);
+  await touch('touchEnd');
+  await page.waitForTimeout(1500);
+  check((await widgets(page)).every((one) => one.label !== plot.label), 'a touch brings another pane to the front');
+  await shot(page, `${name}-tab`);
+  check(page.faults.length === 0, `no error is reported ${page.faults}`);
 }
 
 // The largest relative difference of parameters and ends of intervals.

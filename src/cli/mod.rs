@@ -54,10 +54,21 @@ pub fn command() -> clap::Command {
 /// With `portable`, numbers are those of a processor without fused multiply–add, and of a browser, to the bit.
 const INSTRUCTIONS: &str = "PBRDF_INSTRUCTIONS";
 
+/// Does what [`INSTRUCTIONS`] says.
+fn choose_instructions() -> Result<(), Failure> {
+    let Some(value) = std::env::var_os(INSTRUCTIONS) else { return Ok(()) };
+    if value != "portable" {
+        return Err(Failure::usage(format!("{INSTRUCTIONS}: found {value:?}, expected \"portable\".")));
+    }
+    let is_switched = pbrdf::model::Instructions::use_portable_only();
+    let why = "this processor multiplies and adds in one rounding, always; its last digits stay other than those of a browser";
+    if is_switched { Ok(()) } else { Err(Failure::usage(format!("{INSTRUCTIONS}: {why}."))) }
+}
+
 /// Runs what the arguments say; without a command opens the window, where this build has one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open_window: Option<OpenWindow>) -> ExitCode {
-    if std::env::var_os(INSTRUCTIONS).is_some_and(|value| value == "portable") {
-        pbrdf::model::Instructions::use_portable_only();
+    if let Err(failure) = choose_instructions() {
+        return failure.report();
     }
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,

@@ -42,10 +42,14 @@ pub enum Instructions {
 static ARE_PORTABLE: AtomicBool = AtomicBool::new(false);
 
 impl Instructions {
-    /// From here on the whole program uses no wider instructions than [`Self::Portable`]. On x86 none of these multiplies and adds in one
-    /// rounding: numbers are then the same to the bit on old processors, on new ones, and in browsers.
-    pub fn use_portable_only() {
-        ARE_PORTABLE.store(true, Ordering::Relaxed);
+    /// From here on the whole program uses no wider instructions than [`Self::Portable`], none of which multiplies and adds in one
+    /// rounding: numbers are then the same to the bit on old processors, on new ones, and in browsers. False, and nothing changes, where
+    /// every processor rounds once (NEON).
+    #[must_use]
+    pub fn use_portable_only() -> bool {
+        let rounds_once = matches!(Self::Portable.name(), "NEON");
+        ARE_PORTABLE.store(!rounds_once, Ordering::Relaxed);
+        !rounds_once
     }
 
     /// What is used on this machine, for people: `AVX-512`, `AVX2`, `SSE2`, `NEON`, `portable`.
