@@ -1,14 +1,15 @@
 //! The tiles that the panes in the middle lie in.
 
 use crate::app::shell::stage::{LEAST_FOR_TWO, MOST_PRESENTED, Stage, presented_ui, show_menu_ui, single_ui};
+use crate::app::shell::theme::ground;
 use crate::app::shell::tiles::{layout_of, tree_of};
 use crate::app::text::i18n::translated;
 use crate::app::views::action::Action;
 use crate::app::views::{Cx, Views, note_stop, spec};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
-use egui::{Ui, WidgetText};
-use egui_tiles::{Behavior, Container, EditAction, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use egui::{Color32, Rgba, Ui, Visuals, WidgetText};
+use egui_tiles::{Behavior, Container, EditAction, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse};
 use tr::tr;
 
 /// The panes and where they lie.
@@ -379,6 +380,19 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
 
     fn on_edit(&mut self, _action: EditAction) {
         *self.is_edited = true;
+    }
+
+    fn tab_bar_color(&self, visuals: &Visuals) -> Color32 {
+        let ground = ground(visuals.dark_mode);
+        if visuals.dark_mode { visuals.extreme_bg_color } else { (Rgba::from(ground) * Rgba::from_gray(0.8)).into() }
+    }
+
+    fn tab_bg_color(&self, visuals: &Visuals, _tiles: &Tiles<PaneId>, _tile: TileId, state: &TabState) -> Color32 {
+        if state.active { ground(visuals.dark_mode) } else { Color32::TRANSPARENT }
+    }
+
+    fn dragged_overlay_color(&self, visuals: &Visuals) -> Color32 {
+        ground(visuals.dark_mode).gamma_multiply(0.5)
     }
 
     fn simplification_options(&self) -> SimplificationOptions {

@@ -122,9 +122,7 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
             };
             draw(of, &about, starts, wire)
         }
-        Order::Landscape { across, up, scale_at } => {
-            heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled)
-        }
+        Order::Landscape { across, up, scale_at } => heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled),
     };
     serde_json::to_string(&answer).ok()
 }

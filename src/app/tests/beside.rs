@@ -2,11 +2,11 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::posteriors::job_of_posterior;
-use crate::app::tasks::fit_work::{
-    BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, RefitSliders, Search,
-    Watch, WithIntervals, Work,
-};
 use crate::app::tasks::answer::{Wire, answer};
+use crate::app::tasks::fit_work::{
+    BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, RefitSliders, Search, Watch,
+    WithIntervals, Work,
+};
 use crate::app::tasks::landscape_message::{ask, told};
 use crate::app::tasks::messages::Message;
 use crate::app::tests::{explorer, harness};

@@ -3,6 +3,7 @@
 use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::save_on_exit;
 use crate::app::shell::app::{logic, ui};
+use crate::app::shell::theme::ground;
 use std::io::Write as _;
 
 impl eframe::App for App {
@@ -15,6 +16,10 @@ impl eframe::App for App {
             self.frame_times.push(seconds, self.views.lag(&self.dock.on_screen()));
         }
         ui::ui(self, ui);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        ground(visuals.dark_mode).to_normalized_gamma_f32()
     }
 
     #[cfg(target_arch = "wasm32")]

@@ -1,8 +1,8 @@
 //! Fits that the window starts, and what it does with their results.
 
 use crate::app::shell::app::App;
-use crate::app::tasks::fit_work::{FinishedIntervals, Fitted, WithIntervals};
 use crate::app::tasks::fit_work::RefitSliders;
+use crate::app::tasks::fit_work::{FinishedIntervals, Fitted, WithIntervals};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::diagnostics::ProfileCurve;
 use crate::app::work::edit::Edit;
