@@ -304,7 +304,7 @@ async function main() {
     figures.longest_gaps_ms[name] = Math.round(await page.evaluate(longestGap, 1000 * seconds));
     await shot(page, `3-${name}`);
   }
-  const drawn = await widget(page, 'Label', /draws of 27 values/, 120);
+  const drawn = await widget(page, 'Label', /^16000 draws of 27 values/, 240);
   check(drawn.label + drawn.value !== '', `draws came: ${drawn.value || drawn.label}`);
   await command(page, 'Keep refitting');
   await widget(page, 'Slider', 'σ');
@@ -312,9 +312,13 @@ async function main() {
   const refits = page.evaluate(longestGap, 3000);
   await drag(page, await widget(page, 'Slider', 'σ'));
   figures.longest_gaps_ms.refit = Math.round(await refits);
-  await page.waitForTimeout(1000);
+  const end = Date.now() + 30000;
+  while ((await widget(page, 'Slider', 'n')).number === before && Date.now() < end) await page.waitForTimeout(200);
   check((await widget(page, 'Slider', 'n')).number !== before, 'the others follow a slider that is dragged');
   await command(page, 'Keep refitting');
+  // Figures are of panes on screen.
+  await page.mouse.click(...middle(await widget(page, 'Button', 'DoLP')));
+  await page.waitForTimeout(500);
 
   console.log('a file');
   await page.keyboard.press('Control+o');
