@@ -4,55 +4,21 @@ use crate::app::storage::saved_entry::SavedEntry;
 use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::storage::session::Session;
 use crate::app::tasks::fit_work::{
-    BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, Watch,
+    BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne,
     WithIntervals, Work as _,
 };
 use crate::app::tasks::landscape_message::heights;
-use crate::app::tasks::messages::{Answer, Order, ProfileBits, Request};
+use crate::app::tasks::messages::{Answer, ProfileBits, Request, WorkOrder};
 use crate::app::tasks::posterior_message::draw;
 use crate::app::tasks::posterior_work::PosteriorOf;
+use crate::app::tasks::wire::Wire;
 use crate::app::work::fit_history::{FitEntry, JointEntry};
 use crate::app::work::model_fit::ComparedModel;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::posterior::{Posterior, PosteriorSettings};
-use pbrdf::fit::{Bootstrap, BootstrapEstimate, Profile, TracePoint};
+use pbrdf::fit::{Bootstrap, BootstrapEstimate, Profile};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Preset};
-
-/// What a worker asks the page and tells it while it works.
-pub struct Wire<'a> {
-    pub is_cancelled: &'a (dyn Fn() -> bool + Sync),
-    /// Takes what [`Message::progress`] reads.
-    pub tell: &'a (dyn Fn(&str) + Sync),
-}
-
-impl Watch<TracePoint> for Wire<'_> {
-    fn is_cancelled(&self) -> bool {
-        (self.is_cancelled)()
-    }
-
-    fn report(&self, TracePoint { elapsed_ms, evaluations, objective }: TracePoint) {
-        (self.tell)(&format!("[{},{evaluations},{}]", elapsed_ms.to_bits(), objective.to_bits()));
-    }
-}
-
-impl Watch<&'static str> for Wire<'_> {
-    fn is_cancelled(&self) -> bool {
-        (self.is_cancelled)()
-    }
-
-    fn report(&self, progress: &'static str) {
-        (self.tell)(progress);
-    }
-}
-
-impl Watch<()> for Wire<'_> {
-    fn is_cancelled(&self) -> bool {
-        (self.is_cancelled)()
-    }
-
-    fn report(&self, (): ()) {}
-}
 
 /// The measurements of a session as they stand in a window.
 fn opened(measurements: &[SavedMeasurement]) -> Vec<OpenMeasurement> {
@@ -72,22 +38,22 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
         SavedEntry::Joint(_) => None,
     };
     let answer = match order {
-        Order::OneByOne { search, intervals } => {
+        WorkOrder::OneByOne { search, intervals } => {
             let about = session.fits.iter().map(single).collect::<Option<_>>()?;
             Answer::Fits(one_by_one(&FitOneByOne { about, search, intervals }.run(wire))?)
         }
-        Order::Together { search } => {
+        WorkOrder::Together { search } => {
             let SavedEntry::Joint(fit) = session.fits.first()? else { return None };
             let (problem, shared) = (fit.problem(measurements).ok()?, fit.shared);
             let fits = FitTogether { problem, about: about.clone(), shared, search }.run(wire);
             Answer::Fits(vec![parts_value(&fits)?])
         }
-        Order::Compare { search, models } => {
+        WorkOrder::Compare { search, models } => {
             let problems = models.iter().zip(&session.fits).map(|(key, fit)| Some((preset(key)?, Ok(single(fit)?.0))));
             let problems = problems.collect::<Option<Vec<_>>>()?;
             told_models(CompareModels { about: about.first()?.clone(), problems, search }.run(wire))
         }
-        Order::CompareTogether { search, models } => {
+        WorkOrder::CompareTogether { search, models } => {
             let joint = |fit: &SavedEntry| match fit {
                 SavedEntry::Joint(fit) => Some((fit.shared, fit.problem(measurements).ok()?)),
                 SavedEntry::One(_) => None,
@@ -97,21 +63,21 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
             let problems = problems.collect::<Option<Vec<_>>>()?;
             told_models(CompareTogether { about: about.clone(), shared, problems, search }.run(wire))
         }
-        Order::Intervals => with_intervals(fitted(&session, &about, 0)?, wire)?,
-        Order::Profile { parameter, set } => {
+        WorkOrder::Intervals => with_intervals(fitted(&session, &about, 0)?, wire)?,
+        WorkOrder::Profile { parameter, set } => {
             let profile = ProfileOne { fit: fitted(&session, &about, set)?, parameter }.run(wire);
             let Profile { parameter, points, interval68, interval95, limits, is_complete } = profile;
             let points = points.into_iter().map(|point| [point.value, point.objective, point.rss].map(f64::to_bits)).collect();
             let (intervals, limits) = ([interval68, interval95], limits.map(f64::to_bits));
             Answer::Profile(ProfileBits { parameter, points, intervals, limits, is_complete })
         }
-        Order::Bootstrap { replicates, seed, set } => {
+        WorkOrder::Bootstrap { replicates, seed, set } => {
             let Bootstrap { asked, replicates, estimates } =
                 BootstrapOne { fit: fitted(&session, &about, set)?, replicates, seed }.run(wire);
             let bits = |of: BootstrapEstimate| (of.parameter, [of.std_error, of.low, of.high].map(f64::to_bits));
             Answer::Bootstrap { asked, replicates, estimates: estimates.into_iter().map(bits).collect() }
         }
-        Order::Draw { starts, priors, draws, chains, seed } => {
+        WorkOrder::Draw { starts, priors, draws, chains, seed } => {
             let priors: Vec<_> = priors.into_iter().map(|(parameter, prior)| (parameter.into(), prior)).collect();
             let settings = PosteriorSettings { draws, chains, seed };
             let of = match session.fits.first()? {
@@ -122,7 +88,9 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
             };
             draw(of, &about, starts, wire)
         }
-        Order::Landscape { across, up, scale_at } => heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled),
+        WorkOrder::Landscape { across, up, scale_at } => {
+            heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled)
+        }
     };
     serde_json::to_string(&answer).ok()
 }

@@ -3,7 +3,7 @@
 use crate::app::storage::saved_entry::SavedEntry;
 use crate::app::storage::saved_fit::SavedFit;
 use crate::app::storage::session::Session;
-use crate::app::tasks::messages::{Answer, AxisBits, Order, request, saved};
+use crate::app::tasks::messages::{Answer, AxisBits, WorkOrder, request, saved};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::files::packed::{numbers_of, text_of};
 use pbrdf::fit::{Landscape, LandscapeAxis, Problem};
@@ -14,7 +14,7 @@ use pbrdf::model::Parameters;
 pub fn ask(problem: &Problem, scale_at: Option<Parameters>, axes: [LandscapeAxis; 2], about: &OpenMeasurement) -> Option<String> {
     let fit = SavedEntry::One(Box::new(SavedFit::to_be_made(problem, 0, about.mask())));
     let [across, up] = axes.map(AxisBits::of);
-    request(Order::Landscape { across, up, scale_at }, &Session::of_fits(vec![saved(about)], vec![fit]))
+    request(WorkOrder::Landscape { across, up, scale_at }, &Session::of_fits(vec![saved(about)], vec![fit]))
 }
 
 /// The landscape out of the answer; none where it was stopped, and none of what is no answer.

@@ -36,13 +36,13 @@ pub trait Message: Work {
 
 #[derive(Serialize, Deserialize)]
 pub struct Request {
-    pub order: Order,
+    pub order: WorkOrder,
     pub session: Box<RawValue>,
 }
 
 /// What is to be done with the fits of the session.
 #[derive(Serialize, Deserialize)]
-pub enum Order {
+pub enum WorkOrder {
     OneByOne {
         search: Search,
         intervals: bool,
@@ -123,7 +123,7 @@ pub struct ProfileBits {
     pub is_complete: bool,
 }
 
-pub fn request(order: Order, session: &Session) -> Option<String> {
+pub fn request(order: WorkOrder, session: &Session) -> Option<String> {
     let session = RawValue::from_string(session.to_json().ok()?).ok()?;
     serde_json::to_string(&Request { order, session }).ok()
 }
@@ -151,7 +151,7 @@ impl Message for FitOneByOne {
             SavedEntry::One(Box::new(SavedFit::to_be_made(problem, place, about.mask())))
         };
         let fits = self.about.iter().enumerate().map(fit).collect();
-        let order = Order::OneByOne { search: self.search, intervals: self.intervals };
+        let order = WorkOrder::OneByOne { search: self.search, intervals: self.intervals };
         request(order, &Session::of_fits(measurements, fits))
     }
 
@@ -175,7 +175,7 @@ impl Message for FitTogether {
         let measurements = self.about.iter().map(saved).collect();
         let sets = self.about.iter().enumerate().map(|(place, about)| (place, about.surface.parameters, &**about.mask()));
         let fit = SavedJointFit::to_be_made(&self.problem, self.shared, sets);
-        request(Order::Together { search: self.search }, &Session::of_fits(measurements, vec![SavedEntry::Joint(Box::new(fit))]))
+        request(WorkOrder::Together { search: self.search }, &Session::of_fits(measurements, vec![SavedEntry::Joint(Box::new(fit))]))
     }
 
     fn receive(self, answer: &str) -> Option<Vec<FitEntry>> {
@@ -223,7 +223,7 @@ fn of_fitted(Fitted { fit, parts }: &Fitted) -> Option<(Session, usize)> {
 
 impl Message for FindIntervals {
     fn request(&self) -> Option<String> {
-        request(Order::Intervals, &of_fitted(&self.0)?.0)
+        request(WorkOrder::Intervals, &of_fitted(&self.0)?.0)
     }
 
     fn receive(self, answer: &str) -> Option<FinishedIntervals> {
@@ -272,7 +272,7 @@ impl Message for CompareModels {
     fn request(&self) -> Option<String> {
         let fit = |(_, problem): (&Preset, &Problem)| SavedEntry::One(Box::new(SavedFit::to_be_made(problem, 0, self.about.mask())));
         let session = Session::of_fits(vec![saved(&self.about)], possible(&self.problems).map(fit).collect());
-        request(Order::Compare { search: self.search, models: keys(&self.problems) }, &session)
+        request(WorkOrder::Compare { search: self.search, models: keys(&self.problems) }, &session)
     }
 
     fn receive(self, answer: &str) -> Option<ComparedModels> {
@@ -298,7 +298,7 @@ impl Message for CompareTogether {
             SavedEntry::Joint(Box::new(SavedJointFit::to_be_made(problem, self.shared, sets)))
         };
         let session = Session::of_fits(self.about.iter().map(saved).collect(), possible(&self.problems).map(fit).collect());
-        request(Order::CompareTogether { search: self.search, models: keys(&self.problems) }, &session)
+        request(WorkOrder::CompareTogether { search: self.search, models: keys(&self.problems) }, &session)
     }
 
     fn receive(self, answer: &str) -> Option<ComparedModels> {
@@ -322,7 +322,7 @@ impl Message for CompareTogether {
 impl Message for ProfileOne {
     fn request(&self) -> Option<String> {
         let (session, set) = of_fitted(&self.fit)?;
-        request(Order::Profile { parameter: self.parameter, set }, &session)
+        request(WorkOrder::Profile { parameter: self.parameter, set }, &session)
     }
 
     fn receive(self, answer: &str) -> Option<Profile> {
@@ -345,7 +345,7 @@ impl Message for ProfileOne {
 impl Message for BootstrapOne {
     fn request(&self) -> Option<String> {
         let (session, set) = of_fitted(&self.fit)?;
-        request(Order::Bootstrap { replicates: self.replicates, seed: self.seed, set }, &session)
+        request(WorkOrder::Bootstrap { replicates: self.replicates, seed: self.seed, set }, &session)
     }
 
     fn receive(self, answer: &str) -> Option<Bootstrap> {

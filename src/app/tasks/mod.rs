@@ -23,3 +23,5 @@ mod posterior_message;
 pub mod posterior_work;
 pub mod posteriors;
 mod start_error;
+#[cfg(any(test, target_arch = "wasm32"))]
+pub mod wire;

@@ -6,10 +6,10 @@ use crate::app::storage::saved_entry::SavedEntry;
 use crate::app::storage::saved_fit::SavedFit;
 use crate::app::storage::saved_joint_fit::SavedJointFit;
 use crate::app::storage::session::Session;
-use crate::app::tasks::answer::Wire;
 use crate::app::tasks::fit_work::{Watch, Work as _};
-use crate::app::tasks::messages::{Answer, Message, Order, request, saved};
+use crate::app::tasks::messages::{Answer, Message, WorkOrder, request, saved};
 use crate::app::tasks::posterior_work::{DrawPosterior, Drawing, PosteriorOf};
+use crate::app::tasks::wire::Wire;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::posterior::{DrawnFrom, DrawnPosterior, Draws};
 use crate::files::packed::{numbers_of, text_of};
@@ -156,7 +156,7 @@ impl Message for DrawPosterior {
         };
         let PosteriorSettings { draws, chains, seed } = self.from.settings;
         let priors = self.from.prior_options.iter().map(|(unknown, prior)| (unknown.parameter, *prior)).collect();
-        request(Order::Draw { starts: self.starts, priors, draws, chains, seed }, &Session::of_fits(measurements, vec![fit]))
+        request(WorkOrder::Draw { starts: self.starts, priors, draws, chains, seed }, &Session::of_fits(measurements, vec![fit]))
     }
 
     fn receive(self, answer: &str) -> Option<Self::Output> {

@@ -2,13 +2,14 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::app::posteriors::job_of_posterior;
-use crate::app::tasks::answer::{Wire, answer};
+use crate::app::tasks::answer::answer;
 use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, RefitSliders, Search, Watch,
     WithIntervals, Work,
 };
 use crate::app::tasks::landscape_message::{ask, told};
 use crate::app::tasks::messages::Message;
+use crate::app::tasks::wire::Wire;
 use crate::app::tests::{explorer, harness};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{fit_problem, joint_problem, joint_problem_of};
