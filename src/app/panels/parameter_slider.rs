@@ -2,23 +2,27 @@
 
 use crate::app::panels::stepping::{SliderStep, step_with_arrows};
 use crate::app::panels::tooltip_right::TooltipRight as _;
+use crate::app::text::estimate::estimate_text;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
 use crate::app::text::numbers::significant;
 use crate::app::work::settings::Settings;
 use crate::app::work::surface::Surface;
 use egui::{DragValue, Response, Slider, SliderClamping, Ui};
+use pbrdf::fit::FitResult;
 use pbrdf::model::Parameter;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
 
-/// Name, slider, typed value with unit, of those widths.
+/// Name, slider, typed value with unit, of those widths; with what the shown fit says of it where the
+/// pointer rests, and for screen readers.
 pub fn slider_ui(
     surface: &mut Surface,
     refusals: &mut Vec<String>,
     range: RangeInclusive<f64>,
     [slider_width, value_width]: [f32; 2],
+    fit: Option<&FitResult>,
     ui: &mut Ui,
     parameter: Parameter,
 ) {
@@ -32,6 +36,9 @@ pub fn slider_ui(
         range.start(),
         range.end()
     );
+    let estimate = fit.and_then(|fit| fit.estimates.iter().find(|estimate| estimate.parameter == parameter && estimate.free));
+    let estimate = estimate.map(estimate_text);
+    let help = estimate.iter().fold(help, |help, estimate| format!("{help}\n{estimate}"));
     let label = name_ui(ui, parameter.symbol(), &help);
 
     let tie = surface.tie_of(parameter);
@@ -48,6 +55,8 @@ pub fn slider_ui(
     if is_double_clicked(ui, &[&label, &slider]) {
         *value = parameter.default_value();
     }
+    let spoken = format!("{} {}", significant(*value), parameter.unit());
+    describe(&slider, Some(spoken.trim_end()), estimate.as_deref());
 
     // What the formulas do not allow is not taken; what only the slider cannot show is.
     let domain = parameter.domain();
@@ -76,15 +85,16 @@ pub fn slider_ui(
     let unit = parameter.unit();
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let typed = typed.speed(speed).custom_formatter(|value, _| significant(value)).custom_parser(parse).update_while_editing(false);
-    ui.scope(|ui| {
-        if is_tied {
-            ui.disable();
-        }
-        keep_focus(ui.add_sized([value_width, 20.0], typed.suffix(suffix)))
-    })
-    .inner
-    .labelled_by(label.id)
-    .on_hover_right(
+    let typed = ui
+        .scope(|ui| {
+            if is_tied {
+                ui.disable();
+            }
+            keep_focus(ui.add_sized([value_width, 20.0], typed.suffix(suffix)))
+        })
+        .inner;
+    describe(&typed, None, estimate.as_deref());
+    typed.labelled_by(label.id).on_hover_right(
         ui,
         if outside {
             tr!("outside the slider's range {0} to {1}", range.start(), range.end())
@@ -96,6 +106,14 @@ pub fn slider_ui(
     if let Some(sentence) = refused.into_inner() {
         refusals.push(sentence);
     }
+}
+
+/// Tells screen readers the value with its unit, where the control does not, and what the fit says of it.
+fn describe(control: &Response, value: Option<&str>, estimate: Option<&str>) {
+    control.ctx.accesskit_node_builder(control.id, |node| {
+        value.into_iter().for_each(|value| node.set_value(value));
+        estimate.into_iter().for_each(|estimate| node.set_description(estimate));
+    });
 }
 
 /// An angle of the direction that lobes are seen at.
@@ -144,6 +162,7 @@ pub fn angle_ui(of: DirectionAngle, angle: &mut f64, slider_width: f32, ui: &mut
     ui.spacing_mut().slider_width = slider_width;
     let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
     let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help);
+    describe(&slider, Some(&format!("{}°", significant(*angle))), None);
     step_with_arrows(ui, &slider, before, angle, &range, SliderStep::Fixed(0.5));
     if is_double_clicked(ui, &[&label, &slider]) {
         *angle = of.default(&Settings::default());

@@ -13,6 +13,7 @@ use crate::app::views::{Cx, note_stop};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::surface::{Surface, another};
 use egui::{Align, DragValue, Grid, Layout, Role, Ui, WidgetInfo};
+use pbrdf::fit::FitResult;
 use pbrdf::model::{Diffuse, Model, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
 use std::cell::RefCell;
@@ -36,13 +37,14 @@ pub fn parameters_ui(cx: &mut Cx<'_>, refusals: &mut Vec<String>, ranges: &Slide
             model_ui(cx, &mut surface, &mut shared, ui);
             ui.separator();
         }
-        let mut sliders = Sliders { surface: &mut surface, shared: &mut shared, show_bounds, refusals, ranges, is_wide };
+        let fit = cx.work.shown_fit().map(|fit| &fit.report);
+        let mut sliders = Sliders { surface: &mut surface, shared: &mut shared, show_bounds, refusals, ranges, fit, is_wide };
         if is_wide {
             ui.columns(2, |columns| {
                 specular_ui(&mut sliders, &mut columns[0]);
-                geometry_ui(cx, &mut columns[0]);
                 diffuse_ui(&mut sliders, &mut columns[1]);
                 volume_ui(&mut sliders, &mut columns[1]);
+                geometry_ui(cx, &mut columns[0]);
             });
             ui.separator();
             model_ui(cx, &mut surface, &mut shared, ui);
@@ -85,6 +87,8 @@ struct Sliders<'a> {
     show_bounds: bool,
     refusals: &'a mut Vec<String>,
     ranges: &'a SliderRanges,
+    /// Of the active measurement.
+    fit: Option<&'a FitResult>,
     /// Whether the switch of a lobe and its kinds have room in one line.
     is_wide: bool,
 }
@@ -284,11 +288,11 @@ fn geometry_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
 }
 
 fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Parameter]) {
-    let Sliders { surface, shared, show_bounds, refusals, ranges, is_wide: _ } = sliders;
+    let Sliders { surface, shared, show_bounds, refusals, ranges, fit, is_wide: _ } = sliders;
     let room = Room::of(ui.available_width(), shared.is_some());
     Grid::new(id).num_columns(if shared.is_some() { 6 } else { 5 }).min_row_height(20.0).min_col_width(room.least).show(ui, |ui| {
         for &parameter in parameters {
-            slider_ui(surface, refusals, ranges[parameter].clone(), [room.slider, room.value], ui, parameter);
+            slider_ui(surface, refusals, ranges[parameter].clone(), [room.slider, room.value], *fit, ui, parameter);
             let is_outside = !ranges[parameter].contains(&surface.parameters[parameter]);
             lock_and_reset_ui(surface, is_outside, room, ui, parameter);
             shared.iter_mut().for_each(|shared| shared_ui(shared, parameter, ui));

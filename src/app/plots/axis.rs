@@ -83,22 +83,29 @@ fn round_values(input: &GridInput, wanted: f64) -> Vec<GridMark> {
     // Marks are closest at the upper end.
     let least = high * (1.0 - libm::exp10(-wanted));
     let of_values = GridInput { bounds: (low, high), base_step_size: least };
-    let at = |mark: GridMark| GridMark { value: libm::log10(mark.value), step_size: std::f64::consts::LOG10_2 };
+    let at = |mark: GridMark| GridMark { value: libm::log10(mark.value), step_size: libm::log10(1.0 + mark.step_size / mark.value) };
     marks(&of_values, 1.0, 0.0).into_iter().filter(|mark| mark.value > 0.0).map(at).collect()
 }
 
 /// A value at a mark of its decimal logarithm: a power of ten, or a number where marks are closer
-/// than decades.
+/// than decades, with the digits that tell it from the next mark.
 pub fn logarithmic(exponent: f64, step_size: f64) -> String {
     if step_size >= 1.0 {
         return power_of_ten(exponent, step_size);
     }
     let value = libm::exp10(exponent);
-    let short = |digits: &str| digits.trim_end_matches('0').trim_end_matches('.').to_owned();
+    // The next mark is that much larger.
+    let gap = value * (libm::exp10(step_size) - 1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of digits from 0 to 12")]
+    let digits = |size: f64| (-libm::log10(gap / size * (1.0 + 1e-9)).floor()).clamp(0.0, 12.0) as usize;
+    let short = |digits: &str| {
+        let has_point = digits.contains('.');
+        if has_point { digits.trim_end_matches('0').trim_end_matches('.').to_owned() } else { digits.to_owned() }
+    };
     if (1e-3..1e4).contains(&value) {
-        return short(&format!("{value:.5}"));
+        return short(&format!("{value:.*}", digits(1.0)));
     }
-    let scientific = format!("{value:.2e}");
+    let scientific = format!("{value:.*e}", digits(libm::exp10(exponent.floor())));
     scientific.split_once('e').map_or_else(|| scientific.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
 }
 
@@ -124,5 +131,17 @@ mod tests {
         assert_eq!(labels(-16.0, 1.0, 1.0), ["1e-15", "1e-10", "1e-5", "1e0"]);
         // Closer than those marks: round values, not values of round logarithms.
         assert_eq!(labels(-3.46, -3.29, 0.005), ["3.5e-4", "4e-4", "4.5e-4", "5e-4"]);
+    }
+
+    #[test]
+    fn no_two_marks_of_a_logarithmic_axis_have_the_same_label() {
+        // The last steps of a fit differ in the sixth digit.
+        for (low, high) in [(1.261_62e-3, 1.261_68e-3), (0.999_98, 1.000_03), (4.000_1e5, 4.000_9e5), (1.26e-9, 1.27e-9)] {
+            let (low, high) = (libm::log10(low), libm::log10(high));
+            let all = labels(low, high, (high - low) / 200.0);
+            let different: std::collections::BTreeSet<&String> = all.iter().collect();
+            assert!(all.len() > 2 && different.len() == all.len(), "{all:?}");
+        }
+        assert_eq!(labels(libm::log10(1.261_62e-3), libm::log10(1.261_68e-3), 2e-7)[0], "0.00126162");
     }
 }

@@ -177,12 +177,14 @@ impl PanelPlot {
         let width = ui.available_width() - if map.is_some() { BAR_ROOM } else { 0.0 };
         let dark = ui.visuals().dark_mode;
         let x_title = if title.is_empty() { x.title.clone() } else { tr!("{0}  at {1}", x.title, title) };
-        let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(40.0);
+        let x_axis = axis(AxisHints::new_x(), ui, &x_title, |at, step| x.label(at, step)).min_thickness(BELOW);
         let is_strip = style.place == PanelPlace::Strip;
+        let below = if style.place == PanelPlace::OverStrip { 0.0 } else { BELOW };
+        let in_corner = is_strip || !fits_upright(&y.title, style.height - below, ui);
         let y_axis =
-            axis(AxisHints::new_y(), ui, if is_strip { "" } else { &y.title }, |at, step| y.label(at, step)).min_thickness(style.left);
+            axis(AxisHints::new_y(), ui, if in_corner { "" } else { &y.title }, |at, step| y.label(at, step)).min_thickness(style.left);
         let ranges =
-            if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, style.height - 40.0) } else { [x.range, y.range] };
+            if *equal_aspect { of_equal_units([x.range, y.range], width - style.left, style.height - BELOW) } else { [x.range, y.range] };
         let figure = plot(style.id, ui, style.height, x_axis, y_axis)
             .width(width.max(80.0))
             .show_grid(map.is_none())
@@ -203,7 +205,7 @@ impl PanelPlot {
             items.iter().for_each(|item| item.draw(plot, dark, map.is_some()));
         });
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
-        if is_strip {
+        if in_corner {
             corner_title(&y.title, response.response.rect, Align2::LEFT_TOP, ui);
         }
         axes.track_interaction(&response, &name, ui);
@@ -214,8 +216,9 @@ impl PanelPlot {
 
 impl PanelPlot {
     /// Paints it as one of many, of that size: what is along its vertical axis stands in its
-    /// corner, numbers stand at the axes that lie at the rim and take so much room. It cannot be
-    /// moved; the answer is the place of the pointer along the horizontal axis.
+    /// corner, numbers stand at the axes that lie at the rim and take so much room. There is no room
+    /// for words at points. It cannot be moved; the answer is the place of the pointer along the
+    /// horizontal axis.
     pub fn cell_ui(&self, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<f64> {
         let Content { x, y, items, .. } = self.content.as_ref()?;
         let dark = ui.visuals().dark_mode;
@@ -227,7 +230,7 @@ impl PanelPlot {
         let response = figure.show(ui, |plot| {
             plot.set_plot_bounds_x(x.range.low..=x.range.high);
             plot.set_plot_bounds_y(y.range.low..=y.range.high);
-            items.iter().for_each(|item| item.draw(plot, dark, false));
+            items.iter().filter(|item| !item.is_words()).for_each(|item| item.draw(plot, dark, false));
         });
         response.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr!("Plot: {0} against {1}", y.title, x.title)));
         // Away from where the curve begins.
@@ -238,6 +241,15 @@ impl PanelPlot {
         let at = response.response.hover_pos()?;
         Some(x.value(response.transform.value_from_position(at).x))
     }
+}
+
+/// Room of the horizontal axis: numbers and title.
+const BELOW: f32 = 40.0;
+
+/// Whether the title of a vertical axis of that length is no longer than the axis itself.
+fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x <= length
 }
 
 /// What is along the vertical axis, in a corner of the plot.

@@ -5,7 +5,7 @@ use crate::app::plots::plot_axis::{PlotAxis, coordinate};
 use crate::app::plots::polyline::{curve, split_at_gaps};
 use crate::app::plots::theme;
 use crate::figure::{Dash, Mark, Point, Rgb, Scale, Series, Symbol};
-use egui::{Align2, Color32, RichText};
+use egui::{Align2, Color32, Pos2, Rect, RichText, vec2};
 use egui_plot::{FilledArea, HLine, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine};
 
 /// A series with its name and colour.
@@ -114,6 +114,11 @@ impl PlotItem {
         if let PlotShape::Points { symbol, .. } = self.shape { Some(symbol) } else { None }
     }
 
+    /// Whether it is words alone.
+    pub fn is_words(&self) -> bool {
+        matches!(self.shape, PlotShape::Labels(_))
+    }
+
     /// Puts it into the plot; words on a map have a plate behind them, points a rim.
     pub fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, dark: bool, on_map: bool) {
         let (name, color) = (self.name.as_str(), self.color(dark));
@@ -146,7 +151,13 @@ impl PlotItem {
                 plot.vline(VLine::new(name, *at).color(color).style(LineStyle::dashed_dense()).allow_hover(!name.is_empty()));
             }
             PlotShape::Labels(labels) => {
+                let mut taken: Vec<Rect> = Vec::new();
                 for (at, text) in labels {
+                    let place = plate(plot.screen_from_plot(*at), text);
+                    if taken.iter().any(|other| other.intersects(place)) {
+                        continue;
+                    }
+                    taken.push(place);
                     let text = RichText::new(format!(" {text} ")).size(LETTERS).color(theme::foreground(dark));
                     let text = if on_map { text.background_color(theme::plate(dark)) } else { text };
                     plot.text(Text::new("", *at, text).anchor(Align2::LEFT_CENTER).allow_hover(false));
@@ -154,6 +165,13 @@ impl PlotItem {
             }
         }
     }
+}
+
+/// About where words stand that begin there: of words that would cover each other the first is drawn.
+fn plate(at: Pos2, text: &str) -> Rect {
+    let letter = |letter: char| if letter.is_ascii() { 0.55 * LETTERS } else { LETTERS };
+    let width = text.chars().map(letter).sum::<f32>() + letter(' ');
+    Rect::from_min_size(at - vec2(0.0, 0.6 * LETTERS), vec2(width, 1.2 * LETTERS))
 }
 
 /// Coordinates of a series that decide about an axis without ends, by the logarithms that its axes

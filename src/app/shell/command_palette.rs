@@ -6,7 +6,7 @@ use crate::app::shell::commands::{Availability, Command};
 use crate::app::shell::dialogs::Dialogs;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use egui::{Key, Modifiers, Role, Ui};
 use tr::tr;
 
@@ -104,9 +104,9 @@ impl Found {
 /// Every command, as the menus have them.
 fn found(app: &App) -> Vec<Found> {
     let mut items = commands::items(app);
-    items.sort_by_key(|item| (item.menu, item.action == Action::Quit));
+    items.sort_by_key(|item| (item.menu, item.action == Action::Window(WindowAction::Quit)));
     let found = |item: Command| {
-        let alias = if let Action::SetLanguage(language) = item.action { language.english_name() } else { "" };
+        let alias = if let Action::Window(WindowAction::SetLanguage(language)) = item.action { language.english_name() } else { "" };
         Found { name: Name { menu: item.menu.name(), text: item.text.to_string(), alias }, item, english: None }
     };
     items.into_iter().map(found).collect()

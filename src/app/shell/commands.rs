@@ -11,7 +11,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::i18n::translated;
 use crate::app::views;
-use crate::app::views::action::{Action, InquiryAction, ListAction};
+use crate::app::views::action::{Action, InquiryAction, ListAction, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::EXAMPLES;
@@ -205,7 +205,7 @@ static ENTRIES: &[Entry] = &[
     row(Action::ChooseExport(ExportKind::Picture), Menu::Export, "Picture as numbers…",
         "What the pane Picture shows: Stokes vectors as EXR or CSV, colours as PNG", None, always),
     row(Action::CancelLoading, Menu::File, "Cancel reading", "Stop reading the file", None, |app| only_if(app.jobs.files.reading_fraction().is_some())),
-    row(Action::Quit, Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
+    row(Action::Window(WindowAction::Quit), Menu::File, "Quit", "Sliders, views and layout are kept", ctrl(Key::Q), always),
     row(Action::Undo, Menu::Edit, "Undo", "Sliders, model, switches, views and masks as they were", ctrl(Key::Z),
         |app| only_if(app.work.can_undo())),
     row(Action::Redo, Menu::Edit, "Redo", "Forth again; also with Ctrl+Y", ctrl_shift(Key::Z), |app| only_if(app.work.can_redo())),
@@ -270,37 +270,37 @@ static ENTRIES: &[Entry] = &[
         |app| only_if(app.jobs.fits.is_scanning())),
     row(Action::Toggle(Switch::RefitLive), Menu::Fit, "Keep refitting while dragging",
         "Fixed parameters follow their sliders, the others are fitted again at once", None, |app| switch(app.work.settings().refit_live)),
-    row(Action::Present, Menu::View, "Presentation", "Full screen and large: the panes on screen, at most four, with a few sliders; Escape leads back",
+    row(Action::Window(WindowAction::Present), Menu::View, "Presentation", "Full screen and large: the panes on screen, at most four, with a few sliders; Escape leads back",
         plain(Key::F11), |app| switch(app.dock.is_presented())),
-    row(Action::ToggleSpotlight, Menu::View, "Spotlight of the pointer", "In a presentation all but the surroundings of the pointer is dimmed", None,
+    row(Action::Window(WindowAction::ToggleSpotlight), Menu::View, "Spotlight of the pointer", "In a presentation all but the surroundings of the pointer is dimmed", None,
         |app| switch(app.window.talk.spotlight)),
-    row(Action::TogglePanel(SidePanel::Parameters), Menu::View, "Panel of parameters", "Sliders and measurements beside the plots", ctrl(Key::B),
+    row(Action::Window(WindowAction::TogglePanel(SidePanel::Parameters)), Menu::View, "Panel of parameters", "Sliders and measurements beside the plots", ctrl(Key::B),
         |app| switch(app.window.panels.parameters)),
-    row(Action::TogglePanel(SidePanel::Fit), Menu::View, "Panel of fits", "Fits and what they say beside the plots", ctrl(Key::J),
+    row(Action::Window(WindowAction::TogglePanel(SidePanel::Fit)), Menu::View, "Panel of fits", "Fits and what they say beside the plots", ctrl(Key::J),
         |app| switch(app.window.panels.fit)),
-    row(Action::Zoom(1), Menu::View, "Zoom in", "Letters and lines larger", ctrl(Key::Plus), always),
-    row(Action::Zoom(-1), Menu::View, "Zoom out", "Letters and lines smaller", ctrl(Key::Minus), always),
-    row(Action::Zoom(0), Menu::View, "Zoom 100 %", "Letters and lines of their own size", ctrl(Key::Num0), always),
-    row(Action::ResetLayout, Menu::View, "Reset layout", "All panes and panels where they were at first", None, always),
+    row(Action::Window(WindowAction::Zoom(1)), Menu::View, "Zoom in", "Letters and lines larger", ctrl(Key::Plus), always),
+    row(Action::Window(WindowAction::Zoom(-1)), Menu::View, "Zoom out", "Letters and lines smaller", ctrl(Key::Minus), always),
+    row(Action::Window(WindowAction::Zoom(0)), Menu::View, "Zoom 100 %", "Letters and lines of their own size", ctrl(Key::Num0), always),
+    row(Action::Window(WindowAction::ResetLayout), Menu::View, "Reset layout", "All panes and panels where they were at first", None, always),
     row(Action::Toggle(Switch::LogBrdf), Menu::View, "Logarithmic lobes", "BRDF against a logarithmic axis", ctrl(Key::L),
         |app| switch(app.work.settings().log_brdf)),
     row(Action::Toggle(Switch::Limit), Menu::View, "Show Fresnel limit", "DoLP without any depolarising term", None,
         |app| switch(app.work.settings().show_limit)),
     row(Action::Toggle(Switch::Backscatter), Menu::View, "Show backscatter side", "Negative θr, also where nothing was measured",
         ctrl_shift(Key::B), |app| switch(app.work.settings().show_backscatter)),
-    row(Action::ToggleFrameTimes, Menu::View, "Frame times", "How long drawing takes, in the status line", None,
+    row(Action::Window(WindowAction::ToggleFrameTimes), Menu::View, "Frame times", "How long drawing takes, in the status line", None,
         |app| switch(app.window.show_frame_times)),
     row(Action::CloseLesson, Menu::Lesson, "Close lesson", "Your own sliders, data, fits and panes come back", None,
         |app| only_if(app.lessons.session.is_some())),
     row(Action::KeepLesson, Menu::Lesson, "Keep what the lesson shows", "Close the lesson and go on from here; your work of before is given up",
         None, |app| only_if(app.lessons.session.is_some())),
-    row(Action::OpenPalette, Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
-    row(Action::ShowTour(0), Menu::Help, "Tour…", "Sliders, plots, fits and lessons in four steps", None, always),
-    row(Action::ShowHelp(Help::FirstSteps), Menu::Help, "First steps…", "From a file to a fit, step by step", plain(Key::F1), always),
-    row(Action::ShowHelp(Help::Words), Menu::Help, "Words…", "What the words and signs of this window mean", None, always),
-    row(Action::ShowHelp(Help::About), Menu::Help, "About pbrdf-explorer…", "Version, licence, the paper of the model, and where settings are kept",
+    row(Action::Window(WindowAction::OpenPalette), Menu::Help, "All commands…", "Find a command by a few letters of its name", ctrl_shift(Key::P), always),
+    row(Action::Window(WindowAction::ShowTour(0)), Menu::Help, "Tour…", "Sliders, plots, fits and lessons in four steps", None, always),
+    row(Action::Window(WindowAction::ShowHelp(Help::FirstSteps)), Menu::Help, "First steps…", "From a file to a fit, step by step", plain(Key::F1), always),
+    row(Action::Window(WindowAction::ShowHelp(Help::Words)), Menu::Help, "Words…", "What the words and signs of this window mean", None, always),
+    row(Action::Window(WindowAction::ShowHelp(Help::About)), Menu::Help, "About pbrdf-explorer…", "Version, licence, the paper of the model, and where settings are kept",
         None, always),
-    row(Action::DismissToasts, Menu::None, "Dismiss notices", "Away with the sentences over the plots", plain(Key::Escape),
+    row(Action::Window(WindowAction::DismissToasts), Menu::None, "Dismiss notices", "Away with the sentences over the plots", plain(Key::Escape),
         |app| only_if(!app.toasts.is_empty())),
 ];
 
@@ -385,7 +385,7 @@ fn recent_files(app: &App) -> impl Iterator<Item = Command> {
         item(Action::OpenSession(work.path.clone()), Menu::Recent, work_title(work).into(), names.join("\n").into(), Availability::Possible)
     });
     let forget = item(
-        Action::ForgetRecent,
+        Action::Window(WindowAction::ForgetRecent),
         Menu::Recent,
         tr!("Forget recent files").into(),
         tr!("Empty this list; the files stay").into(),
@@ -422,7 +422,7 @@ pub fn items(app: &App) -> Vec<Command> {
     let panes = PaneId::ALL.iter().map(|&pane| Command {
         shortcut: spec(pane).shortcut.and_then(ctrl),
         ..item(
-            Action::ShowPane(pane),
+            Action::Window(WindowAction::ShowPane(pane)),
             if pane.judges_program() { Menu::Program } else { Menu::Pane },
             translated(spec(pane).title).into(),
             translated(spec(pane).tooltip).into(),
@@ -432,7 +432,7 @@ pub fn items(app: &App) -> Vec<Command> {
     let fill = on_screen.first().map(|&pane| Command {
         shortcut: ctrl(Key::M),
         ..item(
-            Action::FillWindow(pane),
+            Action::Window(WindowAction::FillWindow(pane)),
             Menu::View,
             tr!("Fill the window with one pane").into(),
             tr!("Also with a double click on its name; once more, and all is where it was").into(),
@@ -446,11 +446,23 @@ pub fn items(app: &App) -> Vec<Command> {
     });
     let themes = Theme::ALL.into_iter().map(|theme| {
         let tooltip = tr!("Colours of the window").into();
-        item(Action::SetTheme(theme), Menu::Theme, translated(theme.name()).into(), tooltip, switch(app.window.theme == theme))
+        item(
+            Action::Window(WindowAction::SetTheme(theme)),
+            Menu::Theme,
+            translated(theme.name()).into(),
+            tooltip,
+            switch(app.window.theme == theme),
+        )
     });
     let languages = Language::ALL.into_iter().map(|language| {
         let tooltip = tr!("Language of the window").into();
-        item(Action::SetLanguage(language), Menu::Language, language.name().into(), tooltip, switch(app.window.language == language))
+        item(
+            Action::Window(WindowAction::SetLanguage(language)),
+            Menu::Language,
+            language.name().into(),
+            tooltip,
+            switch(app.window.language == language),
+        )
     });
     fixed
         .chain(sheets(&on_screen))
@@ -474,8 +486,12 @@ pub fn items(app: &App) -> Vec<Command> {
 /// does not measure.
 fn is_of_page(action: &Action) -> bool {
     match action {
-        Action::Quit | Action::ChooseFolder | Action::RequestPaste | Action::RunBenchmark(_) | Action::CancelBenchmark => false,
-        Action::ShowPane(pane) => !matches!(pane, PaneId::ErrorVsTime | PaneId::Stability | PaneId::Cost),
+        Action::Window(WindowAction::Quit)
+        | Action::ChooseFolder
+        | Action::RequestPaste
+        | Action::RunBenchmark(_)
+        | Action::CancelBenchmark => false,
+        Action::Window(WindowAction::ShowPane(pane)) => !matches!(pane, PaneId::ErrorVsTime | PaneId::Stability | PaneId::Cost),
         _ => true,
     }
 }

@@ -4,7 +4,7 @@ use crate::app::shell::stage::{LEAST_FOR_TWO, MOST_PRESENTED, Stage, presented_u
 use crate::app::shell::theme::ground;
 use crate::app::shell::tiles::{layout_of, tree_of};
 use crate::app::text::i18n::translated;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::{Cx, Views, note_stop, spec};
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
@@ -351,7 +351,7 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
             note_stop(&response.ctx, response.id);
         }
         if response.double_clicked() {
-            self.cx.actions.push(Action::FillWindow(*pane));
+            self.cx.actions.push(Action::Window(WindowAction::FillWindow(*pane)));
         }
         response.on_hover_text(translated(spec(*pane).tooltip))
     }
@@ -363,7 +363,7 @@ impl Behavior<PaneId> for PaneBehavior<'_, '_> {
     fn on_tab_close(&mut self, tiles: &mut Tiles<PaneId>, tile: TileId) -> bool {
         // A group of tiles inside tabs is closed as a whole by the tiles themselves.
         let Some(pane) = tiles.get_pane(&tile) else { return true };
-        self.cx.actions.push(Action::ClosePane(*pane));
+        self.cx.actions.push(Action::Window(WindowAction::ClosePane(*pane)));
         false
     }
 

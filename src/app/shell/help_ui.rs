@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::text::glossary::{Entry, GLOSSARY};
 use crate::app::text::help::{DOI, FIRST_STEPS, Help, PAPER, TITLE};
 use crate::app::text::i18n::translated;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 use std::path::Path;
 use tr::tr;
@@ -34,7 +34,7 @@ pub fn help_ui(app: &mut App, ui: &mut Ui) {
         close.clicked()
     });
     if response.inner || response.should_close() {
-        app.actions.push(Action::CloseHelp);
+        app.actions.push(Action::Window(WindowAction::CloseHelp));
     }
 }
 

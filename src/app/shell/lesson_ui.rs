@@ -6,35 +6,70 @@ use crate::app::shell::readout_ui::readout_ui;
 use crate::app::shell::status_bar::toasts_ui;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
-use crate::app::work::lesson::Wording;
+use crate::app::work::lesson::{Step, Wording};
 use egui::{Label, RichText, ScrollArea, Ui};
 use tr::tr;
 
-/// Height of the panel before the user changes it.
+/// Height of the panel before the user changes it, as far as its text needs no more.
 const HEIGHT: f32 = 172.0;
+/// Below this height of the window, in points, the lesson has its whole width, so that plots have most of its height.
+const LOW: f32 = 600.0;
+/// Share of the height of the window that the text has at most; a longer one scrolls.
+const MOST: f32 = 0.4;
 
 /// The lesson that is open, over it the panes, and notices.
 pub fn lesson_and_panes_ui(app: &mut App, ui: &mut Ui) {
-    lesson_panel_ui(app, ui);
+    if !is_low(ui) || app.dock.is_presented() {
+        lesson_panel_ui(app, ui);
+    }
     let room = ui.available_rect_before_wrap();
     let (mut cx, views, dock) = app.split();
     panes_ui(dock, views, &mut cx, ui);
     toasts_ui(app, ui, room);
 }
 
-/// The panel, while a lesson is open.
-fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
-    if app.lessons.current().is_some() {
-        egui::Panel::bottom("lesson").resizable(true).default_size(HEIGHT).show(ui, |ui| lesson_ui(app, ui));
+/// The lesson that is open, over the whole width of a low window; call it before the panels at the sides.
+pub fn low_lesson_ui(app: &mut App, ui: &mut Ui) {
+    if is_low(ui) {
+        lesson_panel_ui(app, ui);
     }
 }
+
+fn is_low(ui: &Ui) -> bool {
+    ui.ctx().content_rect().height() < LOW
+}
+
+/// The panel, while a lesson is open: as high as the longest text of its steps needs, so that plots stay where they are.
+fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
+    let Some((lesson, _)) = app.lessons.current() else { return };
+    let width = ui.available_width() - 16.0;
+    let code = i18n::current().code();
+    let text = lesson.steps.iter().map(|step| parts_height(&parts(step), code, width, ui)).fold(0.0, f32::max);
+    let line = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
+    let lines = if width > ONE_LINE { 2.0 } else { 4.0 };
+    let window = ui.ctx().content_rect().height();
+    let needed = (lines * line + text).min(MOST * window).max(if is_low(ui) { 0.0 } else { HEIGHT });
+    let id = egui::Id::unique(("lesson", is_low(ui)));
+    let panel = egui::Panel::bottom(id).resizable(true).default_size(needed);
+    panel.size_range(needed..=0.7 * window).show(ui, |ui| lesson_ui(app, ui));
+}
+
+/// Width from which the buttons stand beside the title, and what they take.
+const ONE_LINE: f32 = 800.0;
+const BUTTONS: f32 = 440.0;
 
 fn lesson_ui(app: &mut App, ui: &mut Ui) {
     let App { lessons, actions, dock, derived, .. } = app;
     let (Some((lesson, step)), Some((number, index))) = (lessons.current(), lessons.open()) else { return };
     let code = i18n::current().code();
     let count = lesson.steps.len();
+    let is_wide = ui.available_width() > ONE_LINE;
     ui.horizontal(|ui| {
+        if is_wide {
+            ui.allocate_ui_with_layout(egui::vec2(BUTTONS, 0.0), egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                buttons_ui(number, index, count, actions, ui);
+            });
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.weak(format!("{}/{count}", index + 1));
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
@@ -43,52 +78,79 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
             });
         });
     });
-    buttons_ui(number, index, count, actions, ui);
+    if !is_wide {
+        ui.horizontal_wrapped(|ui| {
+            buttons_ui(number, index, count, actions, ui);
+            ui.weak(tr!("Your own work comes back when you close the lesson."));
+        });
+    }
     if !dock.is_presented() {
         readout_ui(derived, ui);
     }
     // A bar that is seen before the pointer comes near: text below the edge would be missed.
     ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink([false; 2]).show(ui, |ui| {
-        ui.columns(3, |columns| {
-            for (ui, (heading, text)) in
-                columns.iter_mut().zip([(tr!("Move"), &step.action), (tr!("Watch"), &step.watch), (tr!("Why"), &step.why)])
-            {
-                part_ui(&heading, text, code, ui);
+        let parts = parts(step);
+        let widths = widths(&parts, code, ui.available_width());
+        ui.spacing_mut().item_spacing.x = GAP;
+        ui.horizontal_top(|ui| {
+            for ((heading, text), width) in parts.iter().zip(widths) {
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    ui.label(RichText::new(heading).weak());
+                    ui.add(Label::new(text.in_language(code)).wrap());
+                });
             }
         });
     });
 }
 
-/// Forth, back, and out.
-fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
-    ui.horizontal_wrapped(|ui| {
-        if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
-            actions.push(Action::ShowStep(lesson, step - 1));
-        }
-        if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
-            actions.push(Action::ShowStep(lesson, step));
-        }
-        let (name, command) =
-            if step + 1 < count { (tr!("Next step"), Action::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Action::CloseLesson) };
-        if ui.button(name).clicked() {
-            actions.push(command);
-        }
-        if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
-            actions.push(Action::CloseLesson);
-        }
-        let help = tr!("Close the lesson and go on from here; your work of before is given up");
-        if ui.button(tr!("Keep this")).on_hover_text(help).clicked() {
-            actions.push(Action::KeepLesson);
-        }
-        ui.weak(tr!("Your own work comes back when you close the lesson."));
-    });
+/// What to move, what to watch, and why, with their headings.
+fn parts(step: &Step) -> [(String, &Wording); 3] {
+    [(tr!("Move"), &step.action), (tr!("Watch"), &step.watch), (tr!("Why"), &step.why)]
 }
 
-fn part_ui(heading: &str, text: &Wording, code: &str, ui: &mut Ui) {
-    // Columns are laid out justified, which would pull the letters of short lines apart.
-    ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
-        ui.label(RichText::new(heading).weak());
-        ui.add(Label::new(text.in_language(code)).wrap());
-    });
+/// Between the three, and the least share of the width that one has.
+const GAP: f32 = 14.0;
+const LEAST_SHARE: f32 = 0.16;
+
+/// Widths in which the three have about the same height: as their lengths are.
+fn widths(parts: &[(String, &Wording); 3], code: &str, room: f32) -> [f32; 3] {
+    #[expect(clippy::cast_precision_loss, reason = "a number of letters")]
+    let lengths = [0, 1, 2].map(|i| parts[i].1.in_language(code).chars().count() as f32);
+    let shares = lengths.map(|length| (length / lengths.iter().sum::<f32>().max(1.0)).max(LEAST_SHARE));
+    let sum: f32 = shares.iter().sum();
+    shares.map(|share| (room - 2.0 * GAP) * share / sum)
+}
+
+/// Height of the three with their headings.
+fn parts_height(parts: &[(String, &Wording); 3], code: &str, room: f32, ui: &Ui) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let text = |text: &str, width: f32| ui.painter().layout(text.to_owned(), font.clone(), egui::Color32::PLACEHOLDER, width).size().y;
+    // A bar of the scroll area takes its width from the text.
+    let widths = widths(parts, code, room - 12.0);
+    let heights = parts.iter().zip(widths).map(|((_, part), width)| text(part.in_language(code), width));
+    ui.text_style_height(&egui::TextStyle::Body) + 2.0 * ui.spacing().item_spacing.y + heights.fold(0.0, f32::max)
+}
+
+/// Forth, back, and out.
+fn buttons_ui(lesson: usize, step: usize, count: usize, actions: &mut Vec<Action>, ui: &mut Ui) {
+    if ui.add_enabled(step > 0, egui::Button::new(tr!("Previous step"))).clicked() {
+        actions.push(Action::ShowStep(lesson, step - 1));
+    }
+    if ui.button(tr!("Set up again")).on_hover_text(tr!("Sliders and views as this step wants them")).clicked() {
+        actions.push(Action::ShowStep(lesson, step));
+    }
+    let (name, command) =
+        if step + 1 < count { (tr!("Next step"), Action::ShowStep(lesson, step + 1)) } else { (tr!("Done"), Action::CloseLesson) };
+    if ui.button(name).clicked() {
+        actions.push(command);
+    }
+    if ui.button(tr!("Close lesson")).on_hover_text(tr!("Your own sliders, data, fits and panes come back")).clicked() {
+        actions.push(Action::CloseLesson);
+    }
+    let help = tr!("Close the lesson and go on from here; your work of before is given up");
+    if ui.button(tr!("Keep this")).on_hover_text(help).clicked() {
+        actions.push(Action::KeepLesson);
+    }
 }

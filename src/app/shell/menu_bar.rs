@@ -6,7 +6,7 @@ use crate::app::shell::commands;
 use crate::app::shell::commands::{Availability, Command, Menu};
 use crate::app::shell::dialogs::Dialogs;
 use crate::app::shell::path_entry::path_in;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::note_stop;
 use egui::containers::menu::MenuConfig;
 use egui::{Id, Key, Modifiers, Popup, PopupCloseBehavior, SetOpenCommand, Ui, UiKind, UiStackInfo};
@@ -89,7 +89,8 @@ fn bar_menu_ui(title: String, by_key: bool, ui: &mut Ui, content: impl FnOnce(&m
 }
 
 fn file_ui(app: &mut App, ui: &mut Ui) {
-    let (quit, items): (Vec<Command>, Vec<Command>) = commands::items(app).into_iter().partition(|item| item.action == Action::Quit);
+    let (quit, items): (Vec<Command>, Vec<Command>) =
+        commands::items(app).into_iter().partition(|item| item.action == Action::Window(WindowAction::Quit));
     let has_recent = !app.window.recent.is_empty() || !app.persistence.kept.is_empty();
     let App { actions, dialogs: Dialogs { path_entry, .. }, .. } = app;
     items_ui(&items, Menu::File, actions, ui);

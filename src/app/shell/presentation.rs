@@ -7,7 +7,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::lesson_ui::lesson_and_panes_ui;
 use crate::app::shell::readout_ui::readout_ui;
 use crate::app::text::i18n::translated;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
@@ -64,10 +64,10 @@ fn strip_ui(app: &mut App, ui: &mut Ui) {
         ui.menu_button(tr!("Sliders"), |ui| sliders_menu_ui(app, ui)).response.on_hover_text(tr!("Those of the talk"));
         let mut spotlight = app.window.talk.spotlight;
         if ui.toggle_value(&mut spotlight, tr!("Spotlight")).on_hover_text(tr!("Dims all but the surroundings of the pointer")).changed() {
-            app.actions.push(Action::ToggleSpotlight);
+            app.actions.push(Action::Window(WindowAction::ToggleSpotlight));
         }
         if ui.button(tr!("Leave")).on_hover_text(tr!("Also with Escape or F11")).clicked() {
-            app.actions.push(Action::Present);
+            app.actions.push(Action::Window(WindowAction::Present));
         }
     });
 }
@@ -85,7 +85,11 @@ fn panes_menu_ui(app: &mut App, ui: &mut Ui) {
     for pane in PaneId::ALL.iter().copied() {
         let is_shown = shown.contains(&pane);
         if ui.selectable_label(is_shown, translated(spec(pane).title)).on_hover_text(translated(spec(pane).tooltip)).clicked() {
-            app.actions.push(if is_shown { Action::ClosePane(pane) } else { Action::ShowPane(pane) });
+            app.actions.push(if is_shown {
+                Action::Window(WindowAction::ClosePane(pane))
+            } else {
+                Action::Window(WindowAction::ShowPane(pane))
+            });
         }
     }
 }
@@ -94,7 +98,7 @@ fn sliders_menu_ui(app: &mut App, ui: &mut Ui) {
     for slider in TalkSlider::all() {
         let mut is_chosen = app.window.talk.sliders.contains(&slider);
         if ui.checkbox(&mut is_chosen, translated(slider.symbol())).changed() {
-            app.actions.push(Action::ChooseTalkSlider(slider));
+            app.actions.push(Action::Window(WindowAction::ChooseTalkSlider(slider)));
         }
     }
 }
@@ -108,7 +112,8 @@ fn slider_ui(app: &mut App, slider: TalkSlider, width: f32, ui: &mut Ui) {
             let mut surface = app.work.surface().clone();
             let mut refusals = Vec::new();
             let range = app.lessons.ranges()[parameter].clone();
-            panels::slider_ui(&mut surface, &mut refusals, range, [width, VALUE], ui, parameter);
+            let fit = app.work.shown_fit().map(|fit| &fit.report);
+            panels::slider_ui(&mut surface, &mut refusals, range, [width, VALUE], fit, ui, parameter);
             if surface != *app.work.surface() {
                 app.edits.push(Edit::SetSurface(Box::new(surface)));
             }

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::shell::commands::{Availability, Command, items};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use egui::{Key, Modifiers};
 
 /// The command whose keys are pressed, if it is possible now.
@@ -18,7 +18,9 @@ pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
     let mut items = items(app);
     // Escape leaves what lies above first, and is nobody's while there is nothing to dismiss.
     let is_covered = ctx.memory(|memory| memory.top_modal_layer().is_some()) || egui::Popup::is_any_open(ctx);
-    items.retain(|item| item.action != Action::DismissToasts || (item.status == Availability::Possible && !is_covered));
+    items.retain(|item| {
+        item.action != Action::Window(WindowAction::DismissToasts) || (item.status == Availability::Possible && !is_covered)
+    });
     // The longer shortcut first: egui takes the shorter one for a part of it.
     items.sort_by_key(|item| item.shortcut.is_none_or(|shortcut| !shortcut.modifiers.shift));
     let hit = |item: &Command| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));
@@ -32,7 +34,7 @@ pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
 /// What Escape does where nothing else wants it.
 fn leaving_stage(app: &App) -> Option<Action> {
     if app.dock.is_presented() {
-        return Some(Action::Present);
+        return Some(Action::Window(WindowAction::Present));
     }
-    app.dock.on_screen().first().filter(|_| app.dock.is_filled()).map(|pane| Action::FillWindow(*pane))
+    app.dock.on_screen().first().filter(|_| app.dock.is_filled()).map(|pane| Action::Window(WindowAction::FillWindow(*pane)))
 }

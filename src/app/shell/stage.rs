@@ -2,7 +2,7 @@
 //! where a window is too low for two.
 
 use crate::app::text::i18n::translated;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::{Cx, Views, note_stop, spec};
 use crate::app::work::pane_id::PaneId;
 use egui::scroll_area::ScrollBarVisibility;
@@ -49,7 +49,7 @@ pub fn presented_ui(panes: &[PaneId], views: &mut Views, cx: &mut Cx<'_>, ui: &m
                 ui.strong(translated(spec(*pane).title));
                 show_menu_ui(*pane, views, cx, ui);
                 if panes.len() > 1 && close_ui(*pane, ui).clicked() {
-                    cx.actions.push(Action::ClosePane(*pane));
+                    cx.actions.push(Action::Window(WindowAction::ClosePane(*pane)));
                 }
             });
             let margin = egui::Margin { left: TITLE, ..egui::Margin::ZERO };
@@ -91,7 +91,7 @@ pub fn single_ui(pane: PaneId, is_filled: bool, open: Vec<PaneId>, views: &mut V
                     .button(tr!("Back"))
                     .on_hover_text(tr!("All panes and panels again; also with a double click on the name, or Escape"));
                 if back.clicked() {
-                    cx.actions.push(Action::FillWindow(pane));
+                    cx.actions.push(Action::Window(WindowAction::FillWindow(pane)));
                 }
             }
             show_menu_ui(pane, views, cx, ui);
@@ -122,9 +122,9 @@ fn name_ui(pane: PaneId, is_shown: bool, cx: &mut Cx<'_>, ui: &mut Ui) {
         note_stop(&name.ctx, name.id);
     }
     if name.double_clicked() {
-        cx.actions.push(Action::FillWindow(pane));
+        cx.actions.push(Action::Window(WindowAction::FillWindow(pane)));
     } else if name.clicked() {
-        cx.actions.push(Action::ShowPane(pane));
+        cx.actions.push(Action::Window(WindowAction::ShowPane(pane)));
     }
 }
 

@@ -4,9 +4,10 @@ use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::shell::app::App;
 use crate::app::shell::toasts::Toasts;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary;
 use crate::app::text::localized::Localized as _;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::choice_menu_ui;
 use crate::app::views::curves::Decimation;
 use egui::accesskit::Live;
@@ -27,7 +28,7 @@ pub fn status_ui(app: &mut App, ui: &mut egui::Ui) {
     let App { work, derived, jobs, actions, edits, window, frame_times, .. } = app;
     let open = work.active();
     ui.horizontal(|ui| {
-        ui.strong(delta_e_text(derived.delta_e())).on_hover_text(format!(
+        ui.strong(delta_e_text(derived.delta_e())).explained(format!(
             "{}\n{}",
             tr!("Of the sliders as they stand."),
             glossary::delta_e_help()
@@ -105,7 +106,7 @@ fn sentences_ui(toasts: &Toasts, actions: &mut Vec<Action>, ui: &mut egui::Ui) {
                 let close = ui.add(egui::Button::new("×").small().frame(false)).on_hover_text(tr!("Dismiss; Escape dismisses all"));
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, tr!("Dismiss")));
                 if close.clicked() {
-                    actions.push(Action::DismissToast(place));
+                    actions.push(Action::Window(WindowAction::DismissToast(place)));
                 }
                 let label = ui.add(Label::new(RichText::new(&toast.text).color(toast.color(ui.visuals()))).wrap());
                 // Read out without being asked for.

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::text::i18n::translated;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use egui::{Align2, Label, Pos2, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use tr::tr;
 
@@ -69,13 +69,17 @@ pub fn tour_ui(app: &mut App, ui: &mut Ui) {
                     next.request_focus();
                 }
                 if next.clicked() {
-                    app.actions.push(if is_last { Action::EndTour } else { Action::ShowTour(step + 1) });
+                    app.actions.push(if is_last {
+                        Action::Window(WindowAction::EndTour)
+                    } else {
+                        Action::Window(WindowAction::ShowTour(step + 1))
+                    });
                 }
                 if step > 0 && ui.button(tr!("Previous")).clicked() {
-                    app.actions.push(Action::ShowTour(step - 1));
+                    app.actions.push(Action::Window(WindowAction::ShowTour(step - 1)));
                 }
                 if !is_last && ui.button(tr!("Skip the tour")).on_hover_text(tr!("Help shows it again")).clicked() {
-                    app.actions.push(Action::EndTour);
+                    app.actions.push(Action::Window(WindowAction::EndTour));
                 }
             });
         });

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -10,7 +10,7 @@ use pbrdf::model::{Audit, Check, Diffuse, Pbrdf};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Audit));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Audit)));
     wait(&mut harness);
     harness
 }

@@ -6,7 +6,7 @@ use crate::app::shell::commands::Availability;
 use crate::app::storage::export::SheetForm;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::{Action, InquiryAction, ListAction};
+use crate::app::views::action::{Action, InquiryAction, ListAction, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::Theme;
@@ -40,7 +40,7 @@ fn every_command_can_be_carried_out() {
             && !explorer(&mut harness).dock.is_on_screen(pane)
         {
             // Until then the command is grey.
-            explorer(&mut harness).actions.push(Action::ShowPane(pane));
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
             wait(&mut harness);
         }
         if command == Action::CopyPlot(PaneId::Posterior) {
@@ -166,7 +166,7 @@ fn arrows_choose_in_the_palette_and_escape_leaves_it() {
 fn the_palette_begins_as_the_menus_do_and_finds_all_of_a_menu() {
     let mut harness = harness();
     let open = |harness: &mut Harness<'static, Option<App>>, text: &str| {
-        explorer(harness).actions.push(Action::OpenPalette);
+        explorer(harness).actions.push(Action::Window(WindowAction::OpenPalette));
         harness.run();
         harness.get_by_label("Find a command").type_text(text);
         harness.run();
@@ -232,7 +232,7 @@ fn undo_brings_back_every_setting() {
 fn the_arrangement_and_colours_of_the_window_are_no_steps_of_undo() {
     let mut harness = harness();
     let steps_before = explorer(&mut harness).work.can_undo();
-    for command in [Action::SetTheme(Theme::Dark), Action::ToggleFrameTimes] {
+    for command in [Action::Window(WindowAction::SetTheme(Theme::Dark)), Action::Window(WindowAction::ToggleFrameTimes)] {
         explorer(&mut harness).actions.push(command);
         harness.run();
     }
@@ -276,7 +276,7 @@ fn what_is_impossible_is_not_ordered_by_its_keys() {
 fn the_palette_finds_english_names_in_every_language() {
     let mut harness = harness();
     explorer(&mut harness).window.language = Language::Chinese;
-    explorer(&mut harness).actions.push(Action::OpenPalette);
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::OpenPalette));
     harness.run();
     harness.get_by_label("查找命令").type_text("start fit");
     harness.run();
@@ -286,7 +286,7 @@ fn the_palette_finds_english_names_in_every_language() {
     wait(&mut harness);
     assert!(explorer(&mut harness).work.shown_fit().is_some());
     // And the names that are shown, without the English ones.
-    explorer(&mut harness).actions.push(Action::OpenPalette);
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::OpenPalette));
     harness.run();
     harness.get_by_label("查找命令").type_text("拟合");
     harness.run();

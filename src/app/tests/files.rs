@@ -3,7 +3,7 @@
 use crate::app::storage::settings_file;
 use crate::app::storage::settings_file::{SavedSettings, SettingsFile};
 use crate::app::tests::{explorer, harness, harness_of, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::layout::Layout;
 use crate::app::work::open_measurement::EXAMPLES;
 use crate::app::work::pane_id::PaneId;
@@ -203,7 +203,7 @@ fn the_window_fits_its_contents_in_both_themes() {
         let settings = Settings { log_brdf: true, show_backscatter: true, ..Settings::default() };
         let mut harness =
             harness_of(SettingsFile { settings: SavedSettings { settings, ..SavedSettings::default() }, ..SettingsFile::default() });
-        explorer(&mut harness).actions.push(Action::SetTheme(theme));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::SetTheme(theme)));
         harness.run();
         assert!(explorer(&mut harness).derived.fault().is_none());
     }

@@ -2,7 +2,7 @@
 
 use crate::app::shell::commands::{Menu, items};
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::layout::Layout;
 use crate::app::work::pane_id::PaneId;
@@ -26,7 +26,7 @@ fn the_first_tabs_are_those_that_most_want_and_the_menu_has_the_others() {
 fn choosing_a_pane_that_is_seen_leaves_it_where_it_is() {
     let mut harness = harness();
     for _ in 0..2 {
-        explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Dolp));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Dolp)));
         wait(&mut harness);
         assert!(explorer(&mut harness).dock.on_screen().contains(&PaneId::Dolp));
     }
@@ -36,7 +36,7 @@ fn choosing_a_pane_that_is_seen_leaves_it_where_it_is() {
 fn the_tour_has_four_steps_and_is_skipped_for_good() {
     let mut harness = harness();
     assert!(harness.query_by_label("Skip the tour").is_none(), "only the first start shows it by itself");
-    explorer(&mut harness).actions.push(Action::ShowTour(0));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowTour(0)));
     wait(&mut harness);
     for (step, heading) in ["Sliders", "Plots", "Fit", "Lessons and talks"].into_iter().enumerate() {
         assert!(harness.query_all_by_label(heading).next().is_some(), "{heading}");
@@ -45,7 +45,7 @@ fn the_tour_has_four_steps_and_is_skipped_for_good() {
         wait(&mut harness);
     }
     assert!(explorer(&mut harness).window.knows_tour && explorer(&mut harness).dialogs.tour.is_none());
-    explorer(&mut harness).actions.push(Action::ShowTour(0));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowTour(0)));
     wait(&mut harness);
     harness.get_by_label("Skip the tour").click();
     wait(&mut harness);
@@ -100,7 +100,7 @@ fn f10_opens_the_first_menu() {
 #[test]
 fn the_list_of_commands_is_as_long_as_before_after_a_word_that_finds_nothing() {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::OpenPalette);
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::OpenPalette));
     wait(&mut harness);
     let shown = |harness: &egui_kittest::Harness<'static, Option<crate::app::shell::app::App>>| {
         let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 500.0));

@@ -3,7 +3,7 @@
 use crate::app::tests::{explorer, harness};
 use crate::app::text::glossary::{Entry, GLOSSARY};
 use crate::app::text::help::{DOI, Help};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
@@ -43,7 +43,7 @@ fn the_menu_and_the_palette_show_each_page_and_escape_leaves_it() {
 fn about_names_version_licence_paper_and_where_things_are_kept() {
     let mut harness = harness();
     explorer(&mut harness).persistence.settings_path = Some("/somewhere/settings.json".into());
-    explorer(&mut harness).actions.push(Action::ShowHelp(Help::About));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowHelp(Help::About)));
     harness.run();
     let version = format!("version {}", env!("CARGO_PKG_VERSION"));
     for part in [version.as_str(), "MIT or Apache-2.0", "Acta Optica Sinica 41(11)", "/somewhere/settings.json", "is kept in: nowhere"] {

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{edit, explorer, harness, wait};
-use crate::app::views::action::{Action, ListAction};
+use crate::app::views::action::{Action, ListAction, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::{Compared, HemisphereQuantity};
@@ -15,7 +15,7 @@ use pbrdf::optics::{Facet, Geometry};
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Hemisphere));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Hemisphere)));
     wait(&mut harness);
     harness
 }

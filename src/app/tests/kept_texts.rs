@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::text::i18n::{Language, translated};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
 use pbrdf::fit::Starts;
@@ -22,7 +22,7 @@ fn order(harness: &mut Window, command: Action) {
 fn is_there_in_both(harness: &mut Window, part: &str) -> [bool; 2] {
     let is_there = |harness: &Window| written(harness).iter().any(|text| text.contains(part));
     let before = is_there(harness);
-    order(harness, Action::SetLanguage(Language::Chinese));
+    order(harness, Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     harness.run_steps(3);
     [before, is_there(harness)]
 }
@@ -32,11 +32,11 @@ fn what_a_pointer_reads_on_the_landscape() {
     let mut harness = harness();
     explorer(&mut harness).work.settings_mut().starts = Starts::One;
     order(&mut harness, Action::StartFit);
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Landscape)));
     harness.run_steps(4);
     // In an unoptimised build its maps take half a minute: nobody waits for them.
     for (language, part) in [(Language::English, "starts that ended there"), (Language::Chinese, "到达此处的起点数")] {
-        explorer(&mut harness).actions.push(Action::SetLanguage(language));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(language)));
         harness.run_steps(4);
         let marks = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().marks().expect("marks");
         let text = marks.text(&translated("minima"), marks.minima.points[0]).expect("a minimum");

@@ -3,7 +3,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
@@ -16,7 +16,7 @@ const HINT: &str = "A click puts both sliders there; drag to move, Ctrl+wheel to
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Landscape)));
     wait(&mut harness);
     harness
 }
@@ -60,7 +60,7 @@ fn it_is_coarser_while_a_slider_is_dragged() {
 fn nothing_is_computed_off_screen() {
     let mut harness = shown();
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
-    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(PaneId::Landscape)));
     wait(&mut harness);
     explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
     wait(&mut harness);
@@ -71,7 +71,7 @@ fn nothing_is_computed_off_screen() {
 fn a_map_that_nobody_looks_at_is_not_finished() {
     for pane in [PaneId::Landscape, PaneId::Hemisphere] {
         let mut harness = harness();
-        explorer(&mut harness).actions.push(Action::ShowPane(pane));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
         wait(&mut harness);
         let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         explorer(&mut harness).work.surface_mut().parameters.sigma = 0.2;
@@ -85,10 +85,10 @@ fn a_map_that_nobody_looks_at_is_not_finished() {
             }
         };
         assert!(running(&mut harness), "{pane:?}");
-        explorer(&mut harness).actions.push(Action::ClosePane(pane));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(pane)));
         harness.step();
         assert!(!running(&mut harness), "{pane:?}");
-        explorer(&mut harness).actions.push(Action::ShowPane(pane));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
         wait(&mut harness);
         let key = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().key().cloned();
         assert!(pane == PaneId::Hemisphere || key != before);

@@ -7,7 +7,7 @@ use crate::app::tests::imports::tensor;
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::help::{DOI, Help, PAPER};
 use crate::app::text::i18n::{Language, MISSED};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use egui::Key;
 use egui::accesskit::{Action as NodeAction, Role};
@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 /// to show.
 fn chinese() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     wait(&mut harness);
     explorer(&mut harness).actions.push(Action::StartFit);
     wait(&mut harness);
@@ -30,9 +30,9 @@ fn chinese() -> Harness<'static, Option<App>> {
 /// Puts that pane alone on screen.
 fn alone(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     for other in PaneId::ALL.iter().copied() {
-        explorer(harness).actions.push(Action::ClosePane(other));
+        explorer(harness).actions.push(Action::Window(WindowAction::ClosePane(other)));
     }
-    explorer(harness).actions.push(Action::ShowPane(pane));
+    explorer(harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
     if pane == PaneId::Landscape {
         // In an unoptimised build its maps take half a minute: nobody waits for them.
         harness.run_steps(4);
@@ -160,12 +160,12 @@ fn nothing_is_left_in_english_and_no_text_is_looked_up_in_vain() {
         english.extend(written(&harness).into_iter().filter(|text| is_english(text)));
     }
     for page in [Help::FirstSteps, Help::Words, Help::About] {
-        explorer(&mut harness).actions.push(Action::ShowHelp(page));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowHelp(page)));
         harness.run();
         // The paper, which breaks over several lines, is called as it is called.
         english
             .extend(written(&harness).into_iter().filter(|text| is_english(text) && !text.contains(DOI) && !PAPER.contains(text.trim())));
-        explorer(&mut harness).actions.push(Action::CloseHelp);
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::CloseHelp));
         harness.run();
     }
     let all = items(explorer(&mut harness));
@@ -209,7 +209,7 @@ fn menus_palette_and_lessons_are_in_chinese() {
         harness.key_press(Key::Escape);
         harness.run();
     }
-    order(&mut harness, Action::OpenPalette);
+    order(&mut harness, Action::Window(WindowAction::OpenPalette));
     english.extend(left(&harness, "palette"));
     harness.key_press(Key::Escape);
     harness.run();
@@ -261,7 +261,7 @@ fn foreign() -> Vec<(&'static str, Vec<u8>)> {
 #[test]
 fn questions_and_refusals_are_in_chinese() {
     let mut harness = harness();
-    order(&mut harness, Action::SetLanguage(Language::Chinese));
+    order(&mut harness, Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     let folder = tempfile::tempdir().expect("a folder");
     let mut english = Vec::new();
     for (name, contents) in foreign() {
@@ -328,7 +328,7 @@ fn every_control_has_a_name() {
     let mut all = Vec::new();
     for language in Language::ALL {
         let mut harness = chinese();
-        explorer(&mut harness).actions.push(Action::SetLanguage(language));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(language)));
         wait(&mut harness);
         for pane in PaneId::ALL.iter().copied() {
             alone(&mut harness, pane);

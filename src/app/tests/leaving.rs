@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::tasks::benchmarks::BenchmarkId;
 use crate::app::tests::{explorer, harness, plots, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::HemisphereQuantity;
@@ -49,7 +49,7 @@ fn every_plot_is_a_figure_of_what_is_drawn() {
 /// Brings a pane to the front.
 fn show(harness: &mut Harness<'static, Option<App>>, pane: PaneId) {
     if !explorer(harness).dock.is_on_screen(pane) {
-        order(harness, Action::ShowPane(pane));
+        order(harness, Action::Window(WindowAction::ShowPane(pane)));
     }
     wait(harness);
 }

@@ -11,7 +11,7 @@ use crate::app::tasks::file_request::FileRequest;
 use crate::app::tasks::files::DialogAnswer;
 use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::layout::Layout;
 use crate::app::work::open_measurement::{EXAMPLES, Mask};
@@ -152,7 +152,7 @@ fn worked_in() -> Harness<'static, Option<App>> {
     edit(&mut harness, Edit::Mask { rows: vec![2, 7], masked: true });
     explorer(&mut harness).work.settings_mut().starts = pbrdf::fit::Starts::One;
     order(&mut harness, Action::StartFit);
-    order(&mut harness, Action::ClosePane(PaneId::Lobes));
+    order(&mut harness, Action::Window(WindowAction::ClosePane(PaneId::Lobes)));
     explorer(&mut harness).work.surface_mut().parameters.k = 4.25;
     harness.run();
     harness
@@ -164,7 +164,7 @@ fn go_through_a_lesson(harness: &mut Harness<'static, Option<App>>) {
     edit(harness, Edit::Mask { rows: vec![1], masked: true });
     explorer(harness).work.settings_mut().starts = pbrdf::fit::Starts::One;
     order(harness, Action::StartFit);
-    order(harness, Action::ClosePane(PaneId::Dolp));
+    order(harness, Action::Window(WindowAction::ClosePane(PaneId::Dolp)));
     // Into another lesson and back.
     order(harness, Action::ShowStep(0, 0));
     explorer(harness).work.surface_mut().parameters.k = 1.5;
@@ -216,7 +216,7 @@ fn a_step_is_set_up_alike_whichever_way_one_comes_to_it() {
         open.work.surface_mut().parameters.sigma = 1.75;
         let settings = open.work.settings_mut();
         (settings.view_options.facets_equal_median, settings.metal_selection.wavelength_nm) = (true, 333.0);
-        order(&mut harness, Action::ClosePane(PaneId::Dolp));
+        order(&mut harness, Action::Window(WindowAction::ClosePane(PaneId::Dolp)));
         for (step, forward) in forward.iter().enumerate().rev() {
             order(&mut harness, Action::ShowStep(lesson, step));
             assert_eq!(&set_up(explorer(&mut harness)), forward, "lesson {lesson}, step {step}");

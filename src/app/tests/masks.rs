@@ -4,7 +4,7 @@ use crate::app::plots::Range;
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, take, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui::accesskit::Role;
@@ -197,7 +197,7 @@ fn place_in_lobes(harness: &mut Harness<'static, Option<App>>, theta_r: f64, brd
 fn points_of_a_hidden_series_cannot_be_clicked() {
     let mut harness = harness();
     // Its names are those of the lobes, too.
-    explorer(&mut harness).actions.extend([Action::OpenExample(2), Action::ClosePane(PaneId::Dolp)]);
+    explorer(&mut harness).actions.extend([Action::OpenExample(2), Action::Window(WindowAction::ClosePane(PaneId::Dolp))]);
     wait(&mut harness);
     let series = explorer(&mut harness).work.active().series[0].clone();
     let mark = &series.brdf[series.brdf.len() / 2];
@@ -225,7 +225,7 @@ fn a_lobe_that_is_hidden_stays_so_in_another_language() {
     harness.get_by_role_and_label(Role::CheckBox, "total").click();
     harness.run();
     assert!(!is_shown(&harness, "total") && is_shown(&harness, "specular"));
-    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     harness.run_steps(3);
     assert!(!is_shown(&harness, "总和") && is_shown(&harness, "镜面"));
 }

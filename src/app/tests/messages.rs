@@ -12,7 +12,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, MISSED, translated};
 use crate::app::text::localized::Localized;
 use crate::app::text::messages::{advised, short_method};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::lesson::Lesson;
 use crate::app::work::lesson_error::{LessonError, LessonErrorKind};
@@ -498,7 +498,7 @@ fn texts_of(html: &str) -> Vec<String> {
 #[test]
 fn the_report_of_a_fit_is_in_chinese_where_the_window_is() {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::SetLanguage(Language::Chinese));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     let folder = tempfile::tempdir().expect("a folder");
     for (example, model) in [(0, "hyde"), (1, "cauchy"), (1, "three-component")] {
         explorer(&mut harness).actions.push(Action::OpenExample(example));

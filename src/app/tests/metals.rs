@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, take, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::MetalSelection;
 use egui_kittest::Harness;
@@ -14,7 +14,7 @@ fn shown(metal: &str, wavelength_nm: f64) -> Harness<'static, Option<App>> {
     let mut harness = harness();
     explorer(&mut harness).work.settings_mut().metal_selection =
         MetalSelection { metal: metal.to_owned(), wavelength_nm, ..MetalSelection::default() };
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Metals));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Metals)));
     wait(&mut harness);
     harness
 }

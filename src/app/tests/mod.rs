@@ -37,6 +37,7 @@ mod places;
 mod planning;
 mod posterior;
 mod presenting;
+mod reading;
 mod reports;
 mod results;
 mod room;

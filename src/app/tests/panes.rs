@@ -5,7 +5,7 @@ use crate::app::shell::app::App;
 use crate::app::shell::app::autosave::save_settings;
 use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{explorer, harness, harness_of, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::pane_id::PaneId;
 use egui::accesskit::Role;
@@ -17,19 +17,19 @@ fn every_pane_opens_alone_and_beside_the_others() {
     for pane in PaneId::ALL.iter().copied() {
         let mut harness = harness();
         for other in PaneId::ALL.iter().filter(|other| **other != pane) {
-            explorer(&mut harness).actions.push(Action::ClosePane(*other));
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(*other)));
         }
         wait(&mut harness);
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::ShowPane(pane));
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
         }
         wait(&mut harness);
         assert_eq!(explorer(&mut harness).dock.on_screen(), [pane]);
         harness.get_by_label(spec(pane).title);
-        explorer(&mut harness).actions.push(Action::ResetLayout);
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ResetLayout));
         wait(&mut harness);
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::ShowPane(pane));
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
             wait(&mut harness);
         }
         assert!(explorer(&mut harness).dock.is_on_screen(pane), "{}", spec(pane).title);
@@ -41,7 +41,7 @@ fn every_show_menu_opens() {
     for pane in PaneId::ALL.iter().copied().filter(|pane| spec(*pane).has_options) {
         let mut harness = harness();
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            explorer(&mut harness).actions.push(Action::ShowPane(pane));
+            explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
             wait(&mut harness);
         }
         harness.get_by_label(&format!("Show in {}", spec(pane).title)).click();
@@ -53,7 +53,7 @@ fn every_show_menu_opens() {
 fn what_is_not_on_screen_is_not_computed() {
     let mut harness = harness();
     for pane in PaneId::ALL.iter().copied() {
-        explorer(&mut harness).actions.push(Action::ClosePane(pane));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(pane)));
     }
     harness.run();
     let before = explorer(&mut harness).derived.curves.key().cloned();
@@ -61,7 +61,7 @@ fn what_is_not_on_screen_is_not_computed() {
     harness.run();
     assert_eq!(explorer(&mut harness).derived.curves.key().cloned(), before);
     harness.get_by_label("All panes are closed. The View menu opens them again.");
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Lobes));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Lobes)));
     harness.run();
     assert_ne!(explorer(&mut harness).derived.curves.key().cloned(), before);
 }
@@ -69,7 +69,7 @@ fn what_is_not_on_screen_is_not_computed() {
 #[test]
 fn a_closed_pane_stays_closed_after_a_restart() {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Lobes));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(PaneId::Lobes)));
     harness.run();
     let path = tempfile::tempdir().expect("a folder").keep().join("settings.json");
     explorer(&mut harness).persistence.settings_path = Some(path.clone());
@@ -82,7 +82,7 @@ fn a_closed_pane_stays_closed_after_a_restart() {
 fn shown(pane: PaneId) -> egui_kittest::Harness<'static, Option<crate::app::shell::app::App>> {
     let mut harness = harness();
     if !explorer(&mut harness).dock.is_on_screen(pane) {
-        explorer(&mut harness).actions.push(Action::ShowPane(pane));
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
     }
     wait(&mut harness);
     harness
@@ -163,9 +163,9 @@ fn the_way_of_a_fit_is_drawn_after_it() {
 fn a_landscape_that_was_closed_and_opened_again_is_where_it_was() {
     let mut harness = shown(PaneId::Landscape);
     let before = explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen().expect("axes");
-    explorer(&mut harness).actions.push(Action::ClosePane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ClosePane(PaneId::Landscape)));
     wait(&mut harness);
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Landscape));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Landscape)));
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).views.get::<crate::app::views::LandscapeView>().seen(), Some(before));
 }

@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::views::PictureView;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
@@ -17,7 +17,7 @@ use pbrdf::optics::Facet;
 
 fn shown() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Picture));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Picture)));
     wait(&mut harness);
     harness
 }

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{edit, explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::spec;
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
@@ -37,7 +37,7 @@ fn the_tab_of_a_pane_that_is_shown_is_in_view() {
     // From the first to the last and back, so that bars are scrolled to either side.
     for &pane in PaneId::ALL.iter().chain(PaneId::ALL.iter().rev()) {
         if !explorer(&mut harness).dock.is_on_screen(pane) {
-            order(&mut harness, Action::ShowPane(pane));
+            order(&mut harness, Action::Window(WindowAction::ShowPane(pane)));
         }
         let tab = harness.query_all_by_label(spec(pane).title).next().expect("a tab").rect();
         let bar = bar(&harness, tab);

@@ -2,7 +2,7 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::{explorer, harness, take, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -12,7 +12,7 @@ use pbrdf::model::{Parameter, Preset};
 
 fn planner() -> Harness<'static, Option<App>> {
     let mut harness = harness();
-    explorer(&mut harness).actions.push(Action::ShowPane(PaneId::Planner));
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Planner)));
     wait(&mut harness);
     harness
 }

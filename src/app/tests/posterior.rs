@@ -4,7 +4,7 @@ use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::languages::written;
 use crate::app::tests::{explorer, harness, take, wait};
-use crate::app::views::action::{Action, InquiryAction};
+use crate::app::views::action::{Action, InquiryAction, WindowAction};
 use crate::app::work::design::{AngleRange, DesignGoal};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
@@ -237,7 +237,7 @@ fn readings_are_chosen_and_what_cannot_be_reached_is_said() {
     design.theta_r = vec![AngleRange::new(0.0, 60.0, 10.0)];
     (design.count, design.goal, design.counts_given, design.noise) = (12, DesignGoal::Index, false, 0.05);
     explorer(&mut harness).work.apply(Edit::SetDesign(design));
-    order(&mut harness, Action::ShowPane(PaneId::Planner));
+    order(&mut harness, Action::Window(WindowAction::ShowPane(PaneId::Planner)));
     harness.get_by_label("Choose for me").click_accesskit();
     wait(&mut harness);
     let design = explorer(&mut harness).work.settings().design.clone();

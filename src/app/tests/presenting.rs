@@ -6,7 +6,7 @@ use crate::app::shell::app::open::begin;
 use crate::app::shell::app::ui::ui;
 use crate::app::storage::settings_file::SettingsFile;
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::settings::SidePanel;
 use crate::app::work::talk::TalkSlider;
@@ -54,17 +54,17 @@ fn a_presentation_shows_the_panes_of_the_screen_without_panels_and_ends_with_esc
     // σ and θi are in the strip; others are chosen.
     harness.get_by_role_and_label(Role::Slider, "σ");
     assert!(harness.query_by_role_and_label(Role::Slider, "n").is_none());
-    act(&mut harness, Action::ChooseTalkSlider(TalkSlider::Of(pbrdf::model::Parameter::N)));
+    act(&mut harness, Action::Window(WindowAction::ChooseTalkSlider(TalkSlider::Of(pbrdf::model::Parameter::N))));
     harness.get_by_role_and_label(Role::Slider, "n").set_value_accesskit(1.5);
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).work.surface().parameters.n, 1.5);
     // Four at most: the fifth takes the place of the last.
     for pane in [PaneId::Picture, PaneId::Facets, PaneId::PolarLobes] {
-        act(&mut harness, Action::ShowPane(pane));
+        act(&mut harness, Action::Window(WindowAction::ShowPane(pane)));
     }
     assert_eq!(explorer(&mut harness).dock.on_screen(), [PaneId::Dolp, PaneId::Lobes, PaneId::Picture, PaneId::PolarLobes]);
     for pane in [PaneId::Dolp, PaneId::Lobes, PaneId::Picture, PaneId::PolarLobes] {
-        act(&mut harness, Action::ClosePane(pane));
+        act(&mut harness, Action::Window(WindowAction::ClosePane(pane)));
     }
     assert_eq!(explorer(&mut harness).dock.on_screen(), [PaneId::PolarLobes], "one stays");
     harness.key_press(Key::Escape);
@@ -96,7 +96,7 @@ fn titles_of_vertical_axes_are_whole_in_a_presentation() {
 #[test]
 fn the_read_out_says_what_the_model_says_in_the_mirror_direction() {
     let mut harness = harness();
-    act(&mut harness, Action::Present);
+    act(&mut harness, Action::Window(WindowAction::Present));
     let surface = pbrdf::model::Pbrdf::new(explorer(&mut harness).work.surface().model, explorer(&mut harness).work.surface().parameters);
     let facet = pbrdf::optics::Facet::new(pbrdf::optics::Geometry::new(40.0, 40.0, 180.0).expect("a geometry"));
     let dolp = surface.expect("a surface").dolp(&facet);
@@ -122,8 +122,8 @@ fn a_pane_fills_the_window_and_all_is_back_where_it_was() {
     wait(&mut harness);
     assert_eq!(explorer(&mut harness).dock.on_screen(), [before[0], PaneId::Data]);
     // A pane that fills the window and is closed gives it back.
-    act(&mut harness, Action::FillWindow(PaneId::Dolp));
-    act(&mut harness, Action::ClosePane(PaneId::Dolp));
+    act(&mut harness, Action::Window(WindowAction::FillWindow(PaneId::Dolp)));
+    act(&mut harness, Action::Window(WindowAction::ClosePane(PaneId::Dolp)));
     assert!(!explorer(&mut harness).dock.is_filled());
 }
 
@@ -136,7 +136,7 @@ fn panels_hide_and_come_back() {
         wait(&mut harness);
         assert!(harness.query_by_label(label).is_none());
         assert!(plot(&harness, "Plot: DoLP against θr").width() > width + 200.0);
-        act(&mut harness, Action::TogglePanel(panel));
+        act(&mut harness, Action::Window(WindowAction::TogglePanel(panel)));
         harness.get_by_label(label);
     }
 }
@@ -168,10 +168,10 @@ fn a_class_sees_plots_of_600_by_350_pixels_at_zoom_1_5() {
     assert!(size.x >= 600.0 && size.y >= 350.0, "{size:?}");
     // The harness is in points already.
     explorer(&mut harness).window.talk.zoom = 1.0;
-    act(&mut harness, Action::Present);
+    act(&mut harness, Action::Window(WindowAction::Present));
     let size = pixels(&harness);
     assert!(size.x >= 500.0 && size.y >= 350.0, "two panes: {size:?}");
-    act(&mut harness, Action::ClosePane(PaneId::Lobes));
+    act(&mut harness, Action::Window(WindowAction::ClosePane(PaneId::Lobes)));
     let size = pixels(&harness);
     assert!(size.x >= 1200.0 && size.y >= 350.0, "{size:?}");
 }

@@ -2,7 +2,7 @@
 
 use crate::app::shell::room::{Below, Query};
 use crate::app::tests::{explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::kittest::Queryable as _;
 
@@ -15,7 +15,7 @@ fn a_small_screen_has_one_pane_and_the_sliders_and_the_works_own_arrangement_sta
     window.set_size(egui::vec2(844.0, 390.0));
     wait(&mut window);
     assert_eq!(explorer(&mut window).dock.on_screen(), on_screen[..1]);
-    explorer(&mut window).actions.push(Action::ShowPane(PaneId::Lobes));
+    explorer(&mut window).actions.push(Action::Window(WindowAction::ShowPane(PaneId::Lobes)));
     wait(&mut window);
     assert_eq!(explorer(&mut window).dock.on_screen(), [PaneId::Lobes]);
     window.get_by_label("Pane alone").click();

@@ -7,7 +7,7 @@ use crate::app::storage::session::Session;
 use crate::app::storage::session_file::save_session;
 use crate::app::storage::settings_file::load_from;
 use crate::app::tests::{edit, explorer, harness, wait};
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use egui_kittest::Harness;
@@ -29,7 +29,7 @@ fn worked_in() -> Harness<'static, Option<App>> {
     edit(&mut harness, Edit::Mask { rows: vec![3, 5], masked: true });
     explorer(&mut harness).work.surface_mut().set_bounds(Parameter::N, 0.5, 8.0).expect("sound bounds");
     order(&mut harness, Action::StartFit);
-    order(&mut harness, Action::ClosePane(PaneId::Lobes));
+    order(&mut harness, Action::Window(WindowAction::ClosePane(PaneId::Lobes)));
     explorer(&mut harness).work.settings_mut().theta_i = 35.5;
     explorer(&mut harness).work.surface_mut().parameters.k = 4.25;
     harness.run();

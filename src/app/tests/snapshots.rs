@@ -9,7 +9,7 @@ use crate::app::tasks::benchmarks::{BenchmarkId, FinishedBenchmark};
 use crate::app::tests::languages::is_english;
 use crate::app::tests::{explorer, harness, plots, wait};
 use crate::app::text::i18n::Language;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::work::pane_id::PaneId;
 use crate::figure::{Figure, Image};
 use egui_kittest::Harness;
@@ -133,7 +133,7 @@ fn figures(harness: &mut Harness<'static, Option<App>>) -> Vec<(PaneId, Figure)>
     }
     let mut shown = |pane: PaneId| {
         if !explorer(harness).dock.is_on_screen(pane) {
-            order(harness, Action::ShowPane(pane));
+            order(harness, Action::Window(WindowAction::ShowPane(pane)));
         }
         wait(harness);
         (pane, explorer(harness).figure(pane).expect("a plot"))
@@ -152,7 +152,7 @@ fn every_exported_plot_looks_as_it_did() {
 #[test]
 fn every_exported_plot_is_in_chinese_where_the_window_is() {
     let mut harness = fitted();
-    order(&mut harness, Action::SetLanguage(Language::Chinese));
+    order(&mut harness, Action::Window(WindowAction::SetLanguage(Language::Chinese)));
     let mut left = Vec::new();
     for (pane, figure) in figures(&mut harness) {
         let svg = figure.svg();

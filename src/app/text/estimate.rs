@@ -35,6 +35,16 @@ pub fn uncertainty_help(estimate: &Estimate) -> String {
     lines.join("\n")
 }
 
+/// What the shown fit says of a parameter, for who cannot see its table: its value with unit and interval.
+pub fn estimate_text(estimate: &Estimate) -> String {
+    let value = format!("{} {}", significant(estimate.value, 5), estimate.parameter.unit());
+    let value = value.trim_end();
+    match estimate.interval68 {
+        Some(interval) => tr!("Fitted: {0}, interval at 68.3 %: {1}", value, interval_text(interval)),
+        None => tr!("Fitted: {0}, {1}", value, uncertainty_text(estimate)),
+    }
+}
+
 /// An interval by its ends.
 pub fn interval_text(interval: Interval) -> String {
     let end = |value: f64| significant(value, 4);

@@ -1,5 +1,6 @@
 //! The words of the window and what they mean, in the help and where the pointer rests.
 
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n::translated;
 use pbrdf::fit::EstimateStatus;
 use tr::tr;
@@ -126,9 +127,9 @@ pub fn open_help() -> String {
 
 /// Headings of a list of minima.
 pub fn minima_headings_ui(ui: &mut egui::Ui) {
-    ui.strong("ΔE").on_hover_text(delta_e_help());
-    ui.strong(tr!("reached")).on_hover_text(tr!("How many of the starts ended there"));
-    ui.strong(tr!("stop")).on_hover_text(tr!("Why the best of them went no further"));
+    ui.strong("ΔE").explained(delta_e_help());
+    ui.strong(tr!("reached")).explained(tr!("How many of the starts ended there"));
+    ui.strong(tr!("stop")).explained(tr!("Why the best of them went no further"));
 }
 
 /// What AICc is.

@@ -1,6 +1,7 @@
 //! Texts: two languages, the glossary, numbers.
 
 pub mod estimate;
+pub mod explained;
 pub mod glossary;
 pub mod help;
 pub mod i18n;

@@ -66,7 +66,6 @@ pub enum Action {
     CancelImport,
     /// Stop reading.
     CancelLoading,
-    ForgetRecent,
     /// Fit the active measurement, or all together where they share anything.
     StartFit,
     /// Fit every measurement by itself.
@@ -79,7 +78,6 @@ pub enum Action {
     UseFit,
     /// The values from before the fit to the sliders.
     UseValuesBeforeFit,
-    DismissToasts,
     Undo,
     Redo,
     /// Sliders and results as the earlier fit of that number left them, the newest first.
@@ -121,33 +119,8 @@ pub enum Action {
     ShowOutlook(bool),
     /// A direction that was picked in the picture, degrees: marked in plots against θr.
     MarkDirection(PickedDirection),
-    ToggleFrameTimes,
-    /// A pane to the screen.
-    ShowPane(PaneId),
-    /// A pane alone in the window, and back.
-    FillWindow(PaneId),
-    /// The presentation begins or ends.
-    Present,
-    /// A slider into the strip of the presentation, or out of it.
-    ChooseTalkSlider(TalkSlider),
-    ToggleSpotlight,
-    /// A panel beside the plots, and away.
-    TogglePanel(SidePanel),
-    /// All larger (1), smaller (−1), or as it is by itself (0).
-    Zoom(i8),
-    ClosePane(PaneId),
-    ResetLayout,
-    SetTheme(Theme),
-    SetLanguage(Language),
-    OpenPalette,
-    /// The tour at the step of that number.
-    ShowTour(usize),
-    EndTour,
-    /// Away with the notice of that place.
-    DismissToast(usize),
-    ShowHelp(Help),
-    CloseHelp,
-    Quit,
+    /// Something about how the window stands, and nothing of the work.
+    Window(WindowAction),
 }
 
 /// What is done with open measurements and pinned surfaces.
@@ -196,4 +169,38 @@ pub enum InquiryAction {
     /// Find the evidence of the compared models.
     FindEvidence,
     CancelEvidence,
+}
+
+/// What changes how the window stands, and nothing of the work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WindowAction {
+    ForgetRecent,
+    DismissToasts,
+    ToggleFrameTimes,
+    /// A pane to the screen.
+    ShowPane(PaneId),
+    /// A pane alone in the window, and back.
+    FillWindow(PaneId),
+    /// The presentation begins or ends.
+    Present,
+    /// A slider into the strip of the presentation, or out of it.
+    ChooseTalkSlider(TalkSlider),
+    ToggleSpotlight,
+    /// A panel beside the plots, and away.
+    TogglePanel(SidePanel),
+    /// All larger (1), smaller (−1), or as it is by itself (0).
+    Zoom(i8),
+    ClosePane(PaneId),
+    ResetLayout,
+    SetTheme(Theme),
+    SetLanguage(Language),
+    OpenPalette,
+    /// The tour at the step of that number.
+    ShowTour(usize),
+    EndTour,
+    /// Away with the notice of that place.
+    DismissToast(usize),
+    ShowHelp(Help),
+    CloseHelp,
+    Quit,
 }

@@ -5,6 +5,7 @@ use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{ALARM, FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelPlot, PanelStyle, Polyline, Range, finite, nice_ceiling, theme};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::localized::Localized as _;
@@ -190,7 +191,7 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
     ];
     row_ui(ui, |ui, column| {
         let (heading, help) = &headings[column];
-        ui.strong(heading).on_hover_text(help);
+        ui.strong(heading).explained(help);
     });
     for (i, finding) in audit.findings.iter().enumerate() {
         let fill = if i % 2 == 0 { stripe } else { egui::Color32::TRANSPARENT };

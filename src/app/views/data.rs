@@ -1,6 +1,7 @@
 //! The measurement row by row, with what the model gives there; masks by row and by series.
 
 use crate::app::jobs::memo::Memo;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary::mask_help;
 use crate::app::text::i18n::translated;
 use crate::app::text::numbers::{short, significant};
@@ -159,9 +160,9 @@ const ANGLES: [Heading; 3] = [
     ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 46.0),
 ];
 const DOLP: [Heading; 4] = [
-    ("DoLP", "Measured degree of linear polarisation", 68.0),
+    ("DoLP", "Measured degree of linear polarisation", 80.0),
     ("± s.d.", "Its stated standard deviation", 62.0),
-    ("model", "DoLP of the model at the sliders", 68.0),
+    ("model", "DoLP of the model at the sliders", 80.0),
     ("residual", "Model less measurement", 68.0),
 ];
 const BRDF: [Heading; 4] = [
@@ -188,11 +189,11 @@ fn rows_ui(document: &OpenMeasurement, view: &DataView, edits: &mut Vec<Edit>, u
         }
         let table = builder.header(height, |mut header| {
             header.col(|ui| {
-                ui.strong(tr!("mask")).on_hover_text(mask_help());
+                ui.strong(tr!("mask")).explained(mask_help());
             });
             for (heading, help, _) in [("row", "Place in the file, from 1", 0.0)].iter().chain(headings) {
                 header.col(|ui| {
-                    ui.strong(translated(heading)).on_hover_text(translated(help));
+                    ui.strong(translated(heading)).explained(translated(help));
                 });
             }
         });

@@ -4,12 +4,14 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Polyline, Range, finite, key_line_ui, nice_ceiling, theme};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
 use crate::app::views::companions::{Pinned, pinned};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::directions;
+use crate::app::views::pointing::mark;
 use crate::app::work::open_measurement::IncidenceSeries;
 use crate::app::work::surface::sigma_of_equal_median;
 use crate::app::work::workspace::Workspace;
@@ -42,8 +44,8 @@ pub struct FacetsView {
 }
 
 /// Stamps of densities, masking and pinned surfaces, whether densities are logarithmic, how the model masks, the
-/// axes, the language.
-type PlotKey = ([u64; 3], bool, Masking, [Option<Range>; 2], Language);
+/// axes, the picked angle of view, the language.
+type PlotKey = ([u64; 3], bool, Masking, [Option<Range>; 2], Option<f64>, Language);
 
 /// σ, q, the model's own distribution and whether the other one has the same median slope.
 type DensityKey = (f64, f64, SlopeDistribution, bool);
@@ -140,7 +142,7 @@ impl FacetsView {
         self.range.follow(range, interacting);
     }
 
-    fn describe(&self, densities: &[Density; 2], masking: &Polyline, work: &Workspace) -> Option<Figure> {
+    fn describe(&self, densities: &[Density; 2], masking: &Polyline, picked: Option<f64>, work: &Workspace) -> Option<Figure> {
         let (settings, surface) = (work.settings(), work.surface());
         let range = self.range.get()?;
         let y = if settings.view_options.facets_log {
@@ -179,7 +181,7 @@ impl FacetsView {
             title: tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi),
             x: Axis::linear("θr", "°").between(-90.0, 90.0),
             y: Axis::linear(tr!("masking–shadowing G"), "").between(0.0, 1.05),
-            series: vec![Series::line("", masking.clone()).colored(ink)],
+            series: [Series::line("", masking.clone()).colored(ink)].into_iter().chain(picked.map(|at| mark(at, 0.0, 1.05))).collect(),
             ..Panel::default()
         };
         Some(Figure { title: tr!("Facets"), panels: vec![tilts, shadows], width_mm: 160.0, height_mm: 170.0, ..Figure::default() })
@@ -205,9 +207,10 @@ impl View for FacetsView {
         self.masking.refresh((settings.theta_i, settings.dphi), |&(theta_i, dphi)| masking(theta_i, dphi));
         self.follow(shown.facets_log, cx.interacting);
         let stamps = [self.densities.stamp(), self.masking.stamp(), self.pinned.stamp()];
-        let key = (stamps, shown.facets_log, model.masking, [self.tilts.get(), self.range.get()], i18n::current());
+        let picked = cx.derived.picked_theta_r(work);
+        let key = (stamps, shown.facets_log, model.masking, [self.tilts.get(), self.range.get()], picked, i18n::current());
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, work));
+        plot.refresh(key, |_| self.describe(self.densities.get()?, self.masking.get()?, picked, work));
         self.plot = plot;
     }
 
@@ -268,7 +271,7 @@ fn legend_ui(densities: &[Density; 2], pins: &[Pinned], ui: &mut Ui) {
                 Some(half) => tr!("{0}: half at {1}°, median {2}°", name(distribution), format!("{half:.2}"), median),
                 None => tr!("{0}: median {1}°", name(distribution), median),
             };
-            ui.colored_label(theme::series(i, dark), text).on_hover_text(&help);
+            ui.colored_label(theme::series(i, dark), text).explained(&help);
             ui.add_space(8.0);
         }
     });

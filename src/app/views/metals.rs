@@ -107,7 +107,8 @@ impl MetalsView {
 
     /// n and k against the wavelength, side by side.
     fn lines_ui(&mut self, ui: &mut Ui) {
-        let height = (ui.available_height() - ui.spacing().item_spacing.y).max(HEIGHT);
+        let bottom = ui.available_height().min(ui.clip_rect().bottom() - ui.cursor().top());
+        let height = (bottom - ui.spacing().item_spacing.y).max(HEIGHT);
         ui.columns(PARTS.len(), |columns| {
             for ((panel, ui), (parameter, _)) in self.plot.panels().iter_mut().zip(columns).zip(PARTS) {
                 let symbol = parameter.symbol();
@@ -151,20 +152,23 @@ impl View for MetalsView {
         let before = &cx.work.settings().metal_selection;
         let Some(metal) = chosen(before) else { return };
         let (mut tabulated, sliders) = (before.clone(), cx.work.surface().parameters);
-        ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
-            choice_ui(&mut tabulated, metal, ui);
-            wavelength_ui(&mut tabulated.wavelength_nm, cx.work.active().wavelength_nm(), ui);
-            finishes_ui(cx, ui);
-            // The followed source takes the sliders along the wavelength.
-            if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
-                let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
-                let index = followed.and_then(|source| source.index_at(tabulated.wavelength_nm).ok());
-                cx.edits.extend(index.map(|index| set(sliders, index)));
-            }
-            self.sources_ui(&mut tabulated, metal, cx, ui);
-            ui.add_space(4.0);
-            self.lines_ui(ui);
-        });
+        let size = ui.available_size();
+        if size.y < LOW && size.x > WIDE {
+            ui.horizontal_top(|ui| {
+                ui.allocate_ui_with_layout(egui::vec2(TABLE * size.x, size.y), Layout::top_down(Align::Min), |ui| {
+                    ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
+                        self.choices_ui(&mut tabulated, metal, sliders, cx, ui);
+                    });
+                });
+                ui.vertical(|ui| self.lines_ui(ui));
+            });
+        } else {
+            ScrollArea::vertical().id_salt("metals").auto_shrink([false; 2]).show(ui, |ui| {
+                self.choices_ui(&mut tabulated, metal, sliders, cx, ui);
+                ui.add_space(4.0);
+                self.lines_ui(ui);
+            });
+        }
         if tabulated != *before {
             cx.edits.push(Edit::SetMetalSelection(tabulated));
         }
@@ -172,6 +176,23 @@ impl View for MetalsView {
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
         self.plot.figure().cloned()
+    }
+}
+
+impl MetalsView {
+    /// Metal, wavelength, finish, and the table of sources.
+    fn choices_ui(&self, tabulated: &mut MetalSelection, metal: &Metal, sliders: Parameters, cx: &mut Cx<'_>, ui: &mut Ui) {
+        let before = tabulated.clone();
+        choice_ui(tabulated, metal, ui);
+        wavelength_ui(&mut tabulated.wavelength_nm, cx.work.active().wavelength_nm(), ui);
+        finishes_ui(cx, ui);
+        // The followed source takes the sliders along the wavelength.
+        if tabulated.metal == before.metal && tabulated.wavelength_nm != before.wavelength_nm && tabulated.follow {
+            let followed = metal.sources.iter().find(|source| Some(&source.key) == tabulated.source.as_ref());
+            let index = followed.and_then(|source| source.index_at(tabulated.wavelength_nm).ok());
+            cx.edits.extend(index.map(|index| set(sliders, index)));
+        }
+        self.sources_ui(tabulated, metal, cx, ui);
     }
 }
 
@@ -189,10 +210,10 @@ fn name_and_symbol(metal: &Metal) -> String {
 }
 
 fn choice_ui(tabulated: &mut MetalSelection, metal: &Metal, ui: &mut Ui) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let label = ui.label(tr!("Metal"));
         let text = name_and_symbol;
-        let combo = ComboBox::from_id_salt("metal").width(170.0).height(400.0).selected_text(text(metal)).show_ui(ui, |ui| {
+        let combo = ComboBox::from_id_salt("metal").width(130.0).height(400.0).selected_text(text(metal)).show_ui(ui, |ui| {
             for other in optics::metals().into_iter().flatten() {
                 if ui.selectable_label(other.key == metal.key, text(other)).clicked() {
                     tabulated.look_at(Some(other));
@@ -209,7 +230,8 @@ fn wavelength_ui(wavelength_nm: &mut f64, measured: Option<f64>, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let help = tr!("Vacuum wavelength in nm");
         let label = ui.label(tr!("Wavelength")).on_hover_text(help.as_str());
-        ui.spacing_mut().slider_width = 260.0;
+        // The value stands beside it.
+        ui.spacing_mut().slider_width = (ui.available_width() - 90.0).clamp(80.0, 260.0);
         let range = MetalSelection::SHORTEST_NM..=MetalSelection::LONGEST_NM;
         let before = *wavelength_nm;
         let slider = Slider::new(wavelength_nm, range.clone()).show_value(false).step_by(1.0).clamping(SliderClamping::Never);
@@ -237,13 +259,18 @@ impl MetalsView {
             let text = tr!("No source has this wavelength: they span {0} to {1} nm.", low.ceil(), high.floor());
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
+        let has_publication = ui.available_width() >= WITH_SOURCE;
         ui.push_id("sources", |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             let table = TableBuilder::new(ui).striped(true).vscroll(false).cell_layout(Layout::left_to_right(Align::Center));
-            let table = table.column(Column::auto().at_least(190.0).clip(true)).columns(Column::exact(56.0), 2);
-            let table = table.column(Column::auto().at_least(90.0)).column(Column::remainder().clip(true));
+            let columns = if has_publication { 5 } else { 4 };
+            let table =
+                table.column(if has_publication { Column::auto().at_least(190.0).clip(true) } else { Column::remainder().clip(true) });
+            let table = table.columns(Column::exact(56.0), 2).column(Column::auto().at_least(90.0));
+            let table = if has_publication { table.column(Column::remainder().clip(true)) } else { table };
             let table = table.header(ROW, |mut header| {
-                for heading in [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new(), tr!("Published in")] {
+                let headings = [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new(), tr!("Published in")];
+                for heading in headings.into_iter().take(columns) {
                     header.col(|ui| {
                         ui.strong(heading);
                     });
@@ -252,7 +279,7 @@ impl MetalsView {
             table.body(|mut body| {
                 for (i, (source, index)) in metal.sources.iter().zip(found).enumerate() {
                     body.row(ROW, |mut row| {
-                        if source_ui(&mut row, i, source, *index, tabulated) {
+                        if source_ui(&mut row, i, source, *index, tabulated, has_publication) {
                             tabulated.source = Some(source.key.clone());
                             cx.edits.extend(index.map(|index| set(cx.work.surface().parameters, index)));
                         }
@@ -263,13 +290,14 @@ impl MetalsView {
     }
 }
 
-/// One source; whether its button was pressed.
+/// One source, with where it was published if there is room; whether its button was pressed.
 fn source_ui(
     row: &mut TableRow<'_, '_>,
     i: usize,
     source: &MetalSource,
     index: Option<RefractiveIndex>,
     tabulated: &MetalSelection,
+    has_publication: bool,
 ) -> bool {
     let (low, high) = source.range_nm();
     let about = if source.comment.is_empty() { source.citation.clone() } else { format!("{}\n{}", source.citation, source.comment) };
@@ -310,14 +338,22 @@ fn source_ui(
             ui.weak(format!("{low:.0}–{high:.0} nm"));
         }
     });
-    row.col(|ui| {
-        ui.add(egui::Label::new(RichText::new(source.citation.as_str()).weak()).truncate()).on_hover_text(about.as_str());
-    });
+    if has_publication {
+        row.col(|ui| {
+            ui.add(egui::Label::new(RichText::new(source.citation.as_str()).weak()).truncate()).on_hover_text(about.as_str());
+        });
+    }
     pressed
 }
 
 /// Least height of the plots: where there is less room, the pane scrolls.
 const HEIGHT: f32 = 130.0;
+/// Below this height, and over this width, the plots stand beside the table, which has that share of the width.
+const LOW: f32 = 330.0;
+const WIDE: f32 = 560.0;
+const TABLE: f32 = 0.52;
+/// Width from which the table has room for where its sources were published.
+const WITH_SOURCE: f32 = 480.0;
 
 /// Surface finishes, which are not measured.
 fn finishes_ui(cx: &mut Cx<'_>, ui: &mut Ui) {

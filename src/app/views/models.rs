@@ -4,6 +4,7 @@
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
 use crate::app::text::estimate::{uncertainty_help, uncertainty_text};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -189,11 +190,11 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
 fn headings_ui(ui: &mut Ui) {
     ui.strong(tr!("model"));
     ui.label("");
-    ui.strong("ΔE").on_hover_text(glossary::delta_e_help());
+    ui.strong("ΔE").explained(glossary::delta_e_help());
     ui.strong(tr!("Δ ln evidence"))
-        .on_hover_text(tr!("Below that of the model with the largest one; the exponential of the difference is the odds"));
+        .explained(tr!("Below that of the model with the largest one; the exponential of the difference is the odds"));
     ui.strong("ΔAICc")
-        .on_hover_text(tr!("Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"));
+        .explained(tr!("Akaike's corrected criterion above that of the best model: below 2 is hardly worse, above 10 is ruled out"));
     for parameter in Parameter::ALL {
         ui.strong(parameter.symbol()).on_hover_text(translated(parameter.name()));
     }
@@ -203,7 +204,7 @@ fn headings_ui(ui: &mut Ui) {
         ("evaluations", "Of the residuals, all starts together"),
         ("time / ms", "All starts together"),
     ] {
-        ui.strong(translated(heading)).on_hover_text(translated(help));
+        ui.strong(translated(heading)).explained(translated(help));
     }
     ui.end_row();
 }

@@ -6,6 +6,7 @@
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{ColorScale, FigurePlot, Polyline, Range, theme};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::text::numbers::significant;
@@ -35,6 +36,8 @@ pub struct MuellerView {
     /// θr that the numbers belong to, in degrees, negative on the backscatter side; the mirror
     /// direction until the user chooses another.
     cursor: Option<f64>,
+    /// The angle of view picked in the picture that the numbers went to last.
+    picked: Option<f64>,
     matrix: Memo<(SurfaceKey, f64), Option<Mueller>>,
     /// Of curves and matrix by their stamps; the language.
     plot: FigurePlot<([u64; 2], Language)>,
@@ -92,7 +95,7 @@ impl MuellerView {
             ui.add(field).labelled_by(label.id).on_hover_text(help);
             ui.label(tr!("at θi = {}°, Δφ = {}°", settings.theta_i, settings.dphi));
             if let Some(Some(matrix)) = self.matrix.get() {
-                ui.label(tr!("m00 = {} 1/sr", significant(matrix.element(0, 0)))).on_hover_text(tr!("BRDF for unpolarised light in"));
+                ui.label(tr!("m00 = {} 1/sr", significant(matrix.element(0, 0)))).explained(tr!("BRDF for unpolarised light in"));
             }
         });
     }
@@ -110,6 +113,10 @@ impl View for MuellerView {
         let surface = (surface.parameters, surface.model, settings.theta_i, settings.dphi.rem_euclid(360.0));
         let backscatter = settings.show_backscatter || cx.work.active().has_backscatter();
         self.curves.refresh((surface, backscatter), ElementCurves::new);
+        let picked = cx.derived.picked_theta_r(cx.work);
+        if std::mem::replace(&mut self.picked, picked) != picked {
+            self.cursor = picked.or(self.cursor);
+        }
         let theta_r = self.theta_r(settings.theta_i, backscatter);
         self.matrix.refresh((surface, theta_r), |((parameters, model, theta_i, plane), theta_r)| {
             let geometry = in_plane(*theta_i, *plane).geometry(*theta_r)?;

@@ -61,5 +61,15 @@ impl PickedDirection {
 
 /// A line at the angle of view of the picked pixel, between those ends of the vertical axis.
 pub fn mark(theta_r: f64, low: f64, high: f64) -> Series {
-    Series::dashed(tr!("pixel of the picture"), vec![[theta_r, low], [theta_r, high]], Dash::Sparse).colored(MUTED)
+    mark_along(vec![[theta_r, low], [theta_r, high]])
+}
+
+/// The same along that way.
+pub fn mark_along(way: Vec<[f64; 2]>) -> Series {
+    Series::dashed(picked_name(), way, Dash::Sparse).colored(MUTED)
+}
+
+/// What the picked pixel is called in plots.
+pub fn picked_name() -> String {
+    tr!("pixel of the picture")
 }

@@ -13,6 +13,7 @@ use crate::app::text::numbers::significant;
 use crate::app::views::companions::{Pinned, pinned};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{DECADES, ModelCurves, axis_values};
+use crate::app::views::pointing::mark_along;
 use crate::app::work::open_measurement::IncidenceSeries;
 use crate::figure::{Axis, Dash, Figure, Panel, Series};
 use egui::{Key, Ui};
@@ -40,8 +41,8 @@ pub struct PolarLobesView {
 }
 
 /// Of the curves and pinned surfaces by their stamps; the radius, whether it is logarithmic and whether lobes are
-/// filled; the language.
-type PlotKey = ([u64; 2], Option<Range>, [bool; 2], Language);
+/// filled; the picked angle of view; the language.
+type PlotKey = ([u64; 2], Option<Range>, [bool; 2], Option<f64>, Language);
 
 /// Parameters, model, θi, plane.
 type CurveKey = (Parameters, Model, f64, f64);
@@ -211,9 +212,11 @@ impl View for PolarLobesView {
         let Some(radius) = self.radius(log) else { return };
         let title = cx.work.active().title();
         let filled = settings.view_options.filled;
-        let figure_key = ([self.curves.stamp(), self.pinned.stamp()], self.range.get(), [log, filled], i18n::current());
+        let picked = cx.derived.picked_theta_r(cx.work);
+        let figure_key = ([self.curves.stamp(), self.pinned.stamp()], self.range.get(), [log, filled], picked, i18n::current());
         let pins = self.pinned.key().map_or(&[][..], |(pins, ..)| pins).iter().zip(pinned_curves);
-        let pins: Vec<Series> = pins.map(|(pin, curve)| pin.look.stroke(radius.bend(curve))).collect();
+        let mut pins: Vec<Series> = pins.map(|(pin, curve)| pin.look.stroke(radius.bend(curve))).collect();
+        pins.extend(picked.map(|theta_r| mark_along(vec![[0.0, 0.0], direction(theta_r, 1.0)])));
         self.plot.refresh(figure_key, |_| Some(describe(curves, pins, radius, (key.2, key.3), filled, title)));
     }
 

@@ -2,6 +2,7 @@
 //! between table and figures, and the table.
 
 use crate::app::tasks::benchmarks::BenchmarkId;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized;
 use crate::app::views::action::Action;
@@ -90,7 +91,7 @@ pub fn table_ui(name: &str, headings: &[Heading], rows: usize, mut cell: impl Fn
                     ui.with_layout(layout(heading), |ui| {
                         // No text, no translation: an empty one is the head of the catalogue.
                         if !text.is_empty() {
-                            ui.strong(translated(text)).on_hover_text(translated(help));
+                            ui.strong(translated(text)).explained(translated(help));
                         }
                     });
                 });

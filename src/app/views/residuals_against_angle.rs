@@ -9,6 +9,7 @@ use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, Residual, residuals};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn, figure_title, is_fitted};
+use crate::app::views::pointing::mark;
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
 use crate::figure::{Axis, Figure, Panel, Series};
@@ -38,8 +39,8 @@ pub struct ResidualsAgainstAngleView {
 }
 
 /// Of the residuals and the companions by their stamps; whether the backscatter side is drawn; the axes; the
-/// language.
-type PlotKey = ([u64; 2], bool, [Option<Range>; 2], Language);
+/// picked angle of view; the language.
+type PlotKey = ([u64; 2], bool, [Option<Range>; 2], Option<f64>, Language);
 
 /// Residuals of one measured quantity.
 struct QuantityResiduals {
@@ -158,11 +159,17 @@ impl View for ResidualsAgainstAngleView {
         }
         let ranges = &self.ranges;
         let stamps = [self.residuals.stamp(), cx.derived.companions.stamp()];
-        let key = (stamps, curves.backscatter, [ranges[0].get(), ranges[1].get()], i18n::current());
+        let picked = cx.derived.picked_theta_r(cx.work);
+        let key = (stamps, curves.backscatter, [ranges[0].get(), ranges[1].get()], picked, i18n::current());
         self.plot.refresh(key, |_| {
             let x = curves.x().on(Axis::linear("θr", "°"));
             let panels = residuals.iter().zip(ranges).enumerate();
-            let panels: Vec<Panel> = panels.map(|(i, (residuals, range))| residuals.panel(marks, &companions, &x, range, i == 0)).collect();
+            let panel = |(i, (residuals, range)): (usize, (&QuantityResiduals, &AutoRange))| {
+                let mut panel = residuals.panel(marks, &companions, &x, range, i == 0);
+                panel.series.extend(picked.zip(range.get()).map(|(theta_r, range)| mark(theta_r, range.low, range.high)));
+                panel
+            };
+            let panels: Vec<Panel> = panels.map(panel).collect();
             (!panels.is_empty()).then(|| Figure { title: figure_title(cx.work), panels, ..Figure::default() })
         });
     }

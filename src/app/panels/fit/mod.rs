@@ -10,6 +10,7 @@ mod weakest;
 
 use crate::app::jobs::job::Job;
 use crate::app::plots::theme;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary;
 use crate::app::views::action::Action;
 use crate::app::views::{Cx, note_stop};
@@ -43,7 +44,7 @@ pub fn fit_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         match jobs.fits.fit.job().map(Job::progress) {
             Some(Some(point)) => ui.label(tr!("{0} evaluations, ΔE = {1}", point.evaluations, format!("{:.4e}", point.objective))),
             Some(None) => ui.label(tr!("Fitting…")),
-            None => ui.label(tr!("Sliders: {}", delta_e_text(cx.derived.delta_e()))).on_hover_text(glossary::delta_e_help()),
+            None => ui.label(tr!("Sliders: {}", delta_e_text(cx.derived.delta_e()))).explained(glossary::delta_e_help()),
         };
         options::options_ui(cx, ui);
         let outlook = ui.collapsing(tr!("What these data determine"), |ui| outlook::outlook_ui(cx.derived.outlook(), ui));

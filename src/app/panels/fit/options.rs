@@ -1,6 +1,7 @@
 //! The choices of a fit: what is minimised, and from where.
 
 use crate::app::plots::theme;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n::translated;
 use crate::app::views::Cx;
 use crate::app::work::edit::Edit;
@@ -65,7 +66,7 @@ pub fn options_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
 /// One choice out of a few, with its name in front; true when it changed.
 fn choice_ui<T: PartialEq + Copy>(ui: &mut Ui, name: &str, help: &str, value: &mut T, options: &[(T, &str)]) -> bool {
     let before = *value;
-    let label = ui.label(translated(name)).on_hover_text(translated(help));
+    let label = ui.label(translated(name)).explained(translated(help));
     let chosen = options.iter().find(|(option, _)| option == value).map_or_else(String::new, |(_, text)| translated(text));
     let combo = ComboBox::from_id_salt(name).width(150.0).selected_text(chosen).show_ui(ui, |ui| {
         for (option, text) in options {
@@ -107,7 +108,7 @@ fn loss_ui(fit_options: &mut FitOptions, ui: &mut Ui) {
     }
     let help = tr!("Where the loss changes from squares to sizes, in units of the residual; automatic: 1.345 × the normalised median \
          absolute deviation of the residuals of a linear fit.");
-    let label = ui.label(tr!("Loss scale")).on_hover_text(&help);
+    let label = ui.label(tr!("Loss scale")).explained(&help);
     ui.horizontal(|ui| {
         let mut automatic = fit_options.loss_scale.is_none();
         if ui.checkbox(&mut automatic, tr!("automatic")).on_hover_text(&help).changed() {
@@ -145,7 +146,7 @@ fn keep_ks_where_only_ratios_count(surface: &mut Surface, has_brdf: bool) {
 fn range_ui(fit_options: &mut FitOptions, ui: &mut Ui) {
     let help = tr!("Rows outside are left out of the fit, as masked ones are; θr is negative on the backscatter side");
     let mut is_part = fit_options.range.is_some();
-    ui.label(tr!("Angles")).on_hover_text(&help);
+    ui.label(tr!("Angles")).explained(&help);
     if ui.checkbox(&mut is_part, tr!("only a range")).on_hover_text(&help).changed() {
         fit_options.range = is_part.then(FitRange::default);
     }
@@ -174,7 +175,7 @@ fn weights_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
         return;
     }
     let help = tr!("How often its squared residuals count in a fit of several measurements");
-    ui.label(tr!("Weight of each measurement")).on_hover_text(&help);
+    ui.label(tr!("Weight of each measurement")).explained(&help);
     for open in list.measured() {
         // The number first: the name has the rest of the width.
         ui.horizontal(|ui| {
@@ -193,11 +194,10 @@ fn stopping_rule_ui(rule: &mut StoppingRule, ui: &mut Ui) {
     let label = ui.label(tr!("Starts at most"));
     ui.add(DragValue::new(&mut rule.most_starts).range(1..=MOST_STARTS)).labelled_by(label.id);
     ui.end_row();
-    let label = ui.label(tr!("Hits of the best")).on_hover_text(tr!("So many starts end in the best minimum before the search ends"));
+    let label = ui.label(tr!("Hits of the best")).explained(tr!("So many starts end in the best minimum before the search ends"));
     ui.add(DragValue::new(&mut rule.hits).range(1..=MOST_STARTS)).labelled_by(label.id);
     ui.end_row();
-    let label =
-        ui.label(tr!("Unseen share below")).on_hover_text(tr!("Expected share of further starts that end in a minimum not seen yet"));
+    let label = ui.label(tr!("Unseen share below")).explained(tr!("Expected share of further starts that end in a minimum not seen yet"));
     ui.add(DragValue::new(&mut rule.unseen_share).range(0.0..=1.0).speed(0.001)).labelled_by(label.id);
     ui.end_row();
 }
@@ -232,7 +232,7 @@ fn starts_ui(draft: &mut Draft, ui: &mut Ui) {
         ui.end_row();
     }
     if draft.starts != Starts::One {
-        let label = ui.label(tr!("Seed")).on_hover_text(tr!("The same seed gives the same starts, and the same result, on every machine"));
+        let label = ui.label(tr!("Seed")).explained(tr!("The same seed gives the same starts, and the same result, on every machine"));
         ui.add(DragValue::new(&mut draft.seed).speed(0.1)).labelled_by(label.id);
         ui.end_row();
     }

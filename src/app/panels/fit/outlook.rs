@@ -1,5 +1,6 @@
 //! What a fit from the sliders would determine, before it is made.
 
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary::open_help;
 use crate::app::views::derived::Identifiability;
 use egui::{Grid, Ui};
@@ -27,7 +28,7 @@ pub fn outlook_ui(outlook: Option<&Identifiability>, ui: &mut Ui) {
             ui.label(parameter.symbol());
             match error {
                 Some(error) => ui.label(format!("± {} {}", significant(*error, 2), parameter.unit())),
-                None => ui.label(tr!("not determined")).on_hover_text(open_help()),
+                None => ui.label(tr!("not determined")).explained(open_help()),
             };
             ui.end_row();
         }

@@ -4,6 +4,7 @@ use crate::app::panels::delta_e_text;
 use crate::app::plots::theme;
 use crate::app::tasks::fits::FitJobs;
 use crate::app::text::estimate::{bound_text, uncertainty_help, uncertainty_text};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized;
@@ -86,7 +87,7 @@ fn summary_ui(fit: &FitEntry, ui: &mut Ui) {
             (tr!("Time"), effort_text(report), tr!("Of all starts together; an evaluation is the model at all rows once")),
         ] {
             if !value.is_empty() {
-                ui.label(name).on_hover_text(help.as_str());
+                ui.label(name).explained(help.as_str());
                 let value = |ui: &mut Ui| {
                     ui.set_max_width(SUMMARY);
                     ui.add(egui::Label::new(value).wrap())
@@ -107,7 +108,7 @@ fn open_ui(fit: &FitEntry, ui: &mut Ui) {
         return;
     }
     ui.add_space(6.0);
-    ui.strong(tr!("The data leave open:")).on_hover_text(glossary::open_help());
+    ui.strong(tr!("The data leave open:")).explained(glossary::open_help());
     for what in &open {
         ui.add(egui::Label::new(format!("• {what}")).wrap());
     }
@@ -135,16 +136,16 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
         .into_iter()
         .filter(|(heading, _)| with_start || *heading != "start")
         {
-            ui.strong(translated(heading)).on_hover_text(translated(help));
+            ui.strong(translated(heading)).explained(translated(help));
         }
         if let Some(bootstrap) = bootstrap {
-            ui.strong(tr!("± boot")).on_hover_text(bootstrap_help(bootstrap));
+            ui.strong(tr!("± boot")).explained(bootstrap_help(bootstrap));
         }
         ui.end_row();
         report.estimates.iter().filter(is_own).for_each(|estimate| row(estimate, ui));
         let mut shared = report.estimates.iter().filter(|estimate| !is_own(estimate)).peekable();
         if shared.peek().is_some() {
-            ui.weak(tr!("shared")).on_hover_text(tr!("One value for all measurements of the fit"));
+            ui.weak(tr!("shared")).explained(tr!("One value for all measurements of the fit"));
             ui.end_row();
         }
         shared.for_each(|estimate| row(estimate, ui));

@@ -15,7 +15,7 @@ use crate::app::shell::theme;
 use crate::app::storage::export;
 use crate::app::storage::export::ExportKind;
 use crate::app::text::messages::WindowWording;
-use crate::app::views::action::Action;
+use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::table_text;
 use crate::app::work::edit::Edit;
 use crate::app::work::layout::Layout;
@@ -95,43 +95,41 @@ pub fn execute(app: &mut App, ctx: &egui::Context, action: Action) -> Result<(),
         Action::RequestPaste => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
         Action::MarkDirection(picked) => app.derived.picked = Some(picked),
         Action::ShowOutlook(is_shown) => app.derived.is_outlook_shown = is_shown,
-        of_window => execute_window(app, ctx, &of_window),
+        Action::Window(action) => execute_window(app, ctx, action),
     }
     Ok(())
 }
 
-/// The actions that change how the window stands and nothing of the work.
-fn execute_window(app: &mut App, ctx: &egui::Context, action: &Action) {
-    match *action {
-        Action::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
-        Action::ShowPane(pane) => app.dock.show(pane),
-        Action::ClosePane(pane) => app.dock.close(pane),
-        Action::FillWindow(pane) => app.dock.fill(pane),
-        Action::Present => presentation::toggle(app, ctx),
-        Action::ChooseTalkSlider(slider) => app.window.talk.toggle(slider),
-        Action::ToggleSpotlight => app.window.talk.spotlight = !app.window.talk.spotlight,
-        Action::TogglePanel(panel) => app.window.panels.toggle(panel),
-        Action::Zoom(step) => zoom(ctx, step),
-        Action::ResetLayout => reset_layout(app),
-        Action::ForgetRecent => app.window.recent.clear(),
-        Action::OpenPalette => app.dialogs.palette.open(),
-        Action::ShowHelp(page) => app.dialogs.help = Some(page),
-        Action::CloseHelp => app.dialogs.help = None,
-        Action::ShowTour(step) => app.dialogs.tour = Some(step),
-        Action::EndTour => {
+/// Carries out what changes how the window stands.
+fn execute_window(app: &mut App, ctx: &egui::Context, action: WindowAction) {
+    match action {
+        WindowAction::ToggleFrameTimes => app.window.show_frame_times = !app.window.show_frame_times,
+        WindowAction::ShowPane(pane) => app.dock.show(pane),
+        WindowAction::ClosePane(pane) => app.dock.close(pane),
+        WindowAction::FillWindow(pane) => app.dock.fill(pane),
+        WindowAction::Present => presentation::toggle(app, ctx),
+        WindowAction::ChooseTalkSlider(slider) => app.window.talk.toggle(slider),
+        WindowAction::ToggleSpotlight => app.window.talk.spotlight = !app.window.talk.spotlight,
+        WindowAction::TogglePanel(panel) => app.window.panels.toggle(panel),
+        WindowAction::Zoom(step) => zoom(ctx, step),
+        WindowAction::ResetLayout => reset_layout(app),
+        WindowAction::ForgetRecent => app.window.recent.clear(),
+        WindowAction::OpenPalette => app.dialogs.palette.open(),
+        WindowAction::ShowHelp(page) => app.dialogs.help = Some(page),
+        WindowAction::CloseHelp => app.dialogs.help = None,
+        WindowAction::ShowTour(step) => app.dialogs.tour = Some(step),
+        WindowAction::EndTour => {
             app.dialogs.tour = None;
             app.window.knows_tour = true;
         }
-        Action::DismissToast(place) => app.toasts.dismiss(place),
-        Action::DismissToasts => app.toasts.clear(),
-        Action::SetLanguage(language) => app.window.language = language,
-        Action::SetTheme(theme) => {
+        WindowAction::DismissToast(place) => app.toasts.dismiss(place),
+        WindowAction::DismissToasts => app.toasts.clear(),
+        WindowAction::SetLanguage(language) => app.window.language = language,
+        WindowAction::SetTheme(theme) => {
             app.window.theme = theme;
             theme::set(ctx, theme);
         }
-        Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-        // Those of the work are carried out above.
-        _ => {}
+        WindowAction::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::app::shell::app::arrange::adapt;
 use crate::app::shell::command_palette::palette_ui;
 use crate::app::shell::help_ui::help_ui;
 use crate::app::shell::import_ui::import_ui;
-use crate::app::shell::lesson_ui::lesson_and_panes_ui;
+use crate::app::shell::lesson_ui::{lesson_and_panes_ui, low_lesson_ui};
 use crate::app::shell::menu_bar::menu_ui;
 use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::presentation::presentation_ui;
@@ -36,6 +36,7 @@ pub fn ui(app: &mut App, ui: &mut Ui) {
     } else {
         Panel::top("menu").show(ui, |ui| menu_ui(app, ui));
         Panel::bottom("status").show(ui, |ui| status_ui(app, ui));
+        low_lesson_ui(app, ui);
         side_panels_ui(app, ui);
         middle_ui(app, ui);
     }
@@ -84,11 +85,12 @@ fn small_ui(app: &mut App, ui: &mut Ui) {
 }
 
 /// Widths in points: below the first one panel is seen at a time; what the panels have by themselves
-/// and at least.
-const NARROW: f32 = 1100.0;
+/// and at least. At the first width both have their least, and the plots half of the window.
+const NARROW: f32 = 1230.0;
 const PARAMETERS: f32 = 366.0;
 const FIT: f32 = 320.0;
-const LEAST: f32 = 240.0;
+const LEAST_PARAMETERS: f32 = 290.0;
+const LEAST_FIT: f32 = 280.0;
 /// What the frames of a panel take besides.
 const FRAME: f32 = 20.0;
 
@@ -104,7 +106,7 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     let has_parameters = app.window.panels.parameters;
     if width < NARROW {
         if has_parameters || has_fit {
-            let panel = Panel::left("side").resizable(false).exact_size(PARAMETERS.min(half - FRAME));
+            let panel = Panel::left("side").resizable(false).exact_size(FIT.min(half - FRAME));
             panel.show(ui, |ui| {
                 let is_fit = if has_parameters && has_fit { front_ui(app, ui) == SidePanel::Fit } else { has_fit };
                 if is_fit { panels::fit_ui(&mut app.split().0, ui) } else { parameters_ui(app, ui) }
@@ -114,13 +116,15 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     }
     let mut left = 0.0;
     if has_parameters {
-        let most = if has_fit { half - LEAST - FRAME } else { half - FRAME };
-        let panel = Panel::left("parameters").default_size(PARAMETERS.min(most)).size_range(PARAMETERS.min(most)..=most);
+        let most = half - FRAME - if has_fit { LEAST_FIT + FRAME } else { 0.0 };
+        // What the fit has by itself is left to it, as far as the sliders can do without.
+        let usual = if has_fit { (half - FIT - 2.0 * FRAME).clamp(LEAST_PARAMETERS, PARAMETERS) } else { PARAMETERS.min(most) };
+        let panel = Panel::left("parameters").default_size(usual).size_range(usual..=most.max(usual));
         left = panel.show(ui, |ui| parameters_ui(app, ui)).response.rect.width();
     }
     if has_fit {
-        let most = (half - left - FRAME).max(LEAST);
-        let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(LEAST..=most);
+        let most = (half - left - FRAME).max(LEAST_FIT);
+        let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(LEAST_FIT..=most);
         panel.show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
     }
 }

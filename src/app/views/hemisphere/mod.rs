@@ -14,6 +14,7 @@ use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::MOST_POINTS;
+use crate::app::views::pointing::picked_name;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::settings::{Compared, HemisphereQuantity};
 use crate::app::work::workspace::Workspace;
@@ -45,8 +46,8 @@ pub struct HemisphereView {
 }
 
 /// The map by its inputs, what it shows, the name of what is taken off, the range of its colours, the
-/// measured directions by their stamp, the language.
-type FigureKey = (MapKey, HemisphereQuantity, Option<String>, Option<Range>, u64, Language);
+/// measured directions by their stamp, the picked direction, the language.
+type FigureKey = (MapKey, HemisphereQuantity, Option<String>, Option<Range>, u64, Option<[f64; 2]>, Language);
 
 /// The surface of a reference and its name.
 fn surface_of(reference: Compared, work: &Workspace) -> Option<(String, (Parameters, Model))> {
@@ -156,7 +157,14 @@ impl HemisphereView {
 
     /// The map with what lies on it, over degrees of θr from the middle outwards, so that axes can
     /// tell them.
-    fn describe(&self, made: &Made, (quantity, range): (HemisphereQuantity, Range), less: Option<&str>, title: String) -> Figure {
+    fn describe(
+        &self,
+        made: &Made,
+        (quantity, range): (HemisphereQuantity, Range),
+        less: Option<&str>,
+        picked: Option<[f64; 2]>,
+        title: String,
+    ) -> Figure {
         let theta_i = made.theta_i;
         let axis = if made.is_difference() { quantity.axis_of_difference() } else { quantity.axis() };
         let mut series = vec![Series::heat_map(made.heat_map(quantity, range, axis))];
@@ -177,6 +185,7 @@ impl HemisphereView {
         }
         series.push(mark(tr!("incident ray"), vec![place(theta_i, 0.0)], Symbol::Disc));
         series.push(mark(tr!("mirror direction"), vec![place(theta_i, 180.0)], Symbol::Cross));
+        series.extend(picked.map(|at| mark(picked_name(), vec![at], Symbol::Square)));
         let axis = |label| Axis { ticks: Some(ticks(&[-90, -60, -30, 0, 30, 60, 90])), ..Axis::linear(label, "°").between(-90.0, 90.0) };
         let panel = Panel {
             title: match less.filter(|_| made.is_difference()) {
@@ -249,8 +258,9 @@ impl View for HemisphereView {
         range.follow(wanted, cx.interacting);
         let range = range.get();
         let mut plot = std::mem::take(&mut self.plot);
-        plot.refresh((*key, quantity, name, range, self.measured.stamp(), i18n::current()), |(_, _, name, ..)| {
-            Some(self.describe(made, (quantity, range?), name.as_deref(), cx.work.active().title()))
+        let picked = cx.derived.picked_theta_r(cx.work).map(|theta_r| place(theta_r, settings.dphi));
+        plot.refresh((*key, quantity, name, range, self.measured.stamp(), picked, i18n::current()), |(_, _, name, ..)| {
+            Some(self.describe(made, (quantity, range?), name.as_deref(), picked, cx.work.active().title()))
         });
         self.plot = plot;
     }

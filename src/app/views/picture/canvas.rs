@@ -2,7 +2,7 @@
 
 use crate::app::plots::{BAR_ROOM, PlotAxis, color_bar, theme};
 use crate::app::views::picture::painted::{PaintedScene, texts};
-use egui::{Pos2, Rect, Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
+use egui::{Pos2, Rect, Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
 use pbrdf::model::Lamp;
 use std::sync::Arc;
 use tr::tr;
@@ -57,8 +57,8 @@ fn highlight(lamp: &Lamp) -> [f64; 2] {
 }
 
 impl PictureCanvas {
-    /// Paints the picture and tells what the pointer did.
-    pub fn ui(&mut self, made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64; 2]>, height: f32, ui: &mut Ui) -> Touched {
+    /// Paints the picture in that room and tells what the pointer did.
+    pub fn ui(&mut self, made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64; 2]>, room: Vec2, ui: &mut Ui) -> Touched {
         if self.uploaded.as_ref().is_none_or(|uploaded| !Arc::ptr_eq(uploaded, &made.pixels)) {
             let image = egui::ImageData::Color(made.pixels.clone());
             match &mut self.texture {
@@ -67,8 +67,8 @@ impl PictureCanvas {
             }
             self.uploaded = Some(made.pixels.clone());
         }
-        let side = height.min(ui.available_width() - BAR_ROOM - 8.0).max(60.0);
-        let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let side = room.y.min(room.x - BAR_ROOM - 8.0).max(60.0);
+        let (whole, response) = ui.allocate_exact_size(room, Sense::hover());
         let left = whole.left() + 0.5 * (whole.width() - side - BAR_ROOM).max(0.0);
         let rect = Rect::from_min_size(pos2(left, whole.top()), vec2(side, side));
         let response = ui.interact(rect, response.id.with("picture"), Sense::click_and_drag());

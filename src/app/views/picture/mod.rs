@@ -9,6 +9,7 @@ mod painted;
 
 use crate::app::jobs::async_memo::AsyncMemo;
 use crate::app::jobs::memo::Memo;
+use crate::app::plots::BAR_ROOM;
 use crate::app::text::numbers::significant;
 use crate::app::views::action::Action;
 use crate::app::views::context::{Cx, PaneSpec, View};
@@ -21,7 +22,7 @@ use crate::app::work::picture_scene::SceneKey;
 use crate::figure::Figure;
 use crate::report::PictureQuantity;
 use canvas::{MeasuredMark, PictureCanvas};
-use egui::Ui;
+use egui::{Align, Layout, Ui, vec2};
 use painted::{PaintedKey, PaintedScene};
 use pbrdf::model::{Lamp, Pbrdf, Shape};
 use pbrdf::optics::{Geometry, Stokes};
@@ -142,6 +143,17 @@ impl PictureView {
     }
 }
 
+/// Between the picture and words beside it, and their width at least and at most.
+const GAP: f32 = 12.0;
+const WORDS: [f32; 2] = [150.0, 320.0];
+
+/// What a text takes of the height of the pane, on as many lines as it needs.
+fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout(text.to_owned(), font, egui::Color32::PLACEHOLDER, width);
+    galley.size().y + ui.spacing().item_spacing.y
+}
+
 /// A Stokes vector in words.
 fn stokes_text(stokes: Stokes, options: &PictureOptions) -> String {
     let [s0, s1, s2, _] = stokes.0.into();
@@ -182,31 +194,46 @@ impl View for PictureView {
             ui.ctx().request_repaint();
         }
         let options = self.options(cx);
-        // Two lines below, whatever they say: the picture does not jump.
-        let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
-        let side = (ui.available_height() - 2.0 * line).max(60.0);
-        let mut pointer = None;
-        if let Some(Some(made)) = self.job.get() {
-            let marks = self.measured.get().map_or(&[][..], Vec::as_slice);
-            let touched = self.canvas.ui(made, marks, self.chosen, side, ui);
-            pointer = touched.hovered;
-            if let Some((polar, azimuth)) = touched.lamp.filter(|_| set.lamp) {
-                (set.polar, set.azimuth) = (polar, azimuth);
-            }
-            if let Some(at) = touched.clicked {
-                self.chosen = Some(at);
-                if let Some(picked) = self.direction(at) {
-                    cx.edits.push(Edit::SetDirection { theta_i: picked.theta_i, dphi: picked.dphi });
-                    cx.actions.push(Action::MarkDirection(picked));
+        let hint = tr!("The pointer reads a pixel; a click takes its θi, θr and Δφ to the other plots; dragging moves the lamp.");
+        let lesson = self.lesson();
+        // The room of the hint, whatever is read: the picture does not jump.
+        let size = ui.available_size();
+        // Where there is room beside the picture, words stand there.
+        let beside = (size.x - size.y - BAR_ROOM - GAP).min(WORDS[1]);
+        let is_beside = beside > WORDS[0];
+        let room = wrapped_height(&hint, if is_beside { beside } else { size.x }, ui);
+        let below = room + lesson.as_ref().map_or(0.0, |lesson| wrapped_height(lesson, size.x, ui));
+        let side = (size.y - if is_beside { 0.0 } else { below }).max(60.0);
+        let layout = if is_beside { Layout::left_to_right(Align::Min) } else { Layout::top_down(Align::Min) };
+        ui.with_layout(layout, |ui| {
+            let mut pointer = None;
+            if let Some(Some(made)) = self.job.get() {
+                let marks = self.measured.get().map_or(&[][..], Vec::as_slice);
+                let width = if is_beside { size.x - beside - GAP } else { size.x };
+                let touched = self.canvas.ui(made, marks, self.chosen, vec2(width, side), ui);
+                pointer = touched.hovered;
+                if let Some((polar, azimuth)) = touched.lamp.filter(|_| set.lamp) {
+                    (set.polar, set.azimuth) = (polar, azimuth);
+                }
+                if let Some(at) = touched.clicked {
+                    self.chosen = Some(at);
+                    if let Some(picked) = self.direction(at) {
+                        cx.edits.push(Edit::SetDirection { theta_i: picked.theta_i, dphi: picked.dphi });
+                        cx.actions.push(Action::MarkDirection(picked));
+                    }
                 }
             }
-        }
-        let reading = pointer.and_then(|at| self.reading(at, &options));
-        let hint = || tr!("The pointer reads a pixel; a click takes its θi, θr and Δφ to the other plots; dragging moves the lamp.");
-        ui.add(egui::Label::new(reading.unwrap_or_else(hint)).truncate());
-        if let Some(lesson) = self.lesson() {
-            ui.add(egui::Label::new(egui::RichText::new(&lesson).weak()).truncate()).on_hover_text(lesson);
-        }
+            ui.vertical(|ui| {
+                let reading = pointer.and_then(|at| self.reading(at, &options));
+                ui.scope(|ui| {
+                    ui.set_min_height(room - ui.spacing().item_spacing.y);
+                    ui.add(egui::Label::new(reading.unwrap_or(hint)).wrap());
+                });
+                if let Some(lesson) = lesson {
+                    ui.add(egui::Label::new(egui::RichText::new(lesson).weak()).wrap());
+                }
+            });
+        });
         if set != cx.work.settings().panes.picture {
             cx.edits.push(Edit::SetPictureOptions(set));
         }

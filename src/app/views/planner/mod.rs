@@ -43,7 +43,8 @@ pub struct PlannerView {
     pub predictions: Memo<Key, [Result<PredictedErrors, String>; 2]>,
     /// What the next reading would gain at each pair of angles, θr by θr; a sentence where that is not defined.
     pub gains: AsyncMemo<Key, Result<Vec<f64>, String>>,
-    plane: FigurePlot<(Key, bool)>,
+    /// With whether the gains are those of the angles, and the picked θi and θr.
+    plane: FigurePlot<(Key, bool, Option<[f64; 2]>)>,
 }
 
 /// Width that a plan and what it brings need side by side.
@@ -70,8 +71,10 @@ impl View for PlannerView {
         if let (Some(key), Some(gains)) = (self.gains.key(), self.gains.get()) {
             let is_current = key.3.lists() == design.lists();
             let gains = gains.as_ref().ok().filter(|_| is_current);
-            let figure_key = (key.clone(), is_current);
-            self.plane.refresh(figure_key, |_| gains.map(|gains| plane::describe(gains, design, document)));
+            let theta_i = cx.work.settings().theta_i;
+            let picked = cx.derived.picked_theta_r(cx.work).map(|theta_r| [theta_r, theta_i]);
+            let figure_key = (key.clone(), is_current, picked);
+            self.plane.refresh(figure_key, |_| gains.map(|gains| plane::describe(gains, design, picked, document)));
         }
     }
 

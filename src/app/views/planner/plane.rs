@@ -3,6 +3,7 @@
 use crate::app::plots::theme::{MARK, WHITE};
 use crate::app::plots::{FigurePlot, PanelStyle};
 use crate::app::text::numbers::short;
+use crate::app::views::pointing::picked_name;
 use crate::app::work::design::{DesignGoal, DesignSettings};
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::figure::{Axis, ColorMap, Figure, HeatMap, Panel, Point, Series, Symbol};
@@ -10,13 +11,16 @@ use egui::Ui;
 use pbrdf::optics::Geometry;
 use tr::tr;
 
-/// Height on the screen.
+/// Height on the screen, at most and at least, and that of a line of words.
 const HEIGHT: f32 = 250.0;
+const LEAST_HEIGHT: f32 = 140.0;
+const LINE: f32 = 24.0;
 /// Cells along a side, at most.
 const MOST_CELLS: usize = 200;
 
-/// The figure of gains, θi by θi and θr by θr, with what is measured and what is planned.
-pub fn describe(gains: &[f64], design: &DesignSettings, document: &OpenMeasurement) -> Figure {
+/// The figure of gains, θi by θi and θr by θr, with what is measured and what is planned, and the θr and θi of
+/// the picked pixel of the picture.
+pub fn describe(gains: &[f64], design: &DesignSettings, picked: Option<[f64; 2]>, document: &OpenMeasurement) -> Figure {
     let [theta_i, theta_r] = design.lists().map(once);
     let (x, y) = (Cells::of(&theta_r), Cells::of(&theta_i));
     let value = |row: usize, column: usize| {
@@ -43,6 +47,7 @@ pub fn describe(gains: &[f64], design: &DesignSettings, document: &OpenMeasureme
         let planned = design.readings.iter().map(|[theta_i, theta_r]| [*theta_r, *theta_i]).collect();
         series.push(Series::measured(tr!("planned"), points(planned), Symbol::Disc).colored(MARK));
     }
+    series.extend(picked.map(|at| Series::measured(picked_name(), points(vec![at]), Symbol::Square).colored(MARK)));
     let title = tr!("What the next reading would gain");
     let (x, y) = (Axis::linear("θr", "°").between(x.low, x.high()), Axis::linear("θi", "°").between(y.low, y.high()));
     Figure { title, panels: vec![Panel { x, y, series, ..Panel::default() }], ..Figure::default() }
@@ -124,8 +129,12 @@ pub fn plane_ui<K: PartialEq>(plane: &mut FigurePlot<K>, gains: &[f64], design: 
     let panel = plane.panel(0)?;
     panel.key_line_ui(ui);
     let hover = |name: &str, x: f64, y: f64| format!("{name}\nθi = {y}°, θr = {x}°");
-    let style = PanelStyle::new("plane of angles", HEIGHT, &hover).named(tr!("Map: what the next reading would gain at θr and θi"));
-    let response = panel.ui(&style, ui)?;
+    // Where the pane is low, the whole of it is seen without scrolling.
+    let height = HEIGHT.min(ui.clip_rect().height() - 2.0 * LINE).max(LEAST_HEIGHT);
+    let style = PanelStyle::new("plane of angles", height, &hover).named(tr!("Map: what the next reading would gain at θr and θi"));
+    // Within the edge of what scrolls, which would cut the title of the axis.
+    let response =
+        egui::Frame::new().inner_margin(egui::Margin { left: 4, ..egui::Margin::ZERO }).show(ui, |ui| panel.ui(&style, ui)).inner?;
     let nearest = |angles: &[f64], at: f64| (0..angles.len()).min_by(|&a, &b| (angles[a] - at).abs().total_cmp(&(angles[b] - at).abs()));
     let at = response.response.hover_pos().map(|pointer| response.transform.value_from_position(pointer));
     let pair = at.and_then(|at| Some((nearest(&theta_i, at.y)?, nearest(&theta_r, at.x)?)));

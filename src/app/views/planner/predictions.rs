@@ -1,6 +1,7 @@
 //! The errors before and after a plan.
 
 use crate::app::plots::theme;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::glossary::open_help;
 use crate::app::text::i18n::translated;
 use crate::app::text::localized::Localized as _;
@@ -51,7 +52,7 @@ pub fn predictions_ui(work: &Workspace, view: &PlannerView, ui: &mut Ui) {
             if heading.is_empty() {
                 ui.scope(|_| ());
             } else {
-                ui.strong(translated(heading)).on_hover_text(translated(help));
+                ui.strong(translated(heading)).explained(translated(help));
             }
         }
         ui.end_row();
@@ -81,7 +82,7 @@ fn error_row_ui(
     for prediction in [now, planned] {
         match (prediction, error(prediction)) {
             (Err(_), _) => _ = ui.monospace("-"),
-            (Ok(_), None) => _ = ui.monospace(tr!("open")).on_hover_text(open_help()),
+            (Ok(_), None) => _ = ui.monospace(tr!("open")).explained(open_help()),
             (Ok(prediction), Some(error)) if !prediction.determined.contains(parameter) => {
                 ui.monospace(tr!("not determined")).on_hover_text(format!("± {}", short(error)));
             }

@@ -1,6 +1,7 @@
 //! What the draws say of each parameter, in numbers.
 
 use crate::app::plots::theme;
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n::translated;
 use crate::app::work::posterior::DrawnPosterior;
 use crate::report::FittedMark;
@@ -28,7 +29,7 @@ pub fn summary_ui(drawn: &DrawnPosterior, fitted: &[Option<FittedMark>], place: 
             for (quantity, of_sets) in &drawn.derived {
                 let Some(summary) = of_sets.get(place) else { continue };
                 let unit = if quantity.unit().is_empty() { String::new() } else { format!(" / {}", quantity.unit()) };
-                ui.label(format!("{}{unit}", translated(quantity.symbol()))).on_hover_text(translated(derived_help(*quantity)));
+                ui.label(format!("{}{unit}", translated(quantity.symbol()))).explained(translated(derived_help(*quantity)));
                 summary_cells_ui(summary, ui);
                 ui.scope(|_| ());
                 ui.end_row();
@@ -70,7 +71,7 @@ fn headings_ui(ui: &mut Ui) {
         if heading.is_empty() {
             ui.scope(|_| ());
         } else {
-            ui.strong(translated(heading)).on_hover_text(translated(help));
+            ui.strong(translated(heading)).explained(translated(help));
         }
     }
     ui.end_row();
