@@ -2,7 +2,7 @@
 
 use crate::app::plots::theme;
 use crate::figure::SERIES;
-use egui::{Align, Button, Grid, Key, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Grid, Key, Layout, RichText, Role, TextEdit, TextStyle, Ui, WidgetInfo, vec2};
 use tr::tr;
 
 /// Height of a row.
@@ -11,6 +11,22 @@ pub const HEIGHT: f32 = 20.0;
 /// One row of fixed height.
 pub fn row(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), content);
+}
+
+/// What begins a row that ends with controls of that width: all are drawn, and reached by the Tab key, from left to right.
+pub fn before_ui(rest: f32, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    let width = (ui.available_width() - rest - ui.spacing().item_spacing.x).max(0.0);
+    ui.allocate_ui_with_layout(vec2(width, HEIGHT), Layout::left_to_right(Align::Center), |ui| {
+        ui.set_width(width);
+        content(ui);
+    });
+}
+
+/// Width of a button with that text.
+pub fn button_width(text: &str, ui: &Ui) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    let text = ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER).size().x;
+    text + 2.0 * ui.spacing().button_padding.x
 }
 
 /// An entry of a menu; whether it was chosen.

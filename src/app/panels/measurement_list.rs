@@ -1,7 +1,7 @@
 //! The open measurements: which are drawn, which one the sliders belong to, and how far each surface
 //! is from its data.
 
-use crate::app::panels::list_row::{HEIGHT, Renaming, colors_ui, item_ui, row};
+use crate::app::panels::list_row::{HEIGHT, Renaming, before_ui, colors_ui, item_ui, row};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::{symbol_shapes, theme};
 use crate::app::text::i18n::translated;
@@ -63,17 +63,18 @@ impl MeasurementPanel {
             let (symbol, _) = ui.allocate_exact_size(vec2(SYMBOL, HEIGHT), Sense::hover());
             let ink = theme::series(open.style.color, ui.visuals().dark_mode);
             ui.painter().extend(symbol_shapes(open.style.marker, symbol.center(), ink));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            before_ui(WAVELENGTH + ROWS + DELTA_E + MENU + 3.0 * ui.spacing().item_spacing.x, ui, |ui| {
                 ui.spacing_mut().button_padding.x = 4.0;
-                let menu = ui.menu_button("…", |ui| self.menu_ui(open, cx, ui)).response;
-                menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", name)));
-                let delta_e = cx.derived.delta_e_of(open.number);
-                let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.2e}")), DELTA_E, ui);
-                delta_e.on_hover_right(ui, tr!("ΔE of the surface of {}", name));
-                number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
-                number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| self.name_ui(open, is_active, cx, ui));
+                self.name_ui(open, is_active, cx, ui);
             });
+            ui.spacing_mut().button_padding.x = 4.0;
+            number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
+            number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
+            let delta_e = cx.derived.delta_e_of(open.number);
+            let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.2e}")), DELTA_E, ui);
+            delta_e.on_hover_right(ui, tr!("ΔE of the surface of {}", name));
+            let menu = ui.menu_button("…", |ui| self.menu_ui(open, cx, ui)).response;
+            menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", name)));
         });
     }
 

@@ -12,6 +12,7 @@ mod ties;
 mod tooltip_right;
 
 pub use fit::{delta_e_text, fit_ui};
+pub use list_row::{before_ui, button_width};
 pub use measurement_list::MeasurementPanel;
 pub use parameter_slider::{DirectionAngle, angle_ui, name_ui, slider_ui};
 pub use parameters::parameters_ui;

@@ -56,7 +56,7 @@ pub fn slider_ui(
         *value = parameter.default_value();
     }
     let spoken = format!("{} {}", significant(*value), parameter.unit());
-    describe(&slider, Some(spoken.trim_end()), estimate.as_deref());
+    say_value(&slider, spoken.trim_end());
 
     // What the formulas do not allow is not taken; what only the slider cannot show is.
     let domain = parameter.domain();
@@ -93,27 +93,22 @@ pub fn slider_ui(
             keep_focus(ui.add_sized([value_width, 20.0], typed.suffix(suffix)))
         })
         .inner;
-    describe(&typed, None, estimate.as_deref());
-    typed.labelled_by(label.id).on_hover_right(
-        ui,
-        if outside {
-            tr!("outside the slider's range {0} to {1}", range.start(), range.end())
-        } else {
-            tr!("type a value: {}", domain.localized())
-        },
-    );
+    let help = if outside {
+        tr!("outside the slider's range {0} to {1}", range.start(), range.end())
+    } else {
+        tr!("type a value: {}", domain.localized())
+    };
+    let help = estimate.iter().fold(help, |help, estimate| format!("{help}\n{estimate}"));
+    typed.labelled_by(label.id).on_hover_right(ui, help);
 
     if let Some(sentence) = refused.into_inner() {
         refusals.push(sentence);
     }
 }
 
-/// Tells screen readers the value with its unit, where the control does not, and what the fit says of it.
-fn describe(control: &Response, value: Option<&str>, estimate: Option<&str>) {
-    control.ctx.accesskit_node_builder(control.id, |node| {
-        value.into_iter().for_each(|value| node.set_value(value));
-        estimate.into_iter().for_each(|estimate| node.set_description(estimate));
-    });
+/// Tells screen readers the value with its unit, which a slider does not.
+fn say_value(slider: &Response, value: &str) {
+    slider.ctx.accesskit_node_builder(slider.id, |node| node.set_value(value));
 }
 
 /// An angle of the direction that lobes are seen at.
@@ -162,7 +157,7 @@ pub fn angle_ui(of: DirectionAngle, angle: &mut f64, slider_width: f32, ui: &mut
     ui.spacing_mut().slider_width = slider_width;
     let slider = Slider::new(angle, range.clone()).show_value(false).step_by(0.5).clamping(SliderClamping::Never);
     let slider = ui.add(slider).labelled_by(label.id).on_hover_right(ui, help);
-    describe(&slider, Some(&format!("{}°", significant(*angle))), None);
+    say_value(&slider, &format!("{}°", significant(*angle)));
     step_with_arrows(ui, &slider, before, angle, &range, SliderStep::Fixed(0.5));
     if is_double_clicked(ui, &[&label, &slider]) {
         *angle = of.default(&Settings::default());

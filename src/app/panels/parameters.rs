@@ -1,5 +1,6 @@
 //! The nine parameters, grouped by lobe, and where the lobes are looked at.
 
+use crate::app::panels::list_row::button_width;
 use crate::app::panels::parameter_slider::{DirectionAngle, angle_ui, number_from_text, slider_ui};
 use crate::app::panels::sharing::{shared_of, shared_ui, sharing_ui};
 use crate::app::panels::ties::tie_ui;
@@ -12,7 +13,7 @@ use crate::app::views::action::{Action, ListAction};
 use crate::app::views::{Cx, note_stop};
 use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::surface::{Surface, another};
-use egui::{Align, DragValue, Grid, Layout, Role, Ui, WidgetInfo};
+use egui::{DragValue, Grid, Role, Ui, WidgetInfo};
 use pbrdf::fit::FitResult;
 use pbrdf::model::{Diffuse, Model, PRESETS, Parameter, ParameterSet, Parameters, PerParameter, Preset};
 use pbrdf::optics::{Masking, SlopeDistribution};
@@ -163,28 +164,30 @@ fn bounds_switch_ui(cx: &mut Cx<'_>, surface: &mut Surface, ui: &mut Ui) {
         {
             surface.bounds.clear();
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| pin_ui(cx, surface, ui));
+        pin_ui(cx, surface, ui);
     });
 }
 
 /// Buttons that pin the surface, and the same with the other distribution.
 fn pin_ui(cx: &mut Cx<'_>, surface: &Surface, ui: &mut Ui) {
-    if surface.model.specular {
-        let text = match another(surface.model.distribution) {
-            SlopeDistribution::Gauss => tr!("Pin Gauss"),
-            SlopeDistribution::Cauchy => tr!("Pin Cauchy"),
-        };
-        let help = tr!("Pins the same surface with the other distribution of slopes, at equal median slope");
-        if ui.button(text).on_hover_right(ui, help).clicked() {
-            cx.actions.push(Action::List(ListAction::PinOtherDistribution));
-        }
-    }
+    let other = surface.model.specular.then(|| match another(surface.model.distribution) {
+        SlopeDistribution::Gauss => tr!("Pin Gauss"),
+        SlopeDistribution::Cauchy => tr!("Pin Cauchy"),
+    });
+    let gap = ui.spacing().item_spacing.x;
+    let width = |text: &str| button_width(text, ui);
+    let room = width(&tr!("Pin")) + other.as_ref().map_or(0.0, |other| gap + width(other));
+    ui.add_space((ui.available_width() - room).max(0.0));
     if ui
         .button(tr!("Pin"))
         .on_hover_right(ui, tr!("Keeps this surface as it is, and draws it in every plot until it is removed"))
         .clicked()
     {
         cx.actions.push(Action::List(ListAction::PinSliders));
+    }
+    let help = tr!("Pins the same surface with the other distribution of slopes, at equal median slope");
+    if other.is_some_and(|other| ui.button(other).on_hover_right(ui, help).clicked()) {
+        cx.actions.push(Action::List(ListAction::PinOtherDistribution));
     }
 }
 

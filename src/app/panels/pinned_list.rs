@@ -1,13 +1,13 @@
 //! The pinned surfaces: drawn or not, named, taken as sliders, removed.
 
-use crate::app::panels::list_row::{HEIGHT, Renaming, colors_ui, item_ui, row};
+use crate::app::panels::list_row::{HEIGHT, Renaming, before_ui, button_width, colors_ui, item_ui, row};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::theme;
 use crate::app::views::Cx;
 use crate::app::work::edit::Edit;
 use crate::app::work::parameter_text;
 use crate::app::work::surface::PinnedSurface;
-use egui::{Align, CollapsingHeader, Label, Layout, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
+use egui::{CollapsingHeader, Label, Role, ScrollArea, Sense, Shape, Ui, WidgetInfo, vec2};
 use tr::tr;
 
 /// What the panel keeps.
@@ -52,11 +52,9 @@ impl PinnedPanel {
             let ink = theme::series(pin.color, ui.visuals().dark_mode);
             let ends = [sample.left_center() + vec2(1.0, 0.0), sample.right_center() - vec2(1.0, 0.0)];
             ui.painter().extend(Shape::dashed_line(&ends, (1.6, ink), 5.0, 3.0));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let menu = ui.menu_button("…", |ui| self.menu_ui(place, pin, cx, ui)).response;
-                menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", pin.name)));
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| self.name_ui(place, pin, cx, ui));
-            });
+            before_ui(button_width("…", ui), ui, |ui| self.name_ui(place, pin, cx, ui));
+            let menu = ui.menu_button("…", |ui| self.menu_ui(place, pin, cx, ui)).response;
+            menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Actions for {}", pin.name)));
         });
     }
 

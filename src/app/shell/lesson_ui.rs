@@ -7,7 +7,8 @@ use crate::app::shell::status_bar::toasts_ui;
 use crate::app::text::i18n;
 use crate::app::views::action::Action;
 use crate::app::work::lesson::{Step, Wording};
-use egui::{Label, RichText, ScrollArea, Ui};
+use egui::text::LayoutJob;
+use egui::{Label, RichText, ScrollArea, TextFormat, TextStyle, Ui};
 use tr::tr;
 
 /// Height of the panel before the user changes it, as far as its text needs no more.
@@ -45,10 +46,12 @@ fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
     let width = ui.available_width() - 16.0;
     let code = i18n::current().code();
     let text = lesson.steps.iter().map(|step| parts_height(&parts(step), code, width, ui)).fold(0.0, f32::max);
-    let line = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
-    let lines = if width > ONE_LINE { 2.0 } else { 4.0 };
+    let gap = gap(ui);
+    // Of buttons and title, and of the read-out; beneath each other, buttons may need two.
+    let buttons = if width > ONE_LINE { 1.0 } else { 3.0 } * (ui.spacing().interact_size.y + gap);
+    let readout = ui.text_style_height(&TextStyle::Body) + gap;
     let window = ui.ctx().content_rect().height();
-    let needed = (lines * line + text).min(MOST * window).max(if is_low(ui) { 0.0 } else { HEIGHT });
+    let needed = (buttons + readout + text).min(MOST * window).max(if is_low(ui) { 0.0 } else { HEIGHT });
     let id = egui::Id::unique(("lesson", is_low(ui)));
     let panel = egui::Panel::bottom(id).resizable(true).default_size(needed);
     panel.size_range(needed..=0.7 * window).show(ui, |ui| lesson_ui(app, ui));
@@ -64,6 +67,7 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     let code = i18n::current().code();
     let count = lesson.steps.len();
     let is_wide = ui.available_width() > ONE_LINE;
+    ui.spacing_mut().item_spacing.y = gap(ui);
     ui.horizontal(|ui| {
         if is_wide {
             ui.allocate_ui_with_layout(egui::vec2(BUTTONS, 0.0), egui::Layout::left_to_right(egui::Align::Center), |ui| {
@@ -97,12 +101,21 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
             for ((heading, text), width) in parts.iter().zip(widths) {
                 ui.vertical(|ui| {
                     ui.set_width(width);
-                    ui.label(RichText::new(heading).weak());
-                    ui.add(Label::new(text.in_language(code)).wrap());
+                    if is_low(ui) {
+                        ui.add(Label::new(run_in(heading, text.in_language(code), ui)).wrap());
+                    } else {
+                        ui.label(RichText::new(heading).weak());
+                        ui.add(Label::new(text.in_language(code)).wrap());
+                    }
                 });
             }
         });
     });
+}
+
+/// Between lines of the panel.
+fn gap(ui: &Ui) -> f32 {
+    if is_low(ui) { 2.0 } else { ui.spacing().item_spacing.y }
 }
 
 /// What to move, what to watch, and why, with their headings.
@@ -123,14 +136,29 @@ fn widths(parts: &[(String, &Wording); 3], code: &str, room: f32) -> [f32; 3] {
     shares.map(|share| (room - 2.0 * GAP) * share / sum)
 }
 
+/// A text that begins with its heading, on the same line.
+fn run_in(heading: &str, text: &str, ui: &Ui) -> LayoutJob {
+    let font = TextStyle::Body.resolve(ui.style());
+    let mut job = LayoutJob::default();
+    job.append(heading, 0.0, TextFormat::simple(font.clone(), ui.visuals().weak_text_color()));
+    job.append(text, RUN_IN, TextFormat::simple(font, ui.visuals().text_color()));
+    job
+}
+
+/// From the heading to the text.
+const RUN_IN: f32 = 6.0;
+
 /// Height of the three with their headings.
 fn parts_height(parts: &[(String, &Wording); 3], code: &str, room: f32, ui: &Ui) -> f32 {
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let text = |text: &str, width: f32| ui.painter().layout(text.to_owned(), font.clone(), egui::Color32::PLACEHOLDER, width).size().y;
     // A bar of the scroll area takes its width from the text.
     let widths = widths(parts, code, room - 12.0);
-    let heights = parts.iter().zip(widths).map(|((_, part), width)| text(part.in_language(code), width));
-    ui.text_style_height(&egui::TextStyle::Body) + 2.0 * ui.spacing().item_spacing.y + heights.fold(0.0, f32::max)
+    let heights = parts.iter().zip(widths).map(|((heading, part), width)| {
+        let mut job = run_in(if is_low(ui) { heading } else { "" }, part.in_language(code), ui);
+        job.wrap.max_width = width;
+        ui.painter().layout_job(job).size().y
+    });
+    let heading = if is_low(ui) { 0.0 } else { ui.text_style_height(&TextStyle::Body) + gap(ui) };
+    heading + gap(ui) + heights.fold(0.0, f32::max)
 }
 
 /// Forth, back, and out.

@@ -1,6 +1,7 @@
 //! Panes without the tiles: one that fills the window, those of a presentation, and one at a time
 //! where a window is too low for two.
 
+use crate::app::panels::{before_ui, button_width};
 use crate::app::text::i18n::translated;
 use crate::app::views::action::{Action, WindowAction};
 use crate::app::views::{Cx, Views, note_stop, spec};
@@ -85,18 +86,12 @@ fn cells(count: usize, room: Rect) -> Vec<Rect> {
 /// One pane alone, under a line with the names of all that are open.
 pub fn single_ui(pane: PaneId, is_filled: bool, open: Vec<PaneId>, views: &mut Views, cx: &mut Cx<'_>, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if is_filled {
-                let back = ui
-                    .button(tr!("Back"))
-                    .on_hover_text(tr!("All panes and panels again; also with a double click on the name, or Escape"));
-                if back.clicked() {
-                    cx.actions.push(Action::Window(WindowAction::FillWindow(pane)));
-                }
-            }
-            show_menu_ui(pane, views, cx, ui);
+        let gap = ui.spacing().item_spacing.x;
+        let buttons = [spec(pane).has_options.then(|| tr!("Show")), is_filled.then(|| tr!("Back"))];
+        let room: f32 = buttons.iter().flatten().map(|text| button_width(text, ui) + gap).sum();
+        before_ui(room - gap, ui, |ui| {
             // The wheel moves it: a bar would lie over the names.
-            let names = egui::ScrollArea::horizontal().id_salt("names of panes");
+            let names = egui::ScrollArea::horizontal().id_salt("names of panes").auto_shrink([false, true]);
             names.scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(ui, |ui| {
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                     for other in open {
@@ -105,8 +100,13 @@ pub fn single_ui(pane: PaneId, is_filled: bool, open: Vec<PaneId>, views: &mut V
                 });
             });
         });
+        show_menu_ui(pane, views, cx, ui);
+        let help = tr!("All panes and panels again; also with a double click on the name, or Escape");
+        if is_filled && ui.button(tr!("Back")).on_hover_text(help).clicked() {
+            cx.actions.push(Action::Window(WindowAction::FillWindow(pane)));
+        }
     });
-    egui::Frame::new().inner_margin(egui::Margin { left: TITLE, right: 10, top: 4, bottom: 2 }).show(ui, |ui| {
+    egui::Frame::new().inner_margin(egui::Margin { left: TITLE, right: 10, top: 2, bottom: 0 }).show(ui, |ui| {
         views.of(pane).ui(cx, ui);
     });
 }

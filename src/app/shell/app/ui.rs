@@ -124,7 +124,7 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     }
     if has_fit {
         let most = (half - left - FRAME).max(LEAST_FIT);
-        let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(LEAST_FIT..=most);
+        let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(FIT.min(most)..=most);
         panel.show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
     }
 }
