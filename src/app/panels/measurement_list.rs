@@ -49,13 +49,15 @@ impl MeasurementPanel {
         let header = CollapsingHeader::new(title).id_salt("measurements").default_open(true);
         header.show_unindented(ui, |ui| {
             ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
-            headings_ui(ui);
+            // A column that no file fills would be room that names lack.
+            let wavelength = if list.iter().any(|open| open.wavelength_nm().is_some()) { WAVELENGTH } else { 0.0 };
+            headings_ui(wavelength, ui);
             let scroll = ScrollArea::vertical().id_salt("measurements").max_height(MOST_ROWS * (HEIGHT + 2.0));
-            scroll.auto_shrink([false, true]).show(ui, |ui| list.iter().for_each(|open| self.row_ui(open, cx, ui)));
+            scroll.auto_shrink([false, true]).show(ui, |ui| list.iter().for_each(|open| self.row_ui(open, wavelength, cx, ui)));
         });
     }
 
-    fn row_ui(&mut self, open: &OpenMeasurement, cx: &mut Cx<'_>, ui: &mut Ui) {
+    fn row_ui(&mut self, open: &OpenMeasurement, wavelength: f32, cx: &mut Cx<'_>, ui: &mut Ui) {
         let is_active = open.number == cx.work.active().number;
         let name = open.title();
         row(ui, |ui| {
@@ -63,12 +65,14 @@ impl MeasurementPanel {
             let (symbol, _) = ui.allocate_exact_size(vec2(SYMBOL, HEIGHT), Sense::hover());
             let ink = theme::series(open.style.color, ui.visuals().dark_mode);
             ui.painter().extend(symbol_shapes(open.style.marker, symbol.center(), ink));
-            before_ui(WAVELENGTH + ROWS + DELTA_E + MENU + 3.0 * ui.spacing().item_spacing.x, ui, |ui| {
+            before_ui(wavelength + ROWS + DELTA_E + MENU + 3.0 * ui.spacing().item_spacing.x, ui, |ui| {
                 ui.spacing_mut().button_padding.x = 4.0;
                 self.name_ui(open, is_active, cx, ui);
             });
             ui.spacing_mut().button_padding.x = 4.0;
-            number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
+            if wavelength > 0.0 {
+                number_ui(open.wavelength_nm().map_or_else(String::new, short), wavelength, ui);
+            }
             number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
             let delta_e = cx.derived.delta_e_of(open.number);
             let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.2e}")), DELTA_E, ui);
@@ -132,7 +136,7 @@ impl MeasurementPanel {
     }
 }
 
-fn headings_ui(ui: &mut Ui) {
+fn headings_ui(wavelength: f32, ui: &mut Ui) {
     row(ui, |ui| {
         ui.add_space(SHOWN + SYMBOL + 2.0 * ui.spacing().item_spacing.x);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -140,8 +144,11 @@ fn headings_ui(ui: &mut Ui) {
             for (heading, width, help) in [
                 ("ΔE", DELTA_E, "How far the surface of each measurement is from its data"),
                 ("rows", ROWS, "Rows of the table, masked ones included"),
-                ("λ / nm", WAVELENGTH, "Vacuum wavelength, where the file states one"),
-            ] {
+                ("λ / nm", wavelength, "Vacuum wavelength, where the file states one"),
+            ]
+            .into_iter()
+            .filter(|(_, width, _)| *width > 0.0)
+            {
                 number_ui(RichText::new(translated(heading)).weak(), width, ui).on_hover_right(ui, translated(help));
             }
         });

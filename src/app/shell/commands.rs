@@ -445,24 +445,12 @@ pub fn items(app: &App) -> Vec<Command> {
         item(Action::UseModel(preset.key), Menu::None, text.into(), translated(preset.citation).into(), switch(current == Some(preset.key)))
     });
     let themes = Theme::ALL.into_iter().map(|theme| {
-        let tooltip = tr!("Colours of the window").into();
-        item(
-            Action::Window(WindowAction::SetTheme(theme)),
-            Menu::Theme,
-            translated(theme.name()).into(),
-            tooltip,
-            switch(app.window.theme == theme),
-        )
+        let (action, is_set) = (Action::Window(WindowAction::SetTheme(theme)), switch(app.window.theme == theme));
+        item(action, Menu::Theme, translated(theme.name()).into(), tr!("Colours of the window").into(), is_set)
     });
     let languages = Language::ALL.into_iter().map(|language| {
-        let tooltip = tr!("Language of the window").into();
-        item(
-            Action::Window(WindowAction::SetLanguage(language)),
-            Menu::Language,
-            language.name().into(),
-            tooltip,
-            switch(app.window.language == language),
-        )
+        let (action, is_set) = (Action::Window(WindowAction::SetLanguage(language)), switch(app.window.language == language));
+        item(action, Menu::Language, language.name().into(), tr!("Language of the window").into(), is_set)
     });
     fixed
         .chain(sheets(&on_screen))

@@ -37,14 +37,22 @@ const STEPS: [(Spot, &str, &str); 4] = [
 
 /// Width of what is said, in points.
 const WIDTH: f32 = 340.0;
-/// Share of the width that panels have, roughly: the tour only points.
-const LEFT: f32 = 366.0;
+
+fn widths() -> egui::Id {
+    egui::Id::unique("widths of the panels that the tour points at")
+}
+
+/// Notes how wide the panels at the left and at the right are.
+pub fn note_panels(ctx: &egui::Context, panels: [f32; 2]) {
+    ctx.data_mut(|data| data.insert_temp(widths(), panels));
+}
 
 /// The step that is shown, while the tour is.
 pub fn tour_ui(app: &mut App, ui: &mut Ui) {
     let Some((step, (spot, heading, text))) = app.dialogs.tour.and_then(|step| Some((step, *STEPS.get(step)?))) else { return };
     let screen = ui.ctx().content_rect();
-    let rect = place(spot, screen);
+    let panels = ui.ctx().data(|data| data.get_temp(widths())).unwrap_or_default();
+    let rect = place(spot, panels, screen);
     let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("tour spot"));
     let accent = ui.visuals().selection.bg_fill;
     ui.ctx().layer_painter(layer).rect_stroke(rect.shrink(3.0), 6.0, Stroke::new(3.0, accent), StrokeKind::Inside);
@@ -87,18 +95,18 @@ pub fn tour_ui(app: &mut App, ui: &mut Ui) {
 }
 
 /// What a step frames.
-fn place(spot: Spot, screen: Rect) -> Rect {
+fn place(spot: Spot, [left, right]: [f32; 2], screen: Rect) -> Rect {
     const BAR: f32 = 25.0;
+    // About as far as the menus reach.
+    const MENUS: f32 = 366.0;
     let body = Rect::from_min_max(screen.min + vec2(0.0, BAR), screen.max - vec2(0.0, BAR));
-    let left = LEFT.min(0.5 * screen.width());
-    let right = if screen.width() < 1100.0 { 0.0 } else { (0.5 * screen.width() - left).clamp(240.0, 320.0) };
     match spot {
         Spot::Parameters => Rect::from_min_max(body.min, Pos2::new(body.min.x + left, body.max.y)),
         Spot::Plots => Rect::from_min_max(Pos2::new(body.min.x + left, body.min.y), Pos2::new(body.max.x - right, body.max.y)),
         // Where there is room for one panel, the fit is behind its name at the top.
         Spot::Fit if right == 0.0 => Rect::from_min_size(body.min, vec2(left, 2.0 * BAR)),
         Spot::Fit => Rect::from_min_max(Pos2::new(body.max.x - right, body.min.y), body.max),
-        Spot::Menus => Rect::from_min_size(screen.min, vec2(left, BAR + 2.0)),
+        Spot::Menus => Rect::from_min_size(screen.min, vec2(MENUS, BAR + 2.0)),
     }
 }
 

@@ -12,7 +12,7 @@ use crate::app::shell::overwrite_ui::overwrite_ui;
 use crate::app::shell::presentation::presentation_ui;
 use crate::app::shell::room::{Below, Embedded};
 use crate::app::shell::status_bar::status_ui;
-use crate::app::shell::tour::tour_ui;
+use crate::app::shell::tour::{note_panels, tour_ui};
 use crate::app::views::follow_f6;
 use crate::app::work::settings::SidePanel;
 use egui::{CentralPanel, Frame, Panel, Role, ScrollArea, Ui, WidgetInfo};
@@ -107,14 +107,15 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     if width < NARROW {
         if has_parameters || has_fit {
             let panel = Panel::left("side").resizable(false).exact_size(FIT.min(half - FRAME));
-            panel.show(ui, |ui| {
+            let side = panel.show(ui, |ui| {
                 let is_fit = if has_parameters && has_fit { front_ui(app, ui) == SidePanel::Fit } else { has_fit };
                 if is_fit { panels::fit_ui(&mut app.split().0, ui) } else { parameters_ui(app, ui) }
             });
+            note_panels(ui.ctx(), [side.response.rect.width(), 0.0]);
         }
         return;
     }
-    let mut left = 0.0;
+    let (mut left, mut right) = (0.0, 0.0);
     if has_parameters {
         let most = half - FRAME - if has_fit { LEAST_FIT + FRAME } else { 0.0 };
         // What the fit has by itself is left to it, as far as the sliders can do without.
@@ -125,8 +126,9 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     if has_fit {
         let most = (half - left - FRAME).max(LEAST_FIT);
         let panel = Panel::right("fit").default_size(FIT.min(most)).size_range(FIT.min(most)..=most);
-        panel.show(ui, |ui| panels::fit_ui(&mut app.split().0, ui));
+        right = panel.show(ui, |ui| panels::fit_ui(&mut app.split().0, ui)).response.rect.width();
     }
+    note_panels(ui.ctx(), [left, right]);
 }
 
 /// Which of the two panels is seen.

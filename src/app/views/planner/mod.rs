@@ -48,7 +48,7 @@ pub struct PlannerView {
 }
 
 /// Width that a plan and what it brings need side by side.
-const SIDE_BY_SIDE: f32 = 560.0;
+const SIDE_BY_SIDE: f32 = 640.0;
 
 impl View for PlannerView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
