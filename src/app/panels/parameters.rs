@@ -113,7 +113,7 @@ const LOCK: f32 = 58.0;
 const RESET: f32 = 54.0;
 const ARROW: f32 = 27.0;
 const SHARED: f32 = 56.0;
-const GAPS: f32 = 12.0;
+const GAPS: f32 = 15.0;
 
 impl Room {
     /// Of a row in a panel of that width: what is left is the slider's.
@@ -126,15 +126,20 @@ impl Room {
     }
 }
 
+/// Width from which the list of models has its label in front.
+const WITH_LABEL: f32 = 312.0;
+
 /// Height of the list of models, in points: all of them are seen.
 const LIST: f32 = 320.0;
 
 /// The named models; whatever the switches below say, if they match none.
 fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        let label = ui.label(tr!("Model"));
+        // In a narrow panel the name of the model has the room.
+        let label = (ui.available_width() > WITH_LABEL).then(|| ui.label(tr!("Model")));
         let combo = egui::ComboBox::from_id_salt("preset")
             .height(LIST)
+            .truncate()
             .width((ui.available_width() - ui.spacing().item_spacing.x).max(120.0))
             .selected_text(current.map_or_else(|| tr!("as switched below"), |preset| translated(preset.name)));
         let response = combo.show_ui(ui, |ui| {
@@ -146,10 +151,18 @@ fn preset_ui(current: Option<&Preset>, surface: &mut Surface, ui: &mut Ui) {
             }
         });
         note_stop(ui.ctx(), response.response.id);
-        response
-            .response
-            .labelled_by(label.id)
-            .on_hover_right(ui, current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
+        let response = match label {
+            Some(label) => response.response.labelled_by(label.id),
+            None => {
+                let chosen = current.map_or_else(String::new, |preset| translated(preset.name));
+                response.response.widget_info(|| WidgetInfo {
+                    current_text_value: Some(chosen.clone()),
+                    ..WidgetInfo::labeled(Role::ComboBox, true, tr!("Model"))
+                });
+                response.response
+            }
+        };
+        response.on_hover_right(ui, current.map_or_else(|| tr!("a set of terms without a name"), |preset| translated(preset.citation)));
     });
 }
 
@@ -177,7 +190,8 @@ fn pin_ui(cx: &mut Cx<'_>, surface: &Surface, ui: &mut Ui) {
     let gap = ui.spacing().item_spacing.x;
     let width = |text: &str| button_width(text, ui);
     let room = width(&tr!("Pin")) + other.as_ref().map_or(0.0, |other| gap + width(other));
-    ui.add_space((ui.available_width() - room).max(0.0));
+    // Widths are rounded: a row that is wider than the panel would widen it, frame by frame.
+    ui.add_space((ui.available_width() - room - 2.0).max(0.0));
     if ui
         .button(tr!("Pin"))
         .on_hover_right(ui, tr!("Keeps this surface as it is, and draws it in every plot until it is removed"))

@@ -70,11 +70,16 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = gap(ui);
     ui.horizontal(|ui| {
         if is_wide {
-            ui.allocate_ui_with_layout(egui::vec2(BUTTONS, 0.0), egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                buttons_ui(number, index, count, actions, ui);
-            });
+            ui.allocate_ui_with_layout(
+                egui::vec2(BUTTONS, ui.spacing().interact_size.y),
+                egui::Layout::left_to_right(egui::Align::Center),
+                |ui| {
+                    buttons_ui(number, index, count, actions, ui);
+                },
+            );
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let rest = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(rest, egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.weak(format!("{}/{count}", index + 1));
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 let title = format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code));

@@ -25,7 +25,8 @@ fn bar(harness: &Harness<'static, Option<App>>, tab: egui::Rect) -> egui::Rangef
         let rects = harness.query_all_by_label_contains(label).map(|node| node.rect());
         rects.filter(|rect| rect.y_range().contains(tab.center().y)).collect::<Vec<_>>()
     };
-    let left = beside("Scroll tabs left").iter().map(egui::Rect::right).fold(366.0, f32::max);
+    let sliders = harness.get_by_role_and_label(egui::accesskit::Role::Button, "Reset n").rect().right();
+    let left = beside("Scroll tabs left").iter().map(egui::Rect::right).fold(sliders, f32::max);
     let right = ["Scroll tabs right", "Show in "].into_iter().flat_map(beside);
     let panel = harness.get_by_role_and_label(egui::accesskit::Role::Button, "Fit").rect().left();
     egui::Rangef::new(left, right.map(|rect| rect.left()).fold(panel, f32::min))

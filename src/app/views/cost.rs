@@ -15,7 +15,7 @@ const HEADINGS: [Heading; 9] = [
     Heading { text: "kernel", help: "One point after the other, or many at once", width: 44.0, is_number: false },
     Heading { text: "ns per point", help: "Median of the repetitions", width: 78.0, is_number: true },
     Heading { text: "", help: "The same as a bar, logarithmic", width: 100.0, is_number: false },
-    Heading { text: "left out", help: "What the scene does not need", width: 330.0, is_number: false },
+    Heading { text: "left out", help: "What the scene does not need", width: 460.0, is_number: false },
     Heading { text: "max ulp", help: "Largest difference to the full evaluation in units of the last place", width: 56.0, is_number: true },
     Heading { text: "max error", help: "The same, relative", width: 70.0, is_number: true },
     Heading { text: "threads", help: "Threads", width: 52.0, is_number: true },

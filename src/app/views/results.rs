@@ -196,7 +196,7 @@ fn models_ui(all: &[ResultColumnId], options: &mut ResultsOptions, ui: &mut Ui) 
 
 /// The titles, each with a menu.
 fn titles_ui(shown: &Shown, all: &[ResultColumnId], options: &mut ResultsOptions, cx: &mut Cx<'_>, ui: &mut Ui) {
-    ui.label("");
+    ui.allocate_space(egui::Vec2::ZERO);
     for ((title, id), &fit) in shown.cells.head.iter().skip(1).zip(&shown.ids).zip(&shown.fits) {
         // The model under its measurement: columns are as wide as their values.
         let text = title.rsplit_once(", ").map_or_else(|| title.clone(), |(name, model)| format!("{name}\n{model}"));

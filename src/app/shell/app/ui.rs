@@ -89,6 +89,7 @@ fn small_ui(app: &mut App, ui: &mut Ui) {
 const NARROW: f32 = 1230.0;
 const PARAMETERS: f32 = 366.0;
 const FIT: f32 = 320.0;
+const SIDE: f32 = 332.0;
 const LEAST_PARAMETERS: f32 = 290.0;
 const LEAST_FIT: f32 = 280.0;
 /// What the frames of a panel take besides.
@@ -106,7 +107,7 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     let has_parameters = app.window.panels.parameters;
     if width < NARROW {
         if has_parameters || has_fit {
-            let panel = Panel::left("side").resizable(false).exact_size(FIT.min(half - FRAME));
+            let panel = Panel::left("side").resizable(false).exact_size(SIDE.min(half - FRAME));
             let side = panel.show(ui, |ui| {
                 let is_fit = if has_parameters && has_fit { front_ui(app, ui) == SidePanel::Fit } else { has_fit };
                 if is_fit { panels::fit_ui(&mut app.split().0, ui) } else { parameters_ui(app, ui) }
