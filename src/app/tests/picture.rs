@@ -3,8 +3,8 @@
 use crate::app::shell::app::App;
 use crate::app::storage::export::ExportKind;
 use crate::app::tests::{edit, explorer, harness, wait};
-use crate::app::views::PictureView;
 use crate::app::views::action::{Action, WindowAction};
+use crate::app::views::{PickedDirection, PictureView};
 use crate::app::work::edit::Edit;
 use crate::app::work::pane_id::PaneId;
 use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
@@ -114,4 +114,33 @@ fn no_picture_is_made_of_values_that_are_no_surface_and_damaged_settings_are_ref
     assert!(settings.validate().is_ok());
     settings.panes.picture.polar = 200.0;
     assert!(settings.validate().is_err());
+}
+
+#[test]
+fn a_picked_direction_is_marked_in_every_plot_against_the_angle_of_view() {
+    let mut harness = harness();
+    let picked = PickedDirection { theta_i: 40.0, theta_r: 25.0, dphi: 180.0 };
+    explorer(&mut harness).work.apply(Edit::SetDirection { theta_i: picked.theta_i, dphi: picked.dphi });
+    explorer(&mut harness).actions.push(Action::MarkDirection(picked));
+    let panes = [
+        PaneId::Dolp,
+        PaneId::Lobes,
+        PaneId::PolarLobes,
+        PaneId::Facets,
+        PaneId::Hemisphere,
+        PaneId::ResidualsAgainstAngle,
+        PaneId::Planner,
+    ];
+    for pane in panes {
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::FillWindow(pane)));
+        wait(&mut harness);
+        let figure = explorer(&mut harness).figure(pane).unwrap_or_else(|| panic!("{pane:?}: no figure"));
+        assert!(figure.panels.iter().flat_map(|panel| &panel.series).any(|series| series.name == "pixel of the picture"), "{pane:?}");
+        explorer(&mut harness).actions.push(Action::Window(WindowAction::FillWindow(pane)));
+        wait(&mut harness);
+    }
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::FillWindow(PaneId::Mueller)));
+    wait(&mut harness);
+    let figure = explorer(&mut harness).figure(PaneId::Mueller).expect("a figure");
+    assert!(figure.panels[0].title.contains("θr = 25.0°"), "{}", figure.panels[0].title);
 }

@@ -44,6 +44,8 @@ pub use data::table_text;
 pub use focus_stops::{follow_f6, note_stop};
 pub use metals::values;
 pub use models::running_model_ui;
+#[cfg(test)]
+pub use pointing::PickedDirection;
 pub use pointing::pointed_theta_r;
 pub use series_choice::choice_menu_ui;
 

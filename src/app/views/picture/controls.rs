@@ -20,6 +20,8 @@ fn shape_name(shape: Shape) -> String {
 /// Shape and quantity.
 pub fn content_ui(set: &mut PictureOptions, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
+        // All on one line beside a panel at a projector.
+        ui.spacing_mut().item_spacing.x = 2.0;
         for shape in Shape::ALL {
             ui.selectable_value(&mut set.shape, shape, shape_name(shape));
         }

@@ -216,8 +216,9 @@ impl View for PictureView {
                     (set.polar, set.azimuth) = (polar, azimuth);
                 }
                 if let Some(at) = touched.clicked {
-                    self.chosen = Some(at);
+                    // Beside the shape, and in its shadow, there is nothing to choose.
                     if let Some(picked) = self.direction(at) {
+                        self.chosen = Some(at);
                         cx.edits.push(Edit::SetDirection { theta_i: picked.theta_i, dphi: picked.dphi });
                         cx.actions.push(Action::MarkDirection(picked));
                     }
