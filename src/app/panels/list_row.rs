@@ -13,7 +13,8 @@ pub fn row(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), content);
 }
 
-/// What begins a row that ends with controls of that width: all are drawn, and reached by the Tab key, from left to right.
+/// What begins a row that ends with controls of that width: all are drawn, and reached by the Tab
+/// key, from left to right.
 pub fn before_ui(rest: f32, ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
     let width = (ui.available_width() - rest - ui.spacing().item_spacing.x).max(0.0);
     ui.allocate_ui_with_layout(vec2(width, HEIGHT), Layout::left_to_right(Align::Center), |ui| {

@@ -15,8 +15,8 @@ use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tr::tr;
 
-/// Name, slider, typed value with unit, of those widths; with what the shown fit says of it where the
-/// pointer rests, and for screen readers.
+/// Name, slider, typed value with unit, of those widths; with what the shown fit says of it where
+/// the pointer rests, and for screen readers.
 pub fn slider_ui(
     surface: &mut Surface,
     refusals: &mut Vec<String>,

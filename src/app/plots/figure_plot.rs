@@ -216,9 +216,9 @@ impl PanelPlot {
 
 impl PanelPlot {
     /// Paints it as one of many, of that size: what is along its vertical axis stands in its
-    /// corner, numbers stand at the axes that lie at the rim and take so much room. There is no room
-    /// for words at points. It cannot be moved; the answer is the place of the pointer along the
-    /// horizontal axis.
+    /// corner, numbers stand at the axes that lie at the rim and take so much room. There is no
+    /// room for words at points. It cannot be moved; the answer is the place of the pointer along
+    /// the horizontal axis.
     pub fn cell_ui(&self, size: Vec2, [below, left]: [bool; 2], room: Vec2, ui: &mut Ui) -> Option<f64> {
         let Content { x, y, items, .. } = self.content.as_ref()?;
         let dark = ui.visuals().dark_mode;

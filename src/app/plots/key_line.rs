@@ -75,8 +75,8 @@ pub fn symbol_shapes(symbol: Symbol, at: Pos2, color: Color32) -> Vec<Shape> {
     }
 }
 
-/// Below this height of plot and names in points, the plot has the room: names have one line, and those that do
-/// not fit on it stand behind a button.
+/// Below this height of plot and names in points, the plot has the room: names have one line, and
+/// those that do not fit on it stand behind a button.
 const LOW: f32 = 330.0;
 /// Room of that button.
 const MORE: f32 = 44.0;

@@ -167,7 +167,8 @@ impl PlotItem {
     }
 }
 
-/// About where words stand that begin there: of words that would cover each other the first is drawn.
+/// About where words stand that begin there: of words that would cover each other the first is
+/// drawn.
 fn plate(at: Pos2, text: &str) -> Rect {
     let letter = |letter: char| if letter.is_ascii() { 0.55 * LETTERS } else { LETTERS };
     let width = text.chars().map(letter).sum::<f32>() + letter(' ');

@@ -13,7 +13,8 @@ use tr::tr;
 
 /// Height of the panel before the user changes it, as far as its text needs no more.
 const HEIGHT: f32 = 172.0;
-/// Below this height of the window, in points, the lesson has its whole width, so that plots have most of its height.
+/// Below this height of the window, in points, the lesson has its whole width, so that plots have
+/// most of its height.
 const LOW: f32 = 600.0;
 /// Share of the height of the window that the text has at most; a longer one scrolls.
 const MOST: f32 = 0.4;
@@ -29,7 +30,8 @@ pub fn lesson_and_panes_ui(app: &mut App, ui: &mut Ui) {
     toasts_ui(app, ui, room);
 }
 
-/// The lesson that is open, over the whole width of a low window; call it before the panels at the sides.
+/// The lesson that is open, over the whole width of a low window; call it before the panels at the
+/// sides.
 pub fn low_lesson_ui(app: &mut App, ui: &mut Ui) {
     if is_low(ui) {
         lesson_panel_ui(app, ui);
@@ -40,7 +42,8 @@ fn is_low(ui: &Ui) -> bool {
     ui.ctx().content_rect().height() < LOW
 }
 
-/// The panel, while a lesson is open: as high as the longest text of its steps needs, so that plots stay where they are.
+/// The panel, while a lesson is open: as high as the longest text of its steps needs, so that plots
+/// stay where they are.
 fn lesson_panel_ui(app: &mut App, ui: &mut Ui) {
     let Some((lesson, _)) = app.lessons.current() else { return };
     let width = ui.available_width() - 16.0;

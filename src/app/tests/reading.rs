@@ -38,7 +38,8 @@ const BAR: f32 = 500.0;
 fn tab_leads_through_each_panel_in_reading_order() {
     let mut harness = harness();
     let mut stops = stops(&mut harness);
-    // The edges by which panels are made wider, and the bars of tabs, which scroll, are no controls of a panel.
+    // The edges by which panels are made wider, and the bars of tabs, which scroll, are no controls
+    // of a panel.
     stops.retain(|stop| stop.width() > EDGE && stop.height() > EDGE && stop.width() < BAR);
     let left = harness.get_by_role_and_label(Role::Button, "Reset n").rect().right() + 4.0;
     let right = harness.get_by_label("Fit").rect().left() - 4.0;

@@ -35,7 +35,8 @@ pub fn uncertainty_help(estimate: &Estimate) -> String {
     lines.join("\n")
 }
 
-/// What the shown fit says of a parameter, for who cannot see its table: its value with unit and interval.
+/// What the shown fit says of a parameter, for who cannot see its table: its value with unit and
+/// interval.
 pub fn estimate_text(estimate: &Estimate) -> String {
     let value = format!("{} {}", significant(estimate.value, 5), estimate.parameter.unit());
     let value = value.trim_end();

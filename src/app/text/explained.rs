@@ -1,4 +1,5 @@
-//! Words that are explained where they stand: dotted under, with their meaning where the pointer rests or clicks.
+//! Words that are explained where they stand: dotted under, with their meaning where the pointer
+//! rests or clicks.
 
 use egui::{CursorIcon, Label, Popup, Response, Sense, Shape};
 

@@ -348,7 +348,8 @@ fn source_ui(
 
 /// Least height of the plots: where there is less room, the pane scrolls.
 const HEIGHT: f32 = 130.0;
-/// Below this height, and over this width, the plots stand beside the table, which has that share of the width.
+/// Below this height, and over this width, the plots stand beside the table, which has that share
+/// of the width.
 const LOW: f32 = 330.0;
 const WIDE: f32 = 560.0;
 const TABLE: f32 = 0.52;

@@ -18,8 +18,8 @@ const LINE: f32 = 24.0;
 /// Cells along a side, at most.
 const MOST_CELLS: usize = 200;
 
-/// The figure of gains, θi by θi and θr by θr, with what is measured and what is planned, and the θr and θi of
-/// the picked pixel of the picture.
+/// The figure of gains, θi by θi and θr by θr, with what is measured and what is planned, and the
+/// θr and θi of the picked pixel of the picture.
 pub fn describe(gains: &[f64], design: &DesignSettings, picked: Option<[f64; 2]>, document: &OpenMeasurement) -> Figure {
     let [theta_i, theta_r] = design.lists().map(once);
     let (x, y) = (Cells::of(&theta_r), Cells::of(&theta_i));
