@@ -45,8 +45,7 @@ pub fn presented_ui(panes: &[PaneId], views: &mut Views, cx: &mut Cx<'_>, ui: &m
     let room = ui.available_rect_before_wrap().shrink(4.0);
     for (pane, rect) in panes.iter().zip(cells(panes.len(), room)) {
         ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt(("presented", pane.key())), |ui| {
-            // Upright titles reach a little beyond.
-            ui.set_clip_rect(rect.expand2(vec2(0.5 * GAP, 0.0)).intersect(ui.clip_rect()));
+            ui.set_clip_rect(rect.intersect(ui.clip_rect()));
             ui.horizontal(|ui| {
                 ui.strong(translated(spec(*pane).title));
                 show_menu_ui(*pane, views, cx, ui);

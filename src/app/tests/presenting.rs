@@ -80,7 +80,7 @@ fn titles_of_vertical_axes_are_whole_in_a_presentation() {
     let mut harness = sized(1280.0, 720.0);
     harness.key_press(Key::F11);
     wait(&mut harness);
-    act(&mut harness, Action::ShowPane(PaneId::Landscape));
+    act(&mut harness, Action::Window(WindowAction::ShowPane(PaneId::Landscape)));
     let mut titles = 0;
     for clipped in &harness.output().shapes {
         let egui::Shape::Text(text) = &clipped.shape else { continue };
