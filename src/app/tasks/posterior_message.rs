@@ -60,6 +60,7 @@ impl Frame {
         draws.evaluations = count(next()?)?;
         draws.divergences = count(next()?)?;
         draws.cut = count(next()?)?;
+        draws.transitions = count(next()?)?;
         draws.accepted = next()?;
         draws.elapsed_ms = next()?;
         for noise in &mut draws.noise {
@@ -128,7 +129,9 @@ fn text(drawn: &DrawnPosterior) -> String {
         numbers.extend(parameters.iter().flat_map(Parameters::to_array));
         numbers.push(*log_posterior);
     }
-    numbers.extend([draws.evaluations as f64, draws.divergences as f64, draws.cut as f64, draws.accepted, draws.elapsed_ms]);
+    let counts = [draws.evaluations, draws.divergences, draws.cut, draws.transitions];
+    numbers.extend(counts.map(|count| count as f64));
+    numbers.extend([draws.accepted, draws.elapsed_ms]);
     for noise in draws.noise {
         push_optional(&mut numbers, noise.map(|NoiseQuantiles { q16, q50, q84 }| [q16, q50, q84]));
     }

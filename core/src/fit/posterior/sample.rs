@@ -146,8 +146,9 @@ impl<N: UnknownName, P> PosteriorSample<N, P> {
     /// Draws that were made elsewhere; what else is known of them is 0 or none.
     #[must_use]
     pub fn of_chains(model: Model, parameters: Vec<N>, chains: Vec<Vec<PosteriorDraw<P>>>) -> Self {
-        let (evaluations, divergences, cut, accepted, elapsed_ms) = (0, 0, 0, 0.0, 0.0);
-        Self { model, parameters, chains, evaluations, divergences, cut, accepted, noise: [None; 2], log_evidence: None, elapsed_ms }
+        let (evaluations, divergences, cut, transitions) = (0, 0, 0, 0);
+        let (accepted, noise, log_evidence, elapsed_ms) = (0.0, [None; 2], None, 0.0);
+        Self { model, parameters, chains, evaluations, divergences, cut, transitions, accepted, noise, log_evidence, elapsed_ms }
     }
 
     /// The same draws with other names and points.
