@@ -68,6 +68,13 @@ fn example(app: &App) -> OpenMeasurement {
     open
 }
 
+/// Opens the active measurement under two more names: the first takes the place of the example that nobody has opened.
+fn take_twice(app: &mut App) {
+    for name in ["again.csv", "twice.csv"] {
+        crate::app::tests::take(app, name.to_owned(), app.work.active().measurement.as_ref().clone());
+    }
+}
+
 fn problem(app: &App, open: &OpenMeasurement) -> Problem {
     let free = free_by_default(open.surface.model, &open.measurement, &app.work.settings().fit_options);
     fit_problem(&open.surface, &open.measurement, open.surface.model, free, app.work.settings().fit_options).expect("a problem")
@@ -100,7 +107,7 @@ fn fits_and_what_follows_from_them_are_the_same_to_the_bit() {
 fn joint_fits_are_the_same_to_the_bit() {
     let mut window = harness();
     let app = explorer(&mut window);
-    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    take_twice(app);
     let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
     let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
     let job = || {
@@ -121,7 +128,7 @@ fn fits_from_moving_sliders_are_the_same_to_the_bit() {
     let open = example(app);
     let job = || RefitSliders::one(problem(app, &open), open.clone());
     assert_eq!(sent(job()).0, job().run(&Quiet).0);
-    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    take_twice(app);
     let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
     let job = || {
         let problem = joint_problem(list, [Parameter::N].into_iter().collect(), fit_options).expect("a problem");
@@ -170,7 +177,7 @@ fn draws_from_a_posterior_are_the_same_to_the_bit() {
         assert_eq!(draws(DrawnPosterior::clone(&one)), draws(DrawnPosterior::clone(&other)));
     };
     same(app);
-    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    take_twice(app);
     same(app);
 }
 
@@ -198,7 +205,7 @@ fn models_are_compared_the_same_way() {
 fn models_are_compared_together_the_same_way() {
     let mut window = harness();
     let app = explorer(&mut window);
-    crate::app::tests::take(app, "again.csv".to_owned(), app.work.active().measurement.as_ref().clone());
+    take_twice(app);
     let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
     let job = || {
         let problems = PRESETS.iter().take(2).map(|preset| (preset, joint_problem_of(list, preset.model, fit_options)));
