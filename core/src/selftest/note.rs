@@ -56,7 +56,7 @@ impl fmt::Display for Note {
                  for the batch kernel, whose exponential and logarithm are its own (gradients: an error relative to the largest component counts too).",
             ),
             Self::CostInstructions => f.write_str(
-                "Instructions per point are counted by valgrind's callgrind; the commands are at the top of benches/cost.rs.",
+                "Instructions per point are counted by valgrind's callgrind; the commands are at the top of core/benches/cost.rs.",
             ),
             Self::AccuracyEvaluations { rows } => write!(
                 f,

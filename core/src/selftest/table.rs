@@ -192,7 +192,7 @@ mod tests {
         let table: Vec<usize> = text.lines().filter(|line| line.starts_with('|')).map(|line| line.chars().count()).collect();
         assert_eq!(table.len(), 4, "{text}");
         assert!(table.iter().all(|&width| width == table[0]), "{text}");
-        assert!(text.ends_with("at the top of benches/cost.rs.\n"), "{text}");
+        assert!(text.ends_with("at the top of core/benches/cost.rs.\n"), "{text}");
     }
 
     #[test]

@@ -107,6 +107,8 @@ struct Room {
 /// Least width of a column, and of a slider, in points.
 const LEAST: f32 = 27.0;
 const SHORTEST_SLIDER: f32 = 56.0;
+/// The same beside a switch between shared and own, where the panel is narrow.
+const SHORTEST_BESIDE_SWITCH: f32 = 30.0;
 /// What a row has beside slider, value and names: lock, reset in words or as an arrow, the switch
 /// between shared and own, the gaps.
 const LOCK: f32 = 58.0;
@@ -118,10 +120,11 @@ const GAPS: f32 = 15.0;
 impl Room {
     /// Of a row in a panel of that width: what is left is the slider's.
     fn of(width: f32, beside_switch: bool) -> Self {
-        let value = if beside_switch { 84.0 } else { 92.0 };
+        let value = if beside_switch { 88.0 } else { 92.0 };
         let rest = |reset: f32| width - LEAST - value - LOCK - reset - GAPS - if beside_switch { SHARED } else { 0.0 };
         let has_words = rest(RESET) >= SHORTEST_SLIDER;
-        let slider = rest(if has_words { RESET } else { ARROW }).clamp(SHORTEST_SLIDER, 420.0);
+        let shortest = if beside_switch { SHORTEST_BESIDE_SWITCH } else { SHORTEST_SLIDER };
+        let slider = rest(if has_words { RESET } else { ARROW }).clamp(shortest, 420.0);
         Self { slider, value, least: LEAST, has_words }
     }
 }

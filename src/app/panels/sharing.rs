@@ -20,6 +20,7 @@ pub fn sharing_ui(shared: &mut ParameterSet, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = ui.label(tr!("Measurements of"));
         let combo = ComboBox::from_id_salt("sharing")
+            .truncate()
             .width(ui.available_width() - 8.0)
             .selected_text(current.map_or_else(|| tr!("as chosen below"), |sharing| translated(sharing.name())));
         let response = combo.show_ui(ui, |ui| {

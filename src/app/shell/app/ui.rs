@@ -84,13 +84,14 @@ fn small_ui(app: &mut App, ui: &mut Ui) {
     middle_ui(app, ui);
 }
 
-/// Widths in points: below the first one panel is seen at a time; what the panels have by themselves
-/// and at least. At the first width both have their least, and the plots half of the window.
-const NARROW: f32 = 1230.0;
+/// Widths in points: what the panels have by themselves and at least. Where both at their least leave the plots less than half of the
+/// window, one panel is seen at a time.
 const PARAMETERS: f32 = 366.0;
 const FIT: f32 = 320.0;
 const SIDE: f32 = 332.0;
 const LEAST_PARAMETERS: f32 = 290.0;
+/// With a column of what measurements share.
+const LEAST_SHARING: f32 = 320.0;
 const LEAST_FIT: f32 = 280.0;
 /// What the frames of a panel take besides.
 const FRAME: f32 = 20.0;
@@ -105,7 +106,8 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     // A lesson without data has nothing to fit.
     let has_fit = app.window.panels.fit && (app.lessons.session.is_none() || app.work.measurements().has_rows());
     let has_parameters = app.window.panels.parameters;
-    if width < NARROW {
+    let least = if app.work.measurements().measured().nth(1).is_some() { LEAST_SHARING } else { LEAST_PARAMETERS };
+    if half < least + LEAST_FIT + 2.0 * FRAME {
         if has_parameters || has_fit {
             let panel = Panel::left("side").resizable(false).exact_size(SIDE.min(half - FRAME));
             let side = panel.show(ui, |ui| {
@@ -120,7 +122,7 @@ fn side_panels_ui(app: &mut App, ui: &mut Ui) {
     if has_parameters {
         let most = half - FRAME - if has_fit { LEAST_FIT + FRAME } else { 0.0 };
         // What the fit has by itself is left to it, as far as the sliders can do without.
-        let usual = if has_fit { (half - FIT - 2.0 * FRAME).clamp(LEAST_PARAMETERS, PARAMETERS) } else { PARAMETERS.min(most) };
+        let usual = if has_fit { (half - FIT - 2.0 * FRAME).clamp(least, PARAMETERS) } else { PARAMETERS.min(most) };
         let panel = Panel::left("parameters").default_size(usual).size_range(usual..=most.max(usual));
         left = panel.show(ui, |ui| parameters_ui(app, ui)).response.rect.width();
     }

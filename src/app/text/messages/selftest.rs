@@ -102,7 +102,7 @@ impl Localized for Note {
                 "Geometries are prepared once and not part of the time, but for the Mueller matrix, which starts from the angles. Differences are to the full scalar evaluation, over a dozen surfaces: in units of the last place where terms or derivatives are only left out, relative for the batch kernel, whose exponential and logarithm are its own (gradients: an error relative to the largest component counts too)."
             ),
             Self::CostInstructions => {
-                tr!("Instructions per point are counted by valgrind's callgrind; the commands are at the top of benches/cost.rs.")
+                tr!("Instructions per point are counted by valgrind's callgrind; the commands are at the top of core/benches/cost.rs.")
             }
             Self::AccuracyEvaluations { rows } => tr!(
                 "Evaluation: BRDF and DoLP of the nine-parameter model on the {} rows of the 60-digit table; times with one Cauchy surface under all its geometries, on one thread: median of 11 repetitions after a warm-up. An error of 1 means not a single digit.",
