@@ -47,8 +47,8 @@ impl Runner {
     }
 }
 
-/// DoLP, BRDF and its specular part of prepared points that no [`Batch`] holds, on the calling thread. `reflection` is the scalar form
-/// at the point of that number.
+/// DoLP, BRDF and its specular part of prepared points that no [`crate::model::Batch`] holds, on the calling thread.
+/// `reflection` is the scalar form at the point of that number.
 pub(crate) fn radiances_of_blocks(
     surface: &Pbrdf,
     blocks: &[PointBlock],
