@@ -26,15 +26,18 @@ pub fn pressed(app: &App, ctx: &egui::Context) -> Option<Action> {
     let hit = |item: &Command| item.shortcut.is_some_and(|shortcut| ctx.input_mut(|input| input.consume_shortcut(&shortcut)));
     let Some(item) = items.iter().find(|item| hit(item)) else {
         let leaves = !is_covered && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-        return leaves.then(|| leaving_stage(app)).flatten();
+        return leaves.then(|| leaving(app)).flatten();
     };
     (item.status != Availability::Impossible).then(|| item.action.clone())
 }
 
 /// What Escape does where nothing else wants it.
-fn leaving_stage(app: &App) -> Option<Action> {
+fn leaving(app: &App) -> Option<Action> {
     if app.dock.is_presented() {
         return Some(Action::Window(WindowAction::Present));
+    }
+    if app.dialogs.tour.is_some() {
+        return Some(Action::Window(WindowAction::EndTour));
     }
     app.dock.on_screen().first().filter(|_| app.dock.is_filled()).map(|pane| Action::Window(WindowAction::FillWindow(*pane)))
 }

@@ -49,6 +49,10 @@ pub fn note_panels(ctx: &egui::Context, panels: [f32; 2]) {
 
 /// The step that is shown, while the tour is.
 pub fn tour_ui(app: &mut App, ui: &mut Ui) {
+    // A talk and a page of a course have not the panels that the tour points at.
+    if app.dock.is_presented() || app.dialogs.room.embedded.is_some() {
+        return;
+    }
     let Some((step, (spot, heading, text))) = app.dialogs.tour.and_then(|step| Some((step, *STEPS.get(step)?))) else { return };
     let screen = ui.ctx().content_rect();
     let panels = ui.ctx().data(|data| data.get_temp(widths())).unwrap_or_default();

@@ -53,6 +53,23 @@ fn the_tour_has_four_steps_and_is_skipped_for_good() {
 }
 
 #[test]
+fn escape_ends_the_tour_and_a_talk_is_without_it() {
+    let mut harness = harness();
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowTour(0)));
+    wait(&mut harness);
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::Present));
+    wait(&mut harness);
+    assert!(harness.query_by_label("Skip the tour").is_none());
+    // The first leaves the talk, the second the tour.
+    harness.key_press(Key::Escape);
+    wait(&mut harness);
+    assert!(harness.query_by_label("Skip the tour").is_some());
+    harness.key_press(Key::Escape);
+    wait(&mut harness);
+    assert!(explorer(&mut harness).window.knows_tour && explorer(&mut harness).dialogs.tour.is_none());
+}
+
+#[test]
 fn every_notice_goes_by_itself_and_lies_over_no_axis() {
     let mut harness = harness();
     for text in ["One.", "Two."] {
