@@ -107,12 +107,8 @@ fn points_of_block(number: usize, points: usize) -> Range<usize> {
     number * BLOCK..points.min((number + 1) * BLOCK)
 }
 
-/// An outcome for each block of so many points, made side by side; the error of the first that has one.
-fn each_block<T: Send>(
-    points: usize,
-    make: impl Fn(usize) -> Result<T, AngleColumnsError> + Send + Sync,
-) -> Result<Vec<T>, (usize, AngleColumnsError)> {
-    let outcomes: Vec<_> = (0..points.div_ceil(BLOCK)).into_par_iter().map(make).collect();
+/// What all blocks gave, or the error of the first that has one, with the number of points before that block.
+fn in_order<T>(outcomes: Vec<Result<T, AngleColumnsError>>) -> Result<Vec<T>, (usize, AngleColumnsError)> {
     outcomes.into_iter().enumerate().map(|(number, outcome)| outcome.map_err(|error| (number * BLOCK, error))).collect()
 }
 
@@ -134,15 +130,10 @@ fn arrays_of<'py>(
     let columns = borrowed.iter_mut().map(|array| array.as_slice_mut()).collect::<Result<Vec<_>, _>>()?;
     let mut parts: Vec<_> = columns.into_iter().zip(&widths).map(|(column, width)| column.chunks_mut(width * BLOCK)).collect();
     let blocks: Vec<Vec<&mut [f64]>> = (0..points.div_ceil(BLOCK)).map(|_| parts.iter_mut().filter_map(Iterator::next).collect()).collect();
-    let outcome = py.detach(|| {
-        let outcomes: Vec<_> = blocks.into_par_iter().enumerate().map(|(number, out)| evaluate(number, out)).collect();
-        outcomes.into_iter().enumerate().find_map(|(number, outcome)| outcome.err().map(|error| (number * BLOCK, error)))
-    });
+    let outcome = py.detach(|| in_order(blocks.into_par_iter().enumerate().map(|(number, out)| evaluate(number, out)).collect()));
     drop(borrowed);
-    match outcome {
-        Some((before, error)) => Err(exception(error, before, shape)),
-        None => Ok(arrays),
-    }
+    outcome.map_err(|(before, error)| exception(error, before, shape))?;
+    Ok(arrays)
 }
 
 /// The first three columns, and the others.
@@ -210,8 +201,8 @@ impl Prepared {
         let (theta_i, theta_r, dphi) = (theta_i.as_slice()?, theta_r.as_slice()?, dphi.as_slice()?);
         let angles = AngleColumns::new(theta_i, theta_r, dphi).map_err(refused)?;
         let prepare = |number: usize| angles.part(points_of_block(number, angles.len())).prepare();
-        let blocks = py.detach(|| each_block(angles.len(), prepare)).map_err(|(before, error)| exception(error, before, &shape))?;
-        Ok(Self { points: angles.len(), blocks })
+        let outcome = py.detach(|| in_order((0..angles.len().div_ceil(BLOCK)).into_par_iter().map(prepare).collect()));
+        Ok(Self { points: angles.len(), blocks: outcome.map_err(|(before, error)| exception(error, before, &shape))? })
     }
 
     /// As `evaluate` has it.

@@ -85,11 +85,7 @@ fn panes_menu_ui(app: &mut App, ui: &mut Ui) {
     for pane in PaneId::ALL.iter().copied() {
         let is_shown = shown.contains(&pane);
         if ui.selectable_label(is_shown, translated(spec(pane).title)).on_hover_text(translated(spec(pane).tooltip)).clicked() {
-            app.actions.push(if is_shown {
-                Action::Window(WindowAction::ClosePane(pane))
-            } else {
-                Action::Window(WindowAction::ShowPane(pane))
-            });
+            app.actions.push(Action::Window(if is_shown { WindowAction::ClosePane(pane) } else { WindowAction::ShowPane(pane) }));
         }
     }
 }

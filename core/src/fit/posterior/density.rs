@@ -43,7 +43,7 @@ impl DensityPart {
         let counted = part.role.counted.clone();
         let mut transform = Transform::new(&part.problem, &parameters_at(&free, &part.places, held, x), part.role);
         if let Some(first) = first {
-            transform = transform.beside(&first.transform);
+            transform = transform.with_shared_functions_of(&first.transform);
         }
         let zeros = || vec![0.0; free.len()];
         Self {

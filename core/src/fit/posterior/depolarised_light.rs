@@ -92,6 +92,11 @@ impl DepolarisedLight {
         if sum > 0.0 { Self { points } } else { Self::default() }
     }
 
+    /// Whether no weight is free that D may follow: the mean is 0 everywhere.
+    pub(crate) fn is_dark(&self) -> bool {
+        self.points.iter().all(|point| point.ln_ratios == [f64::NEG_INFINITY; 2])
+    }
+
     /// The point that stands for all.
     pub(crate) fn mean_point(&self) -> MeanPoint {
         let mean = |of: fn(&Point) -> f64| self.points.iter().map(|point| point.share * of(point)).sum();

@@ -1,35 +1,35 @@
-//! A step of a trajectory, divided where the density is narrow: the within-orbit adaptive leapfrog of Bou-Rabee, Carpenter, Kleppe and Liu,
-//! arXiv:2506.18746 (2025).
+//! A macro step of a trajectory, divided into micro steps where the density is narrow: the within-orbit adaptive leapfrog of WALNUTS
+//! (Bou-Rabee, Carpenter, Kleppe and Liu, arXiv:2506.18746 (2025)).
 //!
-//! A stride of length h is 2ˡ leapfrog steps of h/2ˡ. From a point, l* is the smallest l for which the energy varies by at most
-//! [`TOLERANCE`] on the way. The stride takes l*, or with a small probability l* + 1. From its end backwards, l* can be smaller; so the
+//! A macro step of length h is 2ˡ leapfrog steps of h/2ˡ, the micro steps. From a point, l* is the smallest l for which the energy varies by at most
+//! [`TOLERANCE`] on the way. The macro step takes l*, or with a small probability l* + 1. From its end backwards, l* can be smaller; so the
 //! weight of all that lies beyond is multiplied by p(l from the end)/p(l from the beginning), which keeps the density invariant.
 
 use crate::fit::posterior::log_density::LogDensity;
 use crate::fit::posterior::phase::Phase;
 use crate::measurement::Deviates;
 
-/// How much the energy may vary within a stride.
+/// How much the energy may vary within a macro step.
 const TOLERANCE: f64 = 0.3;
 /// Halvings at most: where steps of h/128 do not do, the trajectory has diverged.
 const MOST_HALVINGS: u32 = 7;
-/// Probability of l* + 1, where l* = 0 and elsewhere: without it, a stride that l* − 1 would take back has no way back.
+/// Probability of l* + 1, where l* = 0 and elsewhere: without it, a macro step that l* − 1 would take back has no way back.
 const SHORTER_THAN_WHOLE: f64 = 0.1;
 const SHORTER: f64 = 0.3;
 
-/// What became of a stride.
+/// What became of a macro step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum StrideOutcome {
+pub(crate) enum MacroStepOutcome {
     Taken,
-    /// No stride from its end leads back by the same steps.
+    /// No macro step from its end leads back by the same micro steps.
     OneWay,
     /// The energy runs away even in the shortest steps.
     Diverged,
 }
 
-/// Takes strides; holds the buffers for them.
+/// Takes macro steps; holds the buffers for them.
 #[derive(Debug, Clone)]
-pub(crate) struct Stride {
+pub(crate) struct MacroStep {
     begin: Phase,
     back: Phase,
 }
@@ -67,7 +67,7 @@ fn go(walker: &mut Phase, density: &mut impl LogDensity, length: f64, halvings: 
     (true, walker.energy() - begin)
 }
 
-impl Stride {
+impl MacroStep {
     pub(crate) fn new(dimension: usize) -> Self {
         Self { begin: Phase::new(dimension), back: Phase::new(dimension) }
     }
@@ -79,7 +79,7 @@ impl Stride {
         density: &mut impl LogDensity,
         length: f64,
         deviates: &mut Deviates,
-    ) -> (StrideOutcome, f64) {
+    ) -> (MacroStepOutcome, f64) {
         self.begin.copy_from(walker);
         let (whole_does, change) = go(walker, density, length, 0);
         let change = if change.is_nan() { f64::INFINITY } else { change };
@@ -90,13 +90,13 @@ impl Stride {
                 go(walker, density, length, halvings).0
             });
         }
-        let Some(least) = least else { return (StrideOutcome::Diverged, change) };
+        let Some(least) = least else { return (MacroStepOutcome::Diverged, change) };
         let mut taken = least;
         if deviates.uniform() < one_more(least) {
             taken += 1;
             walker.copy_from(&self.begin);
             if !go(walker, density, length, taken).0 {
-                return (StrideOutcome::OneWay, change);
+                return (MacroStepOutcome::OneWay, change);
             }
         }
         // The way back by the same steps does.
@@ -106,13 +106,13 @@ impl Stride {
         });
         let ratio = probability(taken, least_back.unwrap_or(taken)) / probability(taken, least);
         walker.log_ratio += libm::log(ratio);
-        (if ratio > 0.0 { StrideOutcome::Taken } else { StrideOutcome::OneWay }, change)
+        (if ratio > 0.0 { MacroStepOutcome::Taken } else { MacroStepOutcome::OneWay }, change)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{MOST_HALVINGS, Stride, StrideOutcome, probability};
+    use super::{MOST_HALVINGS, MacroStep, MacroStepOutcome, probability};
     use crate::fit::posterior::log_density::LogDensity;
     use crate::fit::posterior::phase::Phase;
     use crate::measurement::Deviates;
@@ -151,22 +151,22 @@ mod tests {
     }
 
     #[test]
-    fn a_stride_that_is_taken_back_by_the_same_steps_has_a_ratio_of_one() {
+    fn a_macro_step_that_is_taken_back_by_the_same_steps_has_a_ratio_of_one() {
         let mut deviates = Deviates::new(3);
         let (mut returned, mut uneven) = (0, 0);
         for _ in 0..5000 {
             let ((x, y), (p, r)) = (deviates.pair(), deviates.pair());
             let begin = at([x * libm::exp(y), y], [p, r]);
             let mut walker = begin.clone();
-            let mut stride = Stride::new(2);
-            if stride.take(&mut walker, &mut Funnel, 0.8, &mut deviates).0 != StrideOutcome::Taken {
+            let mut macro_step = MacroStep::new(2);
+            if macro_step.take(&mut walker, &mut Funnel, 0.8, &mut deviates).0 != MacroStepOutcome::Taken {
                 continue;
             }
             let ratio = walker.log_ratio;
-            let outcome = stride.take(&mut walker, &mut Funnel, -0.8, &mut deviates).0;
+            let outcome = macro_step.take(&mut walker, &mut Funnel, -0.8, &mut deviates).0;
             // Other steps lead elsewhere; rounding alone is far below this.
             let is_back = walker.position.iter().zip(&begin.position).all(|(a, b)| (a - b).abs() < 1e-10 * (1.0 + b.abs()));
-            if outcome == StrideOutcome::Taken && is_back {
+            if outcome == MacroStepOutcome::Taken && is_back {
                 assert!(walker.log_ratio.abs() < 1e-12, "{ratio} {}", walker.log_ratio);
                 returned += 1;
                 uneven += usize::from(ratio.abs() > 0.1);
@@ -190,7 +190,7 @@ mod tests {
         }
         let mut walker = Phase::new(1);
         (walker.position[0], walker.momentum[0], walker.log_density) = (-0.01, 1.0, 0.0);
-        let outcome = Stride::new(1).take(&mut walker, &mut Wall, 1.0, &mut Deviates::new(1)).0;
-        assert_eq!(outcome, StrideOutcome::Diverged);
+        let outcome = MacroStep::new(1).take(&mut walker, &mut Wall, 1.0, &mut Deviates::new(1)).0;
+        assert_eq!(outcome, MacroStepOutcome::Diverged);
     }
 }

@@ -8,7 +8,7 @@
 //!    ▼
 //! sampler      chains in parallel; warm-up in windows
 //!    ├─ metric, bend     whitened and straightened coordinates, learnt in the warm-up
-//!    ├─ nuts             trajectories of strides, divided where the density is narrow
+//!    ├─ nuts             trajectories of macro steps, divided where the density is narrow (WALNUTS)
 //!    └─ step_size        dual averaging
 //!    ▼
 //! PosteriorSample: diagnostics (R̂, effective sizes), evidence (bridge sampling), verdict
@@ -22,6 +22,7 @@ mod diagnostics;
 mod evidence;
 mod likelihood;
 mod log_density;
+mod macro_step;
 mod metric;
 mod nuts;
 mod odds;
@@ -32,7 +33,6 @@ mod run;
 mod sample;
 mod sampler;
 mod step_size;
-mod stride;
 mod transform;
 mod valley;
 mod walls;

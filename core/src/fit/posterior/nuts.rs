@@ -3,12 +3,12 @@
 //! A trajectory doubles, forwards or backwards, until it turns back on itself. Its points are weighted by `exp(−H)`; the next draw is
 //! taken within a new half by weight, between the halves in favour of the new one. The metric is the unit matrix: the coordinates
 //! are whitened ([`crate::fit::posterior::metric`]). A step is divided where the density is narrow, which multiplies the weights of all
-//! points beyond by a ratio of probabilities ([`crate::fit::posterior::stride`]). A half is built leaf by leaf, without recursion: of
+//! points beyond by a ratio of probabilities ([`crate::fit::posterior::macro_step`]). A half is built leaf by leaf, without recursion: of
 //! the subtrees that a leaf completes, the momenta of the first leaves wait on a stack.
 
 use crate::fit::posterior::log_density::LogDensity;
+use crate::fit::posterior::macro_step::{MacroStep, MacroStepOutcome};
 use crate::fit::posterior::phase::{Phase, add_scaled, dot};
-use crate::fit::posterior::stride::{Stride, StrideOutcome};
 use crate::measurement::Deviates;
 
 /// Doublings of a trajectory, at most: 1,023 steps.
@@ -50,7 +50,7 @@ pub(crate) struct Nuts {
 #[derive(Debug, Clone)]
 struct Half {
     walker: Phase,
-    stride: Stride,
+    macro_step: MacroStep,
     proposal: Phase,
     sum: Vec<f64>,
     first_momentum: Vec<f64>,
@@ -85,7 +85,7 @@ impl Nuts {
         here.log_density = density.value_and_gradient(position, &mut here.gradient);
         let half = Half {
             walker: phase(),
-            stride: Stride::new(position.len()),
+            macro_step: MacroStep::new(position.len()),
             proposal: phase(),
             sum: zeros(),
             first_momentum: zeros(),
@@ -204,13 +204,13 @@ impl Half {
         self.sum.fill(0.0);
         self.log_weight = f64::NEG_INFINITY;
         for leaf in 0..1_usize << depth {
-            let (outcome, change) = self.stride.take(&mut self.walker, density, step_size, deviates);
+            let (outcome, change) = self.macro_step.take(&mut self.walker, density, step_size, deviates);
             accepted.points += 1.0;
             accepted.sum += libm::exp(-change.abs());
             match outcome {
-                StrideOutcome::Taken => {}
-                StrideOutcome::OneWay => return HalfOutcome::Turned,
-                StrideOutcome::Diverged => return HalfOutcome::Diverged,
+                MacroStepOutcome::Taken => {}
+                MacroStepOutcome::OneWay => return HalfOutcome::Turned,
+                MacroStepOutcome::Diverged => return HalfOutcome::Diverged,
             }
             let log_weight = energy - self.walker.energy() + self.walker.log_ratio;
             self.log_weight = log_add(self.log_weight, log_weight);

@@ -17,8 +17,8 @@ const WINDOWS: [usize; 6] = [100, 100, 150, 250, 400, 150];
 const ACCEPTANCE: f64 = 0.8;
 /// Effective draws of the worst coordinate that one draw is to be worth, at least.
 const WORTH: f64 = 0.15;
-/// Transitions from one draw to the next, at most.
-const MOST_TRANSITIONS: f64 = 8.0;
+/// Thinning: transitions from one draw to the next, at most.
+const MOST_THINNING: f64 = 8.0;
 /// Draws of each chain between two meetings after the warm-up.
 const BLOCK: usize = 250;
 
@@ -63,7 +63,7 @@ struct Pace {
     /// Whether the step size is adapted.
     adapts: bool,
     /// Transitions from one draw to the next.
-    transitions: usize,
+    thinning: usize,
 }
 
 /// How far the chains are, 0 to 1, the warm-up being a part of it.
@@ -85,7 +85,7 @@ impl<D: LogDensity> Chain<D> {
             if cancelled() {
                 break;
             }
-            for _ in 0..pace.transitions {
+            for _ in 0..pace.thinning {
                 let transition = nuts.advance(&mut whitened, adapted.map_or(*step_size, |adapted| adapted.step_size()), deviates);
                 if let Some(adapted) = &mut adapted {
                     adapted.update(transition.acceptance);
@@ -94,7 +94,7 @@ impl<D: LogDensity> Chain<D> {
                 window.cut += usize::from(transition.cut);
                 window.acceptance += transition.acceptance;
             }
-            window.transitions += pace.transitions;
+            window.transitions += pace.thinning;
             metric.to_density(nuts.position(), position);
             window.points.push(position.clone());
             window.log_density.push(nuts.log_density());
@@ -123,7 +123,7 @@ pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
     #[expect(clippy::cast_precision_loss, reason = "a number of draws")]
     let share = |done: usize| done as f64 / (WINDOWS.iter().sum::<usize>() + draws) as f64;
     let mut done = 0;
-    let mut pace = Pace { adapts: true, transitions: 1 };
+    let mut pace = Pace { adapts: true, thinning: 1 };
     for (i, &window) in WINDOWS.iter().enumerate() {
         run_all(&mut chains, |chain| chain.run(&metric, window, pace, cancelled));
         done += window;
@@ -133,7 +133,7 @@ pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
             metric = metric.of_draws(&points).unwrap_or(metric);
         }
         if i + 2 == WINDOWS.len() {
-            pace.transitions = transitions(&chains);
+            pace.thinning = thinning(&chains);
         }
     }
     pace.adapts = false;
@@ -154,7 +154,7 @@ pub(crate) fn draw_chains<D: LogDensity + Clone + Send>(
 
 /// Transitions from one draw to the next, by the effective draws of the present window.
 #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of draws")]
-fn transitions<D>(chains: &[Chain<D>]) -> usize {
+fn thinning<D>(chains: &[Chain<D>]) -> usize {
     let of = |coordinate: usize| {
         let columns = chains.iter().map(|chain| chain.window.points.iter().map(|point| point[coordinate]).collect());
         convergence(&columns.collect::<Vec<Vec<f64>>>())
@@ -162,7 +162,7 @@ fn transitions<D>(chains: &[Chain<D>]) -> usize {
     let dimension = chains.first().map_or(0, |chain| chain.position.len());
     let worst = (0..dimension).filter_map(of).map(|found| found.ess_bulk).fold(f64::INFINITY, f64::min);
     let drawn: usize = chains.iter().map(|chain| chain.window.points.len()).sum();
-    (WORTH * drawn as f64 / worst).ceil().clamp(1.0, MOST_TRANSITIONS) as usize
+    (WORTH * drawn as f64 / worst).ceil().clamp(1.0, MOST_THINNING) as usize
 }
 
 impl<D: LogDensity + Clone> Chain<D> {

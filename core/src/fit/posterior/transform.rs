@@ -21,7 +21,7 @@ use crate::optics::SlopeDistribution;
 const START_MARGIN: f64 = 1e-3;
 
 /// Added to (n − 1)² + k², so that a surface that reflects nothing has a finite coordinate.
-const FAINTEST_MIRROR: f64 = 1e-3;
+const FAINTEST: f64 = 1e-3;
 
 /// The part that a measurement's parameters play among those of all.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,14 +118,15 @@ impl Transform {
             Self { model: problem.model(), role, free, held, low, high, valleys, single, light, mean_point, reference: *reference };
         let light = transform.depolarised_light(problem);
         transform.mean_point = light.mean_point();
-        if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) {
+        // Where D has no coordinate, or nothing is added to it, nothing is evaluated.
+        if transform.valleys.first().is_some_and(|(valley, _)| *valley == Valley::Index) && !light.is_dark() {
             transform.light = light;
         }
         transform
     }
 
-    /// Of another measurement beside a first one, whose functions shared coordinates have.
-    pub(crate) fn beside(mut self, first: &Self) -> Self {
+    /// With what is added to shared coordinates as a first measurement has it: they give the same values in both.
+    pub(crate) fn with_shared_functions_of(mut self, first: &Self) -> Self {
         self.mean_point = first.mean_point;
         if !self.role.own.contains(Parameter::N) {
             (self.light, self.reference) = (first.light.clone(), first.reference);
@@ -211,10 +212,10 @@ impl Transform {
         let by_ks = knows_only_ratios && self.free.contains(&Parameter::Ks) && self.role.may_follow(parameter, Parameter::Ks);
         let (ks_log, ks_slope) = if by_ks { (libm::log(p.ks), 1.0 / p.ks) } else { (0.0, 0.0) };
         let by_index = knows_only_ratios && [Parameter::N, Parameter::K].iter().all(|&index| self.role.may_follow(parameter, index));
-        let (mirror_log, [by_n, by_k]) = if by_index { log_mirror(p) } else { (0.0, [0.0; 2]) };
+        let (reflectance_log, [by_n, by_k]) = if by_index { ln_normal_reflectance(p) } else { (0.0, [0.0; 2]) };
         let height = self.model.distribution.height(p.q);
         let q_slope = if self.model.distribution == SlopeDistribution::Cauchy { 1.0 / height } else { 0.0 };
-        let log = libm::log(p.sigma * p.sigma / height) - ks_log - mirror_log;
+        let log = libm::log(p.sigma * p.sigma / height) - ks_log - reflectance_log;
         let by_peak = [(Parameter::Sigma, 2.0 / p.sigma), (Parameter::Q, -q_slope), (Parameter::Ks, -ks_slope)];
         let ([sigma, q, ks], n, k) = (by_peak, (Parameter::N, -by_n), (Parameter::K, -by_k));
         Some((sign * log, [sigma, q, ks, n, k].map(|(by, slope)| (by, sign * slope))))
@@ -227,7 +228,7 @@ impl Transform {
         // A product of slopes: each lies well within f64 wherever a chain may go, but not all together.
         to.log_jacobian = 0.0;
         for &place in self.single.iter().filter(|&&place| self.is_shape(place)) {
-            to.parameters[self.free[place]] = self.single_value(place, u[place]).1;
+            (to.walled[place], to.parameters[self.free[place]]) = self.single_value(place, u[place]);
         }
         let (shear_of_d, light_slopes) = self.shear_of_d(u, &to.parameters);
         to.light_slopes = light_slopes;
@@ -248,13 +249,13 @@ impl Transform {
         }
         for &place in &self.single {
             let parameter = self.free[place];
-            let shear = self.shear(parameter, &to.parameters).map_or(0.0, |(shear, _)| shear);
-            let (walled, value) = self.single_value(place, u[place] - shear);
-            to.parameters[parameter] = value;
-            if self.role.counted[place] {
-                to.log_jacobian += libm::log(walled.slope);
+            if !self.is_shape(place) {
+                let shear = self.shear(parameter, &to.parameters).map_or(0.0, |(shear, _)| shear);
+                (to.walled[place], to.parameters[parameter]) = self.single_value(place, u[place] - shear);
             }
-            to.walled[place] = walled;
+            if self.role.counted[place] {
+                to.log_jacobian += libm::log(to.walled[place].slope);
+            }
         }
     }
 
@@ -278,7 +279,7 @@ impl Transform {
             let slope = gradient[place] * walled.slope + self.count(place) * walled.log_slope_change();
             gradient[place] = slope;
             for (parameter, shear_slope) in self.shear(self.free[place], &at.parameters).into_iter().flat_map(|(_, by)| by) {
-                if let Some(other) = self.free.iter().position(|&free| free == parameter) {
+                if let Some(other) = self.place(parameter) {
                     gradient[other] -= slope * shear_slope;
                 }
             }
@@ -339,9 +340,9 @@ impl Transform {
 }
 
 /// ln of the reflectance at normal incidence, `((n − 1)² + k²)/((n + 1)² + k²)`, and its derivatives by n and k.
-fn log_mirror(p: &Parameters) -> (f64, [f64; 2]) {
+fn ln_normal_reflectance(p: &Parameters) -> (f64, [f64; 2]) {
     let k_sq = p.k * p.k;
-    let above = (p.n - 1.0) * (p.n - 1.0) + k_sq + FAINTEST_MIRROR;
+    let above = (p.n - 1.0) * (p.n - 1.0) + k_sq + FAINTEST;
     let below = (p.n + 1.0) * (p.n + 1.0) + k_sq;
     let by_n = 2.0 * ((p.n - 1.0) / above - (p.n + 1.0) / below);
     (libm::log(above / below), [by_n, 2.0 * p.k * (1.0 / above - 1.0 / below)])

@@ -6,7 +6,7 @@ use crate::model::batch::lanes::{Instructions, Mask, V, Vectorised, choose, disp
 use crate::model::batch::prepared::{LANES, PointBlock, blocks};
 use crate::model::batch::runner::radiances_of_blocks;
 use crate::model::batch::trigonometry::{abs_sin_cos, sin_cos_near_zero};
-use crate::optics::{Degrees, Facet, Geometry, GeometryError};
+use crate::optics::{Facet, Geometry, GeometryError, RADIANS_PER_DEGREE};
 use fearless_simd::prelude::*;
 use std::ops::Range;
 
@@ -124,9 +124,7 @@ impl<'a> AngleColumns<'a> {
     /// [`AngleColumnsError::Point`] or [`AngleColumnsError::Side`] of the first point that has no geometry; [`AngleColumnsError::Lengths`] where a column is of another
     /// length.
     pub fn radiances(&self, surface: &Pbrdf, mut out: [&mut [f64]; 3]) -> Result<(), AngleColumnsError> {
-        if let Some(column) = out.iter().find(|column| column.len() != self.len()) {
-            return Err(AngleColumnsError::Lengths(self.len(), self.len(), column.len()));
-        }
+        self.check_lengths(&out)?;
         let mut buffer = Vec::new();
         for first in (0..self.len()).step_by(CHUNK) {
             let points = first..self.len().min(first + CHUNK);
@@ -146,6 +144,13 @@ impl<'a> AngleColumns<'a> {
         let mut blocks = Vec::new();
         self.prepare_into(&mut blocks, 0)?;
         Ok(PreparedAngles { angles: [self.theta_i, self.theta_r, self.dphi].map(<[f64]>::to_vec), blocks })
+    }
+
+    fn check_lengths(&self, columns: &[&mut [f64]; 3]) -> Result<(), AngleColumnsError> {
+        match columns.iter().find(|column| column.len() != self.len()) {
+            Some(column) => Err(AngleColumnsError::Lengths(self.len(), self.len(), column.len())),
+            None => Ok(()),
+        }
     }
 
     /// The blocks of the points, of which the first one has that number.
@@ -188,9 +193,7 @@ impl PreparedAngles {
     /// [`AngleColumnsError::Lengths`] where a column is of another length.
     pub fn radiances(&self, surface: &Pbrdf, out: [&mut [f64]; 3]) -> Result<(), AngleColumnsError> {
         let angles = self.angles();
-        if let Some(column) = out.iter().find(|column| column.len() != angles.len()) {
-            return Err(AngleColumnsError::Lengths(angles.len(), angles.len(), column.len()));
-        }
+        angles.check_lengths(&out)?;
         evaluate(surface, &self.blocks, &angles, out);
         Ok(())
     }
@@ -284,7 +287,7 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     // 1/cos²θi cos²θr − 1 by tangents, so that small angles keep their digits.
     let (sin_i_sq, sin_r_sq) = (sin_i * sin_i, sin_r * sin_r);
     let tangents = (sin_i_sq.mul_add(cos_r * cos_r, sin_r_sq)) / (cosines * cosines);
-    let reduced = theta_r * Degrees(1.0).radians();
+    let reduced = theta_r * RADIANS_PER_DEGREE;
 
     let end = first + V::<S>::LEN;
     sin_beta_sq.store_slice(&mut block.sin_beta_sq[first..end]);

@@ -12,7 +12,7 @@ use crate::model::batch::lanes::{Bits, V, number};
 use fearless_simd::prelude::*;
 
 /// 1.5 · 2⁵²: adding it leaves the nearest whole number in the low bits.
-const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
+pub(crate) const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 /// 2⁵²: whole numbers below it, put into its low bits, are themselves once it is taken off.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// ln 2 in two parts; the first has 21 trailing zero bits, so that its product with an exponent is exact.

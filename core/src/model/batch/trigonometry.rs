@@ -3,14 +3,10 @@
 //! `θ = 90° k + r`, |r| ≤ 45° exactly; x = r π/180 in two parts; `sin x = x + x³ S(x²)`, `cos x = 1 − x²/2 + x⁴ C(x²)`, S and C of degree 5
 //! (truncation 2·10⁻¹⁷), by the script that [`crate::model::batch::elementary`] names.
 
+use crate::model::batch::elementary::TO_WHOLE;
 use crate::model::batch::lanes::{V, choose, number};
+use crate::optics::{RADIANS_PER_DEGREE, RADIANS_PER_DEGREE_REST};
 use fearless_simd::prelude::*;
-
-/// 1.5 · 2⁵²: adding it leaves the nearest whole number in the low bits.
-const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
-/// π/180 to 106 bits.
-const RADIANS_PER_DEGREE: f64 = 0.017_453_292_519_943_295;
-const RADIANS_PER_DEGREE_REST: f64 = 2.948_652_270_870_168_7e-19;
 
 const S: [f64; 6] = [
     -0.166_666_666_666_666_66,
