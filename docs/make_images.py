@@ -163,6 +163,44 @@ def differing(a, b):
     return sum(largest.histogram()[LITTLE + 1:]) / (a.width * a.height)
 
 
+def differing_place(a, b):
+    """The box (left, top, right, bottom) around the pixels that differ by more than a little."""
+    return ImageChops.difference(a, b).convert("L").point(lambda value: 255 if value > LITTLE else 0).getbbox()
+
+
+def make(how, program, name, display):
+    """A picture, made in a place of its own."""
+    with tempfile.TemporaryDirectory() as place:
+        os.environ.update(HOME=place, DISPLAY=display, **{f"XDG_{kind.upper()}_HOME": f"{place}/{kind}" for kind in ("config", "data", "cache")})
+        os.environ.pop("WAYLAND_DISPLAY", None)
+        return how(program, name, pathlib.Path(place))
+
+
+def without_time(name, image):
+    """The picture with the place of the time white."""
+    rest = image.convert("RGB")
+    if name in TIMES:
+        rest.paste("white", TIMES[name])
+    return rest
+
+
+def save(path, name, image):
+    """Writes the picture in a palette that does not depend on the time of the fit."""
+    palette = without_time(name, image).quantize(COLORS)
+    path.parent.mkdir(exist_ok=True)
+    image.quantize(palette=palette, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def agrees(path, name, image):
+    """Whether a picture, in the palette of the book's, is the book's; says how much differs, and where."""
+    with Image.open(path) as shown:
+        pair = [without_time(name, one) for one in (shown, image.quantize(palette=shown, dither=Image.Dither.NONE))]
+    share = differing(*pair)
+    where = f" in {differing_place(*pair)}" if share > 0 else ""
+    print(f"{path.name}: {share:.1e} of the pixels differ{where}{'' if share <= SHARE else ', too many'}", flush=True)
+    return share <= SHARE
+
+
 def main():
     check = "--check" in sys.argv
     program, *names = [argument for argument in sys.argv[1:] if argument != "--check"]
@@ -177,22 +215,11 @@ def main():
         # The number of a display that was free.
         display = f":{os.read(told, 16).decode().strip()}"
         for name in names or made:
-            make, path = made[name]
-            with tempfile.TemporaryDirectory() as place:
-                os.environ.update(HOME=place, DISPLAY=display, **{f"XDG_{kind.upper()}_HOME": f"{place}/{kind}" for kind in ("config", "data", "cache")})
-                os.environ.pop("WAYLAND_DISPLAY", None)
-                image = make(program, name, pathlib.Path(place)).quantize(COLORS, dither=Image.Dither.NONE)
+            how, path = made[name]
             if check:
-                with Image.open(path) as shown:
-                    pair = [shown.convert("RGB"), image.convert("RGB")]
-                for one in pair if name in TIMES else []:
-                    one.paste("white", TIMES[name])
-                share = differing(*pair)
-                print(f"{path.name}: {share:.1e} of the pixels differ{'' if share <= SHARE else ', too many'}")
-                faults += share > SHARE
+                faults += not agrees(path, name, make(how, program, name, display))
             else:
-                path.parent.mkdir(exist_ok=True)
-                image.save(path, optimize=True)
+                save(path, name, make(how, program, name, display))
     finally:
         server.terminate()
         server.wait()
