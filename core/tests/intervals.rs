@@ -51,6 +51,24 @@ fn simulated(model: Model, truth: Parameters, is_dense: bool, columns: Columns, 
 const STEEL: Parameters = Parameters { n: 2.07, k: 2.9, sigma: 0.35, ks: 1.0, kd: 0.12, kv: 0.2, q: 2.2, c: -0.4, sigma_v: 0.6 };
 
 #[test]
+fn exact_data_determine_what_they_are_made_from() {
+    // A misfit of 1e-10 counts as rounding; the least sensitive parameter of these moves by 1e4 times that.
+    const NARROW: f64 = 1e-6;
+    let other = Parameters { n: 2.755, k: 7.6, sigma: 0.38, q: 2.9, ..STEEL };
+    for (model, truth, is_dense) in [(CAUCHY, STEEL, false), (CAUCHY, STEEL, true), (CAUCHY, other, true), (Model::GAUSS, other, true)] {
+        let result = Fit::new(&simulated(model, truth, is_dense, Columns::Dolp, [0.0; 2], 0), model).run().expect("a valid fit");
+        for estimate in result.estimates.iter().filter(|estimate| estimate.free) {
+            let (name, value) = (estimate.parameter, truth[estimate.parameter]);
+            for Interval { low, high } in [estimate.interval68, estimate.interval95].into_iter().flatten() {
+                assert!(low.is_some_and(|low| low <= value) && near(low, value, NARROW), "{name:?} from {low:?}, made from {value}");
+                assert!(high.is_some_and(|high| high >= value) && near(high, value, NARROW), "{name:?} to {high:?}, made from {value}");
+            }
+        }
+        assert!(result.undetermined().next().is_none());
+    }
+}
+
+#[test]
 fn a_quadratic_effect_at_a_bound_has_an_upper_end() {
     let result = fitted(&data("k0.csv"));
     let k = result[Parameter::K];

@@ -9,6 +9,8 @@ pub(crate) struct Held<'a, P> {
     pub problem: &'a P,
     pub unknown: usize,
     pub value: f64,
+    /// Sum of squares below which residuals are rounding.
+    pub negligible: f64,
 }
 
 impl<P: LeastSquares> LeastSquares for Held<'_, P> {
@@ -39,7 +41,7 @@ impl<P: LeastSquares> LeastSquares for Held<'_, P> {
     }
 
     fn negligible(&self) -> f64 {
-        self.problem.negligible()
+        self.negligible
     }
 
     fn to_local(&self, x: &DVector<f64>, moving: &[usize], jacobian: &mut DMatrix<f64>) {

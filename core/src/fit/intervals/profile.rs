@@ -28,8 +28,9 @@ use serde::Serialize;
 pub const LEVELS: [f64; 2] = [0.682_689_492_137_085_9, 0.95];
 /// A linear standard error is shown where both ends of the 68.3 % interval lie within this fraction of it.
 const AGREEMENT: f64 = 0.25;
-/// Sum of squares below which residuals are rounding, in the units of Eq. (18): a relative misfit of 1e-13.
-const ROUNDING: f64 = 1e-26;
+/// Sum of squares below which residuals are rounding, in the units of Eq. (18): a relative misfit of 1e-10. Limits of a thousand
+/// rows lie another factor of a thousand lower, and still well above the rounding of the residuals, a relative 1e-15.
+const ROUNDING: f64 = 1e-20;
 /// Times that a better minimum found by a profile becomes the result, at most.
 const MOST_MINIMA: usize = 4;
 /// Better points of a round that are followed to their minima.
@@ -154,7 +155,10 @@ fn profiles_of<P: FitProblem>(problem: &P, analysis: &Analysis<P>, of: &[usize],
     let landmarks = Landmarks { problem, minimum, others: &others, elsewhere: &elsewhere, observer };
     let names = problem.names();
     let unknowns: Vec<usize> = of.iter().copied().filter(|&j| !is_idle(analysis, &names[j])).collect();
-    let errors: Vec<Option<f64>> = names.iter().map(|name| analysis.uncertainty.error_of(name)).collect();
+    // Where residuals are rounding, the linear errors go by the same sum of squares as the limits.
+    let scale = (above_rounding(problem.options().weights, sum_of_squares) / sum_of_squares).sqrt();
+    let error_of = |name| analysis.uncertainty.error_of(name).map(|error| scale * error).filter(|error| error.is_finite());
+    let errors: Vec<Option<f64>> = names.iter().map(error_of).collect();
     let rises: Vec<[f64; 2]> = (0..names.len()).map(|j| rises(problem, analysis, sum_of_squares, j)).collect();
     if !sum_of_squares.is_finite() || rises.iter().flatten().any(|rise| !rise.is_finite()) {
         // Without a degree of freedom there is no limit to cross.
@@ -182,8 +186,13 @@ pub(crate) fn rise(weights: Weights, minimum: f64, dof: usize, level: f64) -> f6
     match weights {
         Weights::Sigma => chi_squared_quantile(level),
         Weights::None if dof == 0 => f64::INFINITY,
-        Weights::None => minimum.max(ROUNDING) * f_quantile(level, dof) / dof as f64,
+        Weights::None => above_rounding(weights, minimum) * f_quantile(level, dof) / dof as f64,
     }
+}
+
+/// The sum of squares from which a variance is estimated: where it is rounding, the most that may be.
+fn above_rounding(weights: Weights, sum_of_squares: f64) -> f64 {
+    if weights == Weights::None { sum_of_squares.max(ROUNDING) } else { sum_of_squares }
 }
 
 /// The same fit, or the better one that a second search with other starts finds. Where the first met several minima, a narrow one may

@@ -19,6 +19,8 @@ const STEP: f64 = 0.5;
 const GROWTH: f64 = 3.0;
 /// Part of the way to the bound of the first step, where no standard error tells a better one.
 const FIRST_STEP: f64 = 0.03;
+/// The least step, as a fraction of the coordinate: some units in its last place.
+const LEAST_STEP: f64 = 16.0 * f64::EPSILON;
 /// Steps of a walk, at most.
 const MOST_STEPS: usize = 80;
 /// Steps that refine a crossing, at most: false position halves the bracket every third step.
@@ -181,6 +183,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
     /// The next step of the straight coordinate.
     fn step(&self, here: f64, end: f64) -> f64 {
         let away = end - here;
+        let least = LEAST_STEP * here.abs();
         let [.., before, last] = &self.points[..] else {
             let unit = self.at.problem.at_straight(self.unknown, here);
             let by_error = self.error.filter(|error| error.is_finite() && *error > 0.0).map(|error| {
@@ -188,12 +191,12 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
                 let inside = if away > 0.0 { there < self.bound } else { there > self.bound };
                 if inside { (self.at.problem.straight(self.unknown, there) - here).abs() } else { f64::INFINITY }
             });
-            return by_error.unwrap_or(f64::INFINITY).min(FIRST_STEP * away.abs()).copysign(away);
+            return by_error.unwrap_or(f64::INFINITY).min(FIRST_STEP * away.abs()).max(least).copysign(away);
         };
         let taken = (here - self.coordinate(before)).abs();
         let risen = self.deviance(last) - self.deviance(before);
         let factor = if risen > 0.0 { (STEP / risen).clamp(1.0 / GROWTH, GROWTH) } else { GROWTH };
-        (factor * taken).min(away.abs()).copysign(away)
+        (factor * taken).max(least).min(away.abs()).copysign(away)
     }
 
     /// The other unknowns on the line through the last two points.
@@ -285,7 +288,7 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
 
     /// The best fit with the unknown held at a value, from the best of some starts.
     fn held_fit(&self, value: f64, starts: &[DVector<f64>]) -> ProfileFit {
-        let held = Held { problem: self.at.problem, unknown: self.unknown, value };
+        let held = self.held(value);
         let mut residuals = DVector::zeros(held.residual_count());
         let mut best: Option<(f64, DVector<f64>)> = None;
         for start in starts {
@@ -303,9 +306,16 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         self.descend(value, start, f64::NEG_INFINITY)
     }
 
+    /// The problem with the unknown held at a value.
+    fn held(&self, value: f64) -> Held<'_, P> {
+        // Where the data are exact, the limits lie below what a fit takes for rounding.
+        let negligible = self.at.problem.negligible().min(ACCURACY * self.rises[0]);
+        Held { problem: self.at.problem, unknown: self.unknown, value, negligible }
+    }
+
     fn descend(&self, value: f64, mut start: DVector<f64>, target: f64) -> ProfileFit {
         start[self.unknown] = value;
-        let held = Held { problem: self.at.problem, unknown: self.unknown, value };
+        let held = self.held(value);
         let tolerance = ACCURACY * self.rises[0] / self.at.minimum.sum_of_squares.max(self.rises[0]);
         let limits = Limits { evaluations: PATIENCE * (start.len() + 1), tolerance, target, ..LIMITS };
         let mut recorder = Recorder::new(&start, Observer { progress: &|_| {}, ..self.at.observer });

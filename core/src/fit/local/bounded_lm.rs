@@ -14,6 +14,7 @@ use crate::fit::local::recorder::Recorder;
 use crate::fit::local::tall_qr::{TallQr, dot};
 use crate::fit::stop_reason::StopReason;
 use nalgebra::{DMatrix, DVector};
+use std::collections::VecDeque;
 use std::ops::Range;
 
 /// Square of the relative offset at which the sum of squares is at its minimum to every digit that matters.
@@ -40,6 +41,9 @@ const INSENSITIVE: f64 = 1e-10;
 /// Predicted relative reduction below which the curvature is lost in rounding and is not measured.
 const ACCELERATION_THRESHOLD: f64 = 1e-8;
 
+/// Steps over which the pace of a minimisation is measured.
+const PACE_STEPS: usize = 10;
+
 /// How far a minimisation goes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
@@ -51,7 +55,7 @@ pub(crate) struct Limits {
     pub refine: bool,
     /// Square of the relative offset at which the minimum is reached.
     pub tolerance: f64,
-    /// Sum of squares that is low enough.
+    /// Sum of squares that is low enough. Where it is finite, a minimisation that is too slow to get there ends early.
     pub target: f64,
 }
 
@@ -86,6 +90,26 @@ pub(crate) struct BoundedLm<'a, P: LeastSquares> {
     acceleration: Vec<f64>,
     buffers: Buffers,
     damping: f64,
+}
+
+/// Sums of squares of the last steps, and the evaluations until each.
+#[derive(Default)]
+struct Pace(VecDeque<(f64, usize)>);
+
+impl Pace {
+    /// Whether the target lies below what so many more evaluations reach at the pace of the last steps.
+    #[expect(clippy::cast_precision_loss, reason = "numbers of evaluations")]
+    fn is_too_slow(&mut self, sum_of_squares: f64, evaluations: usize, last: usize, target: f64) -> bool {
+        self.0.push_back((sum_of_squares, evaluations));
+        if self.0.len() <= PACE_STEPS {
+            return false;
+        }
+        let before = self.0.pop_front();
+        before.is_some_and(|(sum, since)| {
+            let pace = (sum - sum_of_squares) / (evaluations - since) as f64;
+            sum_of_squares - target > pace * last.saturating_sub(evaluations) as f64
+        })
+    }
 }
 
 /// What came of the attempt to leave a point.
@@ -138,6 +162,7 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
             return StopReason::Numerical;
         }
         let last = recorder.evaluations().saturating_add(limits.evaluations);
+        let mut pace = Pace::default();
         for _ in 0..limits.steps {
             if self.current.sum_of_squares <= self.problem.negligible() {
                 return StopReason::ResidualsZero;
@@ -154,6 +179,10 @@ impl<'a, P: LeastSquares> BoundedLm<'a, P> {
                     return self.refine(recorder);
                 }
                 return StopReason::Converged;
+            }
+            let evaluations = recorder.evaluations();
+            if limits.target.is_finite() && pace.is_too_slow(self.current.sum_of_squares, evaluations, last, limits.target) {
+                return StopReason::NoImprovement;
             }
             match self.advance(last, recorder) {
                 StepOutcome::Improved => {}
@@ -324,6 +353,9 @@ fn confine(bounds: &[(f64, f64)], x: &mut DVector<f64>) {
 
 #[cfg(test)]
 mod tests {
+    use crate::fit::local::bounded_lm::{BoundedLm, Limits};
+    use crate::fit::local::recorder::Recorder;
+    use crate::fit::local::solver::LIMITS;
     use crate::fit::{Effort, LeastSquares, Observer, StopReason, minimise};
     use nalgebra::{DMatrix, DVector, dvector};
 
@@ -379,5 +411,47 @@ mod tests {
     fn a_start_outside_the_box_is_put_inside() {
         let found = minimise(&Valley { bounds: [(0.0, 2.0), (0.0, 2.0)] }, Effort::Polish, Observer::NONE);
         assert!((found.x - dvector![1.0, 1.0]).amax() < 1e-9);
+    }
+
+    /// A residual that falls as 1/x for ever, above a floor.
+    struct Creep;
+
+    impl LeastSquares for Creep {
+        fn residual_count(&self) -> usize {
+            2
+        }
+
+        fn start(&self) -> DVector<f64> {
+            dvector![1.0]
+        }
+
+        fn bounds_of(&self, _unknown: usize) -> (f64, f64) {
+            (1.0, f64::INFINITY)
+        }
+
+        fn residuals_at(&self, x: &DVector<f64>, out: &mut DVector<f64>) -> bool {
+            out[0] = 1.0 / x[0];
+            out[1] = 1.0;
+            true
+        }
+
+        fn jacobian_at(&self, x: &DVector<f64>, out: &mut DMatrix<f64>) -> bool {
+            out.copy_from_slice(&[-1.0 / (x[0] * x[0]), 0.0]);
+            true
+        }
+    }
+
+    #[test]
+    fn a_target_out_of_reach_is_given_up_and_one_within_is_met() {
+        let run = |target: f64| {
+            let start = Creep.start();
+            let mut recorder = Recorder::new(&start, Observer::NONE);
+            let reason = BoundedLm::new(&Creep, &start).run(Limits { evaluations: 200, target, ..LIMITS }, &mut recorder);
+            (reason, recorder.evaluations(), recorder.sum_of_squares())
+        };
+        let (reason, evaluations, _) = run(0.5);
+        assert!(reason == StopReason::NoImprovement && evaluations < 100, "{reason:?} after {evaluations}");
+        let (reason, evaluations, sum_of_squares) = run(1.0001);
+        assert!(reason == StopReason::Converged && sum_of_squares <= 1.0001, "{reason:?} after {evaluations}: {sum_of_squares}");
     }
 }
