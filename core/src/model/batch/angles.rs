@@ -5,7 +5,7 @@ use crate::model::batch::elementary::ln_1p;
 use crate::model::batch::lanes::{Instructions, Mask, V, Vectorised, choose, dispatch, number};
 use crate::model::batch::prepared::{LANES, PointBlock, blocks};
 use crate::model::batch::runner::radiances_of_blocks;
-use crate::model::batch::trigonometry::{abs_sin_cos, sin_cos_near_zero};
+use crate::model::batch::trigonometry::{abs_sin_cos, sin_near_zero};
 use crate::optics::{Facet, Geometry, GeometryError, RADIANS_PER_DEGREE};
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -269,24 +269,31 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     let [sin_i, cos_i] = abs_sin_cos(simd, theta_i);
     let [sin_r, cos_r] = abs_sin_cos(simd, theta_r);
     let [sin_half, cos_half] = abs_sin_cos(simd, dphi * 0.5);
-    let [sin_m, cos_m] = sin_cos_near_zero(simd, (theta_i - theta_r) * 0.5);
-    let [cos_p, _] = abs_sin_cos(simd, ((-theta_i + 90.0) + (-theta_r + 90.0)) * 0.5);
+    let sin_m = sin_near_zero(simd, (theta_i - theta_r) * 0.5);
 
-    let sines = sin_i * sin_r;
-    let cosines = cos_i * cos_r;
-    let (sin_half_sq, cos_half_sq) = (sin_half * sin_half, cos_half * cos_half);
-    let cos_beta_sq = sines.mul_add(cos_half_sq, cos_p * cos_p);
-    let sin_beta_sq = sines.mul_add(sin_half_sq, sin_m * sin_m);
-    let mean_cosine = cos_p * cos_m;
-    let sin_m_cos_p = sin_m * cos_p;
-    let tan_alpha_sq = sines.mul_add(cos_half_sq, sin_m_cos_p * sin_m_cos_p) / (mean_cosine * mean_cosine);
-    let one_over_cos_sq = tan_alpha_sq + 1.0;
-    let cos_alpha_4 = of(1.0) / (one_over_cos_sq * one_over_cos_sq);
-    // cos θi cos θr/G = max(cos θi cos θr, cos²β max(cos θi, cos θr)/(2 cos β cos α)).
-    let grooves = cosines.max(cos_beta_sq * cos_i.max(cos_r) / (mean_cosine + mean_cosine));
-    // 1/cos²θi cos²θr − 1 by tangents, so that small angles keep their digits.
-    let (sin_i_sq, sin_r_sq) = (sin_i * sin_i, sin_r * sin_r);
-    let tangents = (sin_i_sq.mul_add(cos_r * cos_r, sin_r_sq)) / (cosines * cosines);
+    // m = (θi − θr)/2, |m| < 45°, and c = (cos θi + cos θr)/2 = cos β cos α:
+    // sin²β = s sin²½Δφ + sin²m, cos²β = s cos²½Δφ + c²/cos²m, tan²α = (s cos²½Δφ + c² tan²m)/c², s = sin θi sin θr.
+    let (sines, cosines) = (sin_i * sin_r, cos_i * cos_r);
+    let mean_cosine = (cos_i + cos_r) * 0.5;
+    let c_sq = mean_cosine * mean_cosine;
+    let sin_m_sq = sin_m * sin_m;
+    let cos_m_sq = -sin_m_sq + 1.0;
+    let sin_beta_sq = sines.mul_add(sin_half * sin_half, sin_m_sq);
+    let across = sines * (cos_half * cos_half) * cos_m_sq;
+    let cos_beta_sq_cos_m_sq = across + c_sq;
+    // What is divided by, in one division: none is below 10⁻³².
+    let (first_two, last_two) = (cos_m_sq * cos_beta_sq_cos_m_sq, c_sq * cosines);
+    let inverse = of(1.0) / (first_two * last_two);
+    let over_first_two = inverse * last_two;
+    let over_last_two = inverse * first_two;
+    let cos_beta_sq = cos_beta_sq_cos_m_sq * (over_first_two * cos_beta_sq_cos_m_sq);
+    let tan_alpha_sq = c_sq.mul_add(sin_m_sq, across) * (over_last_two * cosines) * (over_first_two * cos_beta_sq_cos_m_sq);
+    // cos²α = c²/cos²β.
+    let cos_alpha_sq = c_sq * cos_m_sq * (over_first_two * cos_m_sq);
+    let cos_alpha_4 = cos_alpha_sq * cos_alpha_sq;
+    // cos⁴α cos θi cos θr/G = cos²α max(cos²α cos θi cos θr, ½ cos β cos α max(cos θi, cos θr)).
+    let over_open = cos_alpha_4 * cosines;
+    let grooves = cos_alpha_sq * (mean_cosine * 0.5) * cos_i.max(cos_r);
     let reduced = theta_r * RADIANS_PER_DEGREE;
 
     let end = first + V::<S>::LEN;
@@ -294,9 +301,10 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     cos_beta_sq.store_slice(&mut block.cos_beta_sq[first..end]);
     cos_beta_sq.sqrt().store_slice(&mut block.cos_beta[first..end]);
     tan_alpha_sq.store_slice(&mut block.tan_alpha_sq[first..end]);
-    (cos_alpha_4 * grooves).store_slice(&mut block.over_geometric[first..end]);
-    (cos_alpha_4 * cosines).store_slice(&mut block.over_open[first..end]);
-    (ln_1p(simd, tangents) * -0.5).store_slice(&mut block.ln_cosines[first..end]);
+    over_open.max(grooves).store_slice(&mut block.over_geometric[first..end]);
+    over_open.store_slice(&mut block.over_open[first..end]);
+    // To 10⁻¹⁶, not to all digits: it is the exponent of a factor.
+    (-ln_1p(simd, c_sq * over_last_two - 1.0)).store_slice(&mut block.ln_cosines[first..end]);
     (reduced * reduced * 0.5).store_slice(&mut block.half_theta_r_sq[first..end]);
     good
 }
