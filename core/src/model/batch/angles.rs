@@ -294,6 +294,9 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     // cos⁴α cos θi cos θr/G = cos²α max(cos²α cos θi cos θr, ½ cos β cos α max(cos θi, cos θr)).
     let over_open = cos_alpha_4 * cosines;
     let grooves = cos_alpha_sq * (mean_cosine * 0.5) * cos_i.max(cos_r);
+    // 1/cos²θi cos²θr − 1 by tangents, so that small angles keep their digits.
+    let over_cosines = c_sq * over_last_two;
+    let tangents = sin_r.mul_add(sin_r, sin_i * sin_i * (cos_r * cos_r)) * (over_cosines * over_cosines);
     let reduced = theta_r * RADIANS_PER_DEGREE;
 
     let end = first + V::<S>::LEN;
@@ -303,8 +306,7 @@ fn prepare<S: Simd>(simd: S, [theta_i, signed_theta_r, dphi]: [V<S>; 3], block: 
     tan_alpha_sq.store_slice(&mut block.tan_alpha_sq[first..end]);
     over_open.max(grooves).store_slice(&mut block.over_geometric[first..end]);
     over_open.store_slice(&mut block.over_open[first..end]);
-    // To 10⁻¹⁶, not to all digits: it is the exponent of a factor.
-    (-ln_1p(simd, c_sq * over_last_two - 1.0)).store_slice(&mut block.ln_cosines[first..end]);
+    (ln_1p(simd, tangents) * -0.5).store_slice(&mut block.ln_cosines[first..end]);
     (reduced * reduced * 0.5).store_slice(&mut block.half_theta_r_sq[first..end]);
     good
 }
