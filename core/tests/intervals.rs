@@ -69,6 +69,37 @@ fn exact_data_determine_what_they_are_made_from() {
 }
 
 #[test]
+fn the_narrow_interval_ends_where_the_wide_one_does() {
+    // Aluminium at angles that tell little: a profile of many branches.
+    let truth = Parameters { n: 1.24, k: 6.6, sigma: 0.3, ks: 1.0, kd: 0.1, kv: 0.1, q: 2.0, c: -0.5, sigma_v: 0.5 };
+    let (theta_i, theta_r) = (vec![30.0, 40.0, 50.0, 60.0], (4..=12).map(|step| 5.0 * f64::from(step)).collect());
+    let surface = Pbrdf::new(CAUCHY, truth).expect("a valid surface");
+    let simulation = Simulation {
+        model_name: "test".to_owned(),
+        surface,
+        theta_i,
+        theta_r,
+        dphi: 180.0,
+        columns: Columns::Dolp,
+        noise: 0.002,
+        brdf_noise: 0.0,
+        seed: 1,
+    };
+    let result = fitted(&simulation.run().expect("valid angles"));
+    for estimate in result.estimates.iter().filter(|estimate| estimate.free) {
+        let (Some(narrow), Some(wide)) = (estimate.interval68, estimate.interval95) else { continue };
+        let is_within = |inner: Option<f64>, outer: Option<f64>, sign: f64| {
+            outer.is_none_or(|outer| inner.is_some_and(|inner| sign * (outer - inner) >= 0.0))
+        };
+        assert!(
+            is_within(narrow.low, wide.low, -1.0) && is_within(narrow.high, wide.high, 1.0),
+            "{:?}: {narrow:?} in {wide:?}",
+            estimate.parameter
+        );
+    }
+}
+
+#[test]
 fn a_quadratic_effect_at_a_bound_has_an_upper_end() {
     let result = fitted(&data("k0.csv"));
     let k = result[Parameter::K];

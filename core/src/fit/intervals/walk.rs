@@ -90,10 +90,13 @@ impl<'a, P: LeastSquares> Walk<'a, P> {
         self.points.extend(from);
         for level in first_level..self.ends.len() {
             self.ends[level] = None;
-            for _ in 0..MOST_BRANCHES {
+            for branches in 0..=MOST_BRANCHES {
                 let Some(crossing) = self.advance(level) else { return };
                 let end = self.refine(crossing, level);
                 self.ends[level] = Some(end.x[self.unknown]);
+                if branches == MOST_BRANCHES {
+                    break;
+                }
                 let Some(challenger) = self.challenge(&end, level) else { break };
                 self.ends[level] = None;
                 self.points.truncate(crossing);
