@@ -61,7 +61,7 @@ fn options(arguments: &FitArguments, typed: impl Iterator<Item = String>) -> Str
             || value.is_some_and(|value| names.contains(value))
     };
     let words: Vec<String> = typed.filter(|word| !is_of_files(word)).collect();
-    words.join(" ")
+    if words.is_empty() { "none".to_owned() } else { words.join(" ") }
 }
 
 /// The files that names and patterns mean, each once, in the order of the names; those of a pattern in alphabetical order.

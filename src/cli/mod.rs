@@ -111,7 +111,7 @@ fn window(open: Option<OpenWindow>, files: Vec<PathBuf>) -> Result<ExitCode, Fai
         (Some(open), _) => {
             open(files).map_err(|reason| {
                 Failure::usage(format!(
-                    "{reason} Without a window there are the commands evaluate, fit and simulate: see pbrdf-explorer --help."
+                    "{reason} The commands need no window: see pbrdf-explorer --help."
                 ))
             })?;
             Ok(ExitCode::SUCCESS)

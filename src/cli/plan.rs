@@ -240,13 +240,11 @@ fn print(out: &mut dyn Write, plan: &Design, prediction: &DesignPrediction) -> i
     let is_used = |row: &&Row| !row.masked;
     let given = plan.given.iter().filter(is_used).count();
     let given = if given > 0 { format!(" and {given} that are given") } else { String::new() };
-    writeln!(
-        out,
-        "{} points{given} determine {} of {} directions{condition}; predicted standard errors:",
-        plan.geometries.len(),
-        prediction.rank,
-        prediction.errors.len()
-    )?;
+    let points = plan.geometries.len();
+    let (plural, verb) = if points == 1 && given.is_empty() { ("", "tells") } else { ("s", "tell") };
+    let (all, determined) = (prediction.errors.len(), prediction.determined.len());
+    let apart = format!("{verb} {} of {all} directions apart{condition}", prediction.rank);
+    writeln!(out, "{points} point{plural}{given} {apart}, and determine {determined} of {all} parameters; predicted standard errors:")?;
     for (parameter, error) in &prediction.errors {
         let is_determined = prediction.determined.contains(*parameter);
         let error = error.map_or_else(|| "open".to_owned(), |error| format!("{error:.3e}"));

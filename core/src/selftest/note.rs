@@ -7,6 +7,17 @@ use std::fmt;
 /// A paragraph under the table of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Note {
+    /// How many cases of the stability report pass, and where the formulas as printed lack digits.
+    StabilityTotals {
+        /// Cases that pass.
+        passed: usize,
+        /// All cases.
+        cases: usize,
+        /// Evaluations that the formulas as printed, in f64, get wrong by more than the limit.
+        textbook_misses: usize,
+        /// All evaluations.
+        evaluations: usize,
+    },
     /// Errors and bars of the evaluation cases of the stability report.
     StabilityEvaluations,
     /// Condition and bars of the fits of the stability report.
@@ -38,6 +49,10 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::StabilityTotals { passed, cases, textbook_misses, evaluations } => write!(
+                f,
+                "{passed} of {cases} cases pass; the formulas as they are printed miss {VALUE_BAR:.0e} in {textbook_misses} of {evaluations} evaluations."
+            ),
             Self::StabilityEvaluations => write!(
                 f,
                 "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {VALUE_BAR:.0e}; error of the nine derivatives by the \

@@ -43,7 +43,7 @@ impl Stability {
             let done = (done + 1) as f64;
             (host.progress)(done / whole);
         }
-        let notes = vec![Note::StabilityEvaluations, Note::StabilityFits];
+        let notes = vec![totals(&rows), Note::StabilityEvaluations, Note::StabilityFits];
         Report::new("Stability in stiff and extreme cases", machine, date, rows, notes)
     }
 
@@ -82,6 +82,16 @@ impl Stability {
                     brdf <= GRADIENT_BAR * factor && dolp <= if reference.is_dark { DARK_BAR } else { GRADIENT_BAR * factor }
                 }),
         }
+    }
+}
+
+fn totals(rows: &[StabilityRow]) -> Note {
+    let textbook: Vec<f64> = rows.iter().filter_map(|row| row.textbook_error).collect();
+    Note::StabilityTotals {
+        passed: rows.iter().filter(|row| row.pass).count(),
+        cases: rows.len(),
+        textbook_misses: textbook.iter().filter(|&&error| error > VALUE_BAR).count(),
+        evaluations: textbook.len(),
     }
 }
 

@@ -89,6 +89,14 @@ impl Localized for StabilityOutcome {
 impl Localized for Note {
     fn localized(&self) -> String {
         match self {
+            Self::StabilityTotals { passed, cases, textbook_misses, evaluations } => tr!(
+                "{0} of {1} cases pass; the formulas as they are printed miss {2} in {3} of {4} evaluations.",
+                passed,
+                cases,
+                format!("{VALUE_BAR:.0e}"),
+                textbook_misses,
+                evaluations
+            ),
             Self::StabilityEvaluations => tr!(
                 "Evaluations: relative errors of BRDF and DoLP against 60 digits, limit {0}; error of the nine derivatives by the smaller of |e|/|∂| and |e| w/max(|∂| w), w = max(|p|, 1e-3), limit {1}; both limits times sin²β/|N² − sin²β| where that is above 1, near the critical angle, and {2} for DoLP of lobes that are all darker than e^−120. An error of 1 means not a single digit. textbook_error: the same by the formulas as they are printed, in f64. condition: the largest |∂ln f/∂ln p| of BRDF and DoLP.",
                 format!("{VALUE_BAR:.0e}"),
