@@ -109,11 +109,7 @@ fn sentence(error: &clap::Error) -> String {
 fn window(open: Option<OpenWindow>, files: Vec<PathBuf>) -> Result<ExitCode, Failure> {
     match (open, files.first()) {
         (Some(open), _) => {
-            open(files).map_err(|reason| {
-                Failure::usage(format!(
-                    "{reason} The commands need no window: see pbrdf-explorer --help."
-                ))
-            })?;
+            open(files).map_err(|reason| Failure::usage(format!("{reason} The commands need no window: see pbrdf-explorer --help.")))?;
             Ok(ExitCode::SUCCESS)
         }
         (None, Some(file)) => Err(Failure::usage(format!(

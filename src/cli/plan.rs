@@ -244,7 +244,7 @@ fn print(out: &mut dyn Write, plan: &Design, prediction: &DesignPrediction) -> i
     let (plural, verb) = if points == 1 && given.is_empty() { ("", "tells") } else { ("s", "tell") };
     let (all, determined) = (prediction.errors.len(), prediction.determined.len());
     let apart = format!("{verb} {} of {all} directions apart{condition}", prediction.rank);
-    writeln!(out, "{points} point{plural}{given} {apart}, and determine {determined} of {all} parameters; predicted standard errors:")?;
+    writeln!(out, "{points} point{plural}{given} {apart}; determined: {determined} of {all} parameters; predicted standard errors:")?;
     for (parameter, error) in &prediction.errors {
         let is_determined = prediction.determined.contains(*parameter);
         let error = error.map_or_else(|| "open".to_owned(), |error| format!("{error:.3e}"));

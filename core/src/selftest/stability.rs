@@ -85,7 +85,7 @@ impl Stability {
     }
 }
 
-fn totals(rows: &[StabilityRow]) -> Note {
+fn totals(rows: &[Stability]) -> Note {
     let textbook: Vec<f64> = rows.iter().filter_map(|row| row.textbook_error).collect();
     Note::StabilityTotals {
         passed: rows.iter().filter(|row| row.pass).count(),

@@ -40,7 +40,7 @@ const MARGIN: f64 = 0.01;
 /// A point that lies below the minimum by this fraction of the first limit's rise ends the walk.
 const LOWER: f64 = 0.05;
 /// Branches that a walk changes to at a limit, at most.
-const MOST_BRANCHES: usize = 12;
+const MOST_BRANCHES: usize = 40;
 
 /// A point of a profile: the unknowns, one of them held, and the sum of squares.
 #[derive(Debug, Clone, PartialEq)]
