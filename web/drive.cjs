@@ -83,13 +83,17 @@ async function until(page, holds, what, seconds = 60) {
   }
 }
 
+// Through the palette of commands, whose field is the only one for a text that the window shows meanwhile.
 async function command(page, words) {
+  const field = async () => (await widgets(page)).find((one) => one.role === 'TextInput' || one.role === 'SearchInput');
   await page.keyboard.press('Control+Shift+P');
-  await page.waitForTimeout(300);
+  await comes(page, field, 'the palette opens');
   await page.keyboard.type(words, { delay: 15 });
-  await page.waitForTimeout(200);
+  await comes(page, async () => (await field())?.value === words, `the palette has ${words}`);
+  await page.waitForTimeout(100);
   await page.keyboard.press('Enter');
-  await page.waitForTimeout(300);
+  await comes(page, async () => !(await field()), 'the palette closes');
+  await page.waitForTimeout(200);
 }
 
 // What stands where: a page that is opened with `?probe` tells it, as readers of screens are told.
@@ -106,6 +110,17 @@ async function widget(page, role, label, seconds = 20) {
     if (Date.now() > end) {
       const there = all.filter((one) => one.role === role).map((one) => one.label || one.value);
       throw new Error(`no ${role} ${label}; there are: ${there.join(' | ')}`);
+    }
+    await page.waitForTimeout(50);
+  }
+}
+
+async function comes(page, holds, what, seconds = 20) {
+  const end = Date.now() + seconds * 1000;
+  while (!(await holds())) {
+    if (Date.now() > end) {
+      await shot(page, 'fault');
+      throw new Error(`does not come: ${what}`);
     }
     await page.waitForTimeout(50);
   }
@@ -318,7 +333,7 @@ async function main() {
   await command(page, 'Keep refitting');
   // Figures are of panes on screen.
   await page.mouse.click(...middle(await widget(page, 'Button', 'DoLP')));
-  await page.waitForTimeout(500);
+  await widget(page, 'Image', /^Plot: DoLP/);
 
   console.log('a file');
   await page.keyboard.press('Control+o');
@@ -487,7 +502,10 @@ function compare(fit) {
   check(figures.fit_off_fused < 1e-8, `and with fused multiply–add to 8 (off by ${figures.fit_off_fused})`);
 }
 
-main().catch((error) => {
-  console.error(error);
-  process.exit(1);
-});
+if (require.main === module) {
+  main().catch((error) => {
+    console.error(error);
+    process.exit(1);
+  });
+}
+module.exports = { serve, launch, opened, widget, widgets, command, drag, dragInPage, told, longestGap, shot, middle, median, FOLDER };
