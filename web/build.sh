@@ -64,6 +64,6 @@ if command -v wasm-opt >/dev/null; then
   fi
 fi
 sed "s/@BYTES@/$(stat -c %s "$program")/" web/main.js > "$dist/main.js"
-cp web/index.html web/style.css web/worker.js "$dist/"
+cp web/index.html web/style.css web/worker.js web/repaint.js "$dist/"
 gzipped=$(for file in "$dist"/*; do gzip -9 -c "$file" | wc -c; done | awk '{ sum += $1 } END { print sum }')
 echo "web/dist: $(du -cb "$dist"/* | tail -1 | cut -f1) bytes, $gzipped gzipped"

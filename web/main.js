@@ -1,5 +1,6 @@
 // Loads the program with a bar, and says in a sentence where it cannot run.
 import init from './pbrdf-explorer.js';
+import { repaintChanges } from './repaint.js';
 
 const PROGRAM = './pbrdf-explorer_bg.wasm';
 // Its size as build.sh found it: a server that compresses does not tell.
@@ -63,8 +64,10 @@ async function start() {
   if (typeof WebAssembly !== 'object') return refuse(SENTENCES.wasm);
   const canvas = document.getElementById('window');
   // The program finds this context at the canvas. Its triangles have soft edges of their own, in one plane before an opaque ground.
-  const context = { alpha: false, antialias: false, depth: false, stencil: false };
-  if (!canvas.getContext('webgl2', context)) return refuse(SENTENCES.webgl);
+  const context = { alpha: false, antialias: false, depth: false, stencil: false, preserveDrawingBuffer: true };
+  const gl = canvas.getContext('webgl2', context);
+  if (!gl) return refuse(SENTENCES.webgl);
+  if (gl.getContextAttributes()?.preserveDrawingBuffer) repaintChanges(gl);
   measureAsImitated(canvas);
   try {
     const response = await fetch(PROGRAM);

@@ -1,0 +1,299 @@
+// Paints again only what has changed since the frame before. Where no graphics card draws, a frame costs by its triangles, and of
+// twenty thousand a moved slider changes some hundreds.
+//
+// The program clears its canvas and draws meshes, one after the other, as if nothing had been there. Here the calls are held back until
+// the last mesh of the frame, and compared with those of the frame before. Places where triangles differ are cleared and get all
+// triangles that touch them, in their order: each pixel is what a whole frame would make it.
+
+const WORDS = 5; // of a vertex: x, y in points, two of the texture, one colour
+const MOST_PLACES = 12;
+// Of the area of the canvas; of more, whole frames are painted.
+const MOST_AREA = 0.7;
+// Pixels between two changes that are painted as one.
+const NEAR = 12;
+
+const union = (a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+const meet = (a, b) => [Math.max(a[0], b[0]), Math.max(a[1], b[1]), Math.min(a[2], b[2]), Math.min(a[3], b[3])];
+const isEmpty = ([left, top, right, bottom]) => left >= right || top >= bottom;
+const area = ([left, top, right, bottom]) => (right - left) * (bottom - top);
+const touch = (a, b, by) => a[0] <= b[2] + by && b[0] <= a[2] + by && a[1] <= b[3] + by && b[1] <= a[3] + by;
+
+// Adds a place, in points; those that are near each other are one.
+function add(places, place) {
+  const at = places.findIndex((other) => touch(other, place, NEAR));
+  if (at < 0 && places.length < MOST_PLACES) {
+    places.push(place);
+    return;
+  }
+  const [other] = places.splice(at < 0 ? places.length - 1 : at, 1);
+  add(places, union(other, place));
+}
+
+// A mesh as it was drawn: words of vertices, their numbers by threes, its texture, and the pixels that it may touch.
+class Mesh {
+  take(vertices, indices, texture, scissor) {
+    this.vertices = vertices;
+    this.indices = indices;
+    this.positions = new Float32Array(vertices.buffer, vertices.byteOffset, vertices.length);
+    this.texture = texture;
+    this.scissor = scissor;
+    return this;
+  }
+
+  // Around three vertices.
+  triangle(i) {
+    const place = [Infinity, Infinity, -Infinity, -Infinity];
+    for (let corner = i; corner < i + 3; corner += 1) {
+      const at = WORDS * this.indices[corner];
+      const x = this.positions[at];
+      const y = this.positions[at + 1];
+      if (x < place[0]) place[0] = x;
+      if (y < place[1]) place[1] = y;
+      if (x > place[2]) place[2] = x;
+      if (y > place[3]) place[3] = y;
+    }
+    return place;
+  }
+
+  // Adds where the triangles from one to the other are.
+  placesOf(from, to, places) {
+    for (let i = from; i < to; i += 3) add(places, this.triangle(i));
+  }
+
+  // The numbers of the triangles that touch a place in points.
+  within(place) {
+    const { indices, positions } = this;
+    const found = new Uint32Array(indices.length);
+    let count = 0;
+    for (let i = 0; i < indices.length; i += 3) {
+      const [a, b, c] = [WORDS * indices[i], WORDS * indices[i + 1], WORDS * indices[i + 2]];
+      const [ax, bx, cx, ay, by, cy] = [positions[a], positions[b], positions[c], positions[a + 1], positions[b + 1], positions[c + 1]];
+      const beside = (ax < place[0] && bx < place[0] && cx < place[0]) || (ax > place[2] && bx > place[2] && cx > place[2]);
+      const above = (ay < place[1] && by < place[1] && cy < place[1]) || (ay > place[3] && by > place[3] && cy > place[3]);
+      if (!beside && !above) {
+        found[count] = indices[i];
+        found[count + 1] = indices[i + 1];
+        found[count + 2] = indices[i + 2];
+        count += 3;
+      }
+    }
+    return found.subarray(0, count);
+  }
+}
+
+function isSame(a, b) {
+  if (a.length !== b.length) return false;
+  for (let i = 0; i < a.length; i += 1) if (a[i] !== b[i]) return false;
+  return true;
+}
+
+// Adds where two meshes of one texture and one scissor differ.
+function differences(before, after, places) {
+  const [v, w, i, j] = [before.vertices, after.vertices, before.indices, after.indices];
+  if (v.length === w.length && isSame(i, j)) {
+    const changed = new Uint8Array(v.length / WORDS);
+    let any = false;
+    for (let at = 0; at < v.length; at += 1) {
+      if (v[at] !== w[at]) {
+        changed[Math.floor(at / WORDS)] = 1;
+        any = true;
+      }
+    }
+    for (let at = 0; any && at < i.length; at += 3) {
+      if (changed[i[at]] || changed[i[at + 1]] || changed[i[at + 2]]) {
+        add(places, before.triangle(at));
+        add(places, after.triangle(at));
+      }
+    }
+    return;
+  }
+  // What comes before and after the change is the same, but for the numbers of the vertices.
+  let head = 0;
+  const least = Math.min(v.length, w.length);
+  while (head < least && v[head] === w[head]) head += 1;
+  let tail = 0;
+  while (tail < least - head && v[v.length - 1 - tail] === w[w.length - 1 - tail]) tail += 1;
+  [head, tail] = [Math.floor(head / WORDS), Math.floor(tail / WORDS)];
+  const shift = (w.length - v.length) / WORDS;
+  const last = v.length / WORDS - tail;
+  let from = 0;
+  while (from < Math.min(i.length, j.length) && i[from] === j[from] && i[from] < head) from += 1;
+  from -= from % 3;
+  let to = 0;
+  while (to < Math.min(i.length, j.length) - from && i[i.length - 1 - to] >= last && i[i.length - 1 - to] + shift === j[j.length - 1 - to]) to += 1;
+  to -= to % 3;
+  before.placesOf(from, i.length - to, places);
+  after.placesOf(from, j.length - to, places);
+}
+
+// Lets a context of the program paint what has changed. It must keep what it has drawn (`preserveDrawingBuffer`).
+export function repaintChanges(gl) {
+  const plain = {};
+  for (const name of ['bindBuffer', 'bindTexture', 'bindVertexArray', 'bufferData', 'clear', 'clearColor', 'drawElements', 'scissor', 'texImage2D',
+    'texSubImage2D', 'uniform2f']) {
+    plain[name] = gl[name].bind(gl);
+  }
+  let meshes = null; // of the frame that is being drawn
+  let before = null; // of the one that is on the canvas
+  let look = ''; // size, scale and ground of that
+  let fresh = new Set(); // textures that are others than before
+  let points = [1, 1];
+  let ground = '';
+  let [vertices, indices, texture, scissor] = [null, null, null, null];
+
+  const words = (bytes) => new Uint32Array(bytes.slice().buffer);
+
+  const paint = (mesh, place, numbers) => {
+    plain.scissor(place[0], place[1], place[2] - place[0], place[3] - place[1]);
+    plain.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers, gl.STREAM_DRAW);
+    plain.drawElements(gl.TRIANGLES, numbers.length, gl.UNSIGNED_INT, 0);
+  };
+
+  const send = (mesh) => {
+    plain.bufferData(gl.ARRAY_BUFFER, mesh.vertices, gl.STREAM_DRAW);
+    plain.bindTexture(gl.TEXTURE_2D, mesh.texture);
+  };
+
+  // Where the frame differs, in points; none where all of it may.
+  const changes = () => {
+    if (!before) return null;
+    const places = [];
+    const same = (a, b) => a.texture === b.texture && String(a.scissor) === String(b.scissor);
+    let head = 0;
+    const least = Math.min(before.length, meshes.length);
+    while (head < least && same(before[head], meshes[head])) head += 1;
+    let tail = 0;
+    while (tail < least - head && same(before[before.length - 1 - tail], meshes[meshes.length - 1 - tail])) tail += 1;
+    const pair = (a, b) => {
+      const own = [];
+      if (fresh.has(b.texture)) {
+        a.placesOf(0, a.indices.length, own);
+        b.placesOf(0, b.indices.length, own);
+      } else {
+        differences(a, b, own);
+      }
+      own.map((place) => seen(place, b.scissor)).filter((place) => !isEmpty(place)).forEach((place) => add(places, place));
+    };
+    for (let at = 0; at < head; at += 1) pair(before[at], meshes[at]);
+    for (let at = 1; at <= tail; at += 1) pair(before[before.length - at], meshes[meshes.length - at]);
+    for (const [all, of] of [[before, before.length - tail], [meshes, meshes.length - tail]]) {
+      for (const mesh of all.slice(head, of)) {
+        const own = [];
+        mesh.placesOf(0, mesh.indices.length, own);
+        own.map((place) => seen(place, mesh.scissor)).filter((place) => !isEmpty(place)).forEach((place) => add(places, place));
+      }
+    }
+    return places;
+  };
+
+  // Pixels to points, from the top, and back with all pixels that are touched.
+  const scale = () => gl.canvas.width / points[0];
+  const seen = (place, [x, y, width, height]) => {
+    const by = scale();
+    const top = gl.canvas.height - y - height;
+    return meet(place, [x / by, top / by, (x + width) / by, (top + height) / by]);
+  };
+  const pixels = ([left, top, right, bottom]) => {
+    const [by, high] = [scale(), gl.canvas.height];
+    const place = [Math.floor(left * by) - 1, Math.floor(high - bottom * by) - 1, Math.ceil(right * by) + 1, Math.ceil(high - top * by) + 1];
+    return meet(place, [0, 0, gl.canvas.width, high]);
+  };
+
+  const whole = () => {
+    plain.scissor(0, 0, gl.canvas.width, gl.canvas.height);
+    plain.clear(gl.COLOR_BUFFER_BIT);
+    for (const mesh of meshes) {
+      const [x, y, width, height] = mesh.scissor;
+      send(mesh);
+      paint(mesh, [x, y, x + width, y + height], mesh.indices);
+    }
+  };
+
+  const parts = (places) => {
+    for (const place of places) {
+      plain.scissor(place[0], place[1], place[2] - place[0], place[3] - place[1]);
+      plain.clear(gl.COLOR_BUFFER_BIT);
+    }
+    const [by, high] = [scale(), gl.canvas.height];
+    for (const mesh of meshes) {
+      const [x, y, width, height] = mesh.scissor;
+      let isSent = false;
+      for (const place of places) {
+        const cut = meet(place, [x, y, x + width, y + height]);
+        if (isEmpty(cut)) continue;
+        // A pixel more, whatever is rounded.
+        const numbers = mesh.within([(cut[0] - 1) / by, (high - cut[3] - 1) / by, (cut[2] + 1) / by, (high - cut[1] + 1) / by]);
+        if (numbers.length === 0) continue;
+        if (!isSent) send(mesh);
+        isSent = true;
+        paint(mesh, cut, numbers);
+      }
+    }
+  };
+
+  const finish = () => {
+    const now = [gl.canvas.width, gl.canvas.height, points, ground].join();
+    const found = now === look ? changes() : null;
+    // Apart from each other, so that no pixel is painted twice.
+    const places = [];
+    for (let place of (found || []).map(pixels)) {
+      for (let at = 0; at < places.length; at += 1) {
+        if (!isEmpty(meet(places[at], place))) {
+          place = union(places[at], place);
+          places.splice(at, 1);
+          at = -1;
+        }
+      }
+      places.push(place);
+    }
+    const covered = places.reduce((sum, place) => sum + area(place), 0);
+    if (!found || covered > MOST_AREA * gl.canvas.width * gl.canvas.height) whole();
+    else parts(places);
+    [before, look] = [meshes, now];
+    meshes = null;
+    fresh = new Set();
+  };
+
+  gl.clearColor = (...color) => {
+    ground = color.join();
+    plain.clearColor(...color);
+  };
+  gl.clear = () => {
+    meshes = [];
+  };
+  gl.uniform2f = (place, x, y) => {
+    points = [x, y];
+    plain.uniform2f(place, x, y);
+  };
+  gl.scissor = (...at) => {
+    scissor = at;
+  };
+  gl.bindTexture = (target, to) => {
+    texture = to;
+    plain.bindTexture(target, to);
+  };
+  for (const name of ['texImage2D', 'texSubImage2D']) {
+    gl[name] = (...what) => {
+      fresh.add(texture);
+      plain[name](...what);
+    };
+  }
+  gl.bufferData = (target, bytes, use) => {
+    if (!meshes) return plain.bufferData(target, bytes, use);
+    if (target === gl.ARRAY_BUFFER) vertices = words(bytes);
+    else indices = words(bytes);
+    return undefined;
+  };
+  gl.drawElements = () => {
+    meshes.push(new Mesh().take(vertices, indices, texture, scissor));
+  };
+  // The program lets go of its vertices after the last mesh.
+  gl.bindVertexArray = (to) => {
+    if (!to && meshes) finish();
+    plain.bindVertexArray(to);
+  };
+  // A canvas that has lost what was drawn is painted as a whole.
+  gl.canvas.addEventListener('webglcontextrestored', () => {
+    before = null;
+  });
+}
