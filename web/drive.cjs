@@ -155,6 +155,8 @@ function told(frames) {
     median_ms: rounded(median(frames.map((frame) => frame.took))),
     longest_ms: rounded(Math.max(...frames.map((frame) => frame.took))),
     interval_median_ms: rounded(median(gaps)),
+    // Where frames wait for the graphics, few take long.
+    interval_mean_ms: rounded(gaps.reduce((sum, gap) => sum + gap, 0) / gaps.length),
   };
 }
 
@@ -237,6 +239,24 @@ async function frames(address, slider) {
   return { ...dragged, empty_page_interval_median_ms: empty };
 }
 
+// How many pixels of the canvas are others than those of a whole frame.
+async function pixelsApart(page) {
+  await page.mouse.move(700, 760);
+  await page.waitForTimeout(800);
+  const read = (key) => page.evaluate((name) => {
+    const gl = document.getElementById('window').getContext('webgl2');
+    const bytes = new Uint8Array(4 * gl.canvas.width * gl.canvas.height);
+    gl.readPixels(0, 0, gl.canvas.width, gl.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    window[name] = new Uint32Array(bytes.buffer);
+  }, key);
+  await read('inParts');
+  await page.evaluate(() => document.getElementById('window').dispatchEvent(new Event('webglcontextrestored')));
+  await page.mouse.move(701, 760);
+  await page.waitForTimeout(800);
+  await read('whole');
+  return page.evaluate(() => window.whole.filter((pixel, at) => pixel !== window.inParts[at]).length);
+}
+
 const shot = (page, name) => page.screenshot({ path: path.join(SHOTS, `${name}.png`) });
 
 async function opened(context, address) {
@@ -286,6 +306,7 @@ async function main() {
   check(sigma !== slider.number && dragged.frames > 10, `a drag moves σ from ${slider.number} to ${sigma}`);
   const moved = await until(page, (work) => JSON.stringify(work).includes(String(sigma)), 'the moved slider is kept');
   fs.writeFileSync(path.join(SHOTS, 'work.json'), JSON.stringify(moved, null, 1));
+  check((await pixelsApart(page)) === 0, 'what is painted in parts is a whole frame');
   await shot(page, '2-slider');
   const timed = await opened(await browser.newContext({ viewport: { width: 1366, height: 768 }, locale: 'en-GB' }), address);
   await timed.waitForTimeout(1000);
@@ -331,6 +352,7 @@ async function main() {
   while ((await widget(page, 'Slider', 'n')).number === before && Date.now() < end) await page.waitForTimeout(200);
   check((await widget(page, 'Slider', 'n')).number !== before, 'the others follow a slider that is dragged');
   await command(page, 'Keep refitting');
+  check((await pixelsApart(page)) === 0, 'what is painted in parts is a whole frame, also of maps');
   // Figures are of panes on screen.
   await page.mouse.click(...middle(await widget(page, 'Button', 'DoLP')));
   await widget(page, 'Image', /^Plot: DoLP/);

@@ -29,6 +29,9 @@ function add(places, place) {
   add(places, union(other, place));
 }
 
+// Where numbers of triangles are put together.
+let chosen = new Uint32Array(1 << 16);
+
 // A mesh as it was drawn: words of vertices, their numbers by threes, its texture, and the pixels that it may touch.
 class Mesh {
   take(vertices, indices, texture, scissor) {
@@ -40,31 +43,32 @@ class Mesh {
     return this;
   }
 
-  // Around three vertices.
-  triangle(i) {
-    const place = [Infinity, Infinity, -Infinity, -Infinity];
-    for (let corner = i; corner < i + 3; corner += 1) {
-      const at = WORDS * this.indices[corner];
-      const x = this.positions[at];
-      const y = this.positions[at + 1];
-      if (x < place[0]) place[0] = x;
-      if (y < place[1]) place[1] = y;
-      if (x > place[2]) place[2] = x;
-      if (y > place[3]) place[3] = y;
+  // Adds where a triangle is.
+  placeOf(i, places) {
+    const { indices, positions } = this;
+    const [a, b, c] = [WORDS * indices[i], WORDS * indices[i + 1], WORDS * indices[i + 2]];
+    const [ax, bx, cx, ay, by, cy] = [positions[a], positions[b], positions[c], positions[a + 1], positions[b + 1], positions[c + 1]];
+    const [left, right] = [Math.min(ax, bx, cx), Math.max(ax, bx, cx)];
+    const [top, bottom] = [Math.min(ay, by, cy), Math.max(ay, by, cy)];
+    // Most are within what is known.
+    for (let at = 0; at < places.length; at += 1) {
+      const place = places[at];
+      if (left >= place[0] && top >= place[1] && right <= place[2] && bottom <= place[3]) return;
     }
-    return place;
+    add(places, [left, top, right, bottom]);
   }
 
-  // Adds where the triangles from one to the other are.
+  // The same of all from the one to the other.
   placesOf(from, to, places) {
-    for (let i = from; i < to; i += 3) add(places, this.triangle(i));
+    for (let i = from; i < to; i += 3) this.placeOf(i, places);
   }
 
   // The numbers of the triangles that touch a place in points.
   within(place) {
     const { indices, positions } = this;
-    const found = new Uint32Array(indices.length);
     let count = 0;
+    if (chosen.length < indices.length) chosen = new Uint32Array(2 * indices.length);
+    const found = chosen;
     for (let i = 0; i < indices.length; i += 3) {
       const [a, b, c] = [WORDS * indices[i], WORDS * indices[i + 1], WORDS * indices[i + 2]];
       const [ax, bx, cx, ay, by, cy] = [positions[a], positions[b], positions[c], positions[a + 1], positions[b + 1], positions[c + 1]];
@@ -81,6 +85,7 @@ class Mesh {
   }
 }
 
+// Whether both have the same words.
 function isSame(a, b) {
   if (a.length !== b.length) return false;
   for (let i = 0; i < a.length; i += 1) if (a[i] !== b[i]) return false;
@@ -90,19 +95,18 @@ function isSame(a, b) {
 // Adds where two meshes of one texture and one scissor differ.
 function differences(before, after, places) {
   const [v, w, i, j] = [before.vertices, after.vertices, before.indices, after.indices];
-  if (v.length === w.length && isSame(i, j)) {
+  if (isSame(i, j) && v.length === w.length) {
+    if (isSame(v, w)) return;
     const changed = new Uint8Array(v.length / WORDS);
-    let any = false;
-    for (let at = 0; at < v.length; at += 1) {
-      if (v[at] !== w[at]) {
-        changed[Math.floor(at / WORDS)] = 1;
-        any = true;
-      }
+    for (let vertex = 0; vertex < changed.length; vertex += 1) {
+      const at = WORDS * vertex;
+      const differs = v[at] !== w[at] || v[at + 1] !== w[at + 1] || v[at + 2] !== w[at + 2] || v[at + 3] !== w[at + 3] || v[at + 4] !== w[at + 4];
+      if (differs) changed[vertex] = 1;
     }
-    for (let at = 0; any && at < i.length; at += 3) {
+    for (let at = 0; at < i.length; at += 3) {
       if (changed[i[at]] || changed[i[at + 1]] || changed[i[at + 2]]) {
-        add(places, before.triangle(at));
-        add(places, after.triangle(at));
+        before.placeOf(at, places);
+        after.placeOf(at, places);
       }
     }
     return;
@@ -141,7 +145,17 @@ export function repaintChanges(gl) {
   let ground = '';
   let [vertices, indices, texture, scissor] = [null, null, null, null];
 
-  const words = (bytes) => new Uint32Array(bytes.slice().buffer);
+  // Words that are kept until the frame after the next: those of the frame before the last take them.
+  let [spare, used, last] = [[], [], []];
+  const words = (bytes) => {
+    const length = bytes.byteLength / 4;
+    const room = spare.pop();
+    const kept = room && room.length >= length ? room : new Uint32Array(Math.max(64, Math.ceil(1.5 * length)));
+    used.push(kept);
+    const own = kept.subarray(0, length);
+    own.set(new Uint32Array(bytes.buffer, bytes.byteOffset, length));
+    return own;
+  };
 
   const paint = (mesh, place, numbers) => {
     plain.scissor(place[0], place[1], place[2] - place[0], place[3] - place[1]);
@@ -250,6 +264,7 @@ export function repaintChanges(gl) {
     if (!found || covered > MOST_AREA * gl.canvas.width * gl.canvas.height) whole();
     else parts(places);
     [before, look] = [meshes, now];
+    [spare, last, used] = [last.reverse(), used, []];
     meshes = null;
     fresh = new Set();
   };
