@@ -26,6 +26,12 @@ pub struct Reflectance {
 }
 
 impl Reflectance {
+    /// Of θi in degrees, ρ of the specular, diffuse and volume terms, and the error of the first.
+    #[must_use]
+    pub fn of_terms(theta_i: f64, [specular, diffuse, volume]: [f64; 3], error: f64) -> Self {
+        Self { theta_i, specular, diffuse, volume, error }
+    }
+
     /// ρ of all terms.
     #[must_use]
     pub fn total(&self) -> f64 {

@@ -7,16 +7,19 @@ use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne,
     WithIntervals, Work as _,
 };
+use crate::app::tasks::inquiry_message::{chosen, evidence, walk};
+use crate::app::tasks::inquiry_work::{ChooseAngles, EvidenceRow, FindEvidence, FollowWeakest};
 use crate::app::tasks::landscape_message::heights;
 use crate::app::tasks::messages::{Answer, ProfileBits, Request, WorkOrder};
 use crate::app::tasks::posterior_message::draw;
 use crate::app::tasks::posterior_work::PosteriorOf;
+use crate::app::tasks::view_message::{audit, scene};
 use crate::app::tasks::wire::Wire;
 use crate::app::work::fit_history::{FitEntry, JointEntry};
 use crate::app::work::model_fit::ComparedModel;
 use crate::app::work::open_measurement::OpenMeasurement;
 use pbrdf::fit::posterior::{Posterior, PosteriorSettings};
-use pbrdf::fit::{Bootstrap, BootstrapEstimate, Profile};
+use pbrdf::fit::{Bootstrap, BootstrapEstimate, GeodesicWay, Profile};
 use pbrdf::measurement::Measurement;
 use pbrdf::model::{PRESETS, Preset};
 
@@ -63,9 +66,9 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
             let problems = problems.collect::<Option<Vec<_>>>()?;
             told_models(CompareTogether { about: about.clone(), shared, problems, search }.run(wire))
         }
-        WorkOrder::Intervals => with_intervals(fitted(&session, &about, 0)?, wire)?,
+        WorkOrder::Intervals => with_intervals(fitted(&session, &about, session.fits.first()?, 0)?, wire)?,
         WorkOrder::Profile { parameter, set } => {
-            let profile = ProfileOne { fit: fitted(&session, &about, set)?, parameter }.run(wire);
+            let profile = ProfileOne { fit: fitted(&session, &about, session.fits.first()?, set)?, parameter }.run(wire);
             let Profile { parameter, points, interval68, interval95, limits, is_complete } = profile;
             let points = points.into_iter().map(|point| [point.value, point.objective, point.rss].map(f64::to_bits)).collect();
             let (intervals, limits) = ([interval68, interval95], limits.map(f64::to_bits));
@@ -73,7 +76,7 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
         }
         WorkOrder::Bootstrap { replicates, seed, set } => {
             let Bootstrap { asked, replicates, estimates } =
-                BootstrapOne { fit: fitted(&session, &about, set)?, replicates, seed }.run(wire);
+                BootstrapOne { fit: fitted(&session, &about, session.fits.first()?, set)?, replicates, seed }.run(wire);
             let bits = |of: BootstrapEstimate| (of.parameter, [of.std_error, of.low, of.high].map(f64::to_bits));
             Answer::Bootstrap { asked, replicates, estimates: estimates.into_iter().map(bits).collect() }
         }
@@ -91,6 +94,22 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
         WorkOrder::Landscape { across, up, scale_at } => {
             heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled)
         }
+        WorkOrder::Evidence { models, options, seed } => {
+            let row = |(row, (key, fit)): (usize, (&String, &SavedEntry))| {
+                Some(EvidenceRow { row, model: preset(key)?.key, fit: fitted(&session, &about, fit, 0)? })
+            };
+            let rows = models.iter().zip(&session.fits).enumerate().map(row).collect::<Option<_>>()?;
+            evidence(FindEvidence { number: 0, rows, options, seed }, wire)
+        }
+        WorkOrder::Walk { set, is_farther } => {
+            let way = if is_farther { GeodesicWay::Farther } else { GeodesicWay::Nearer };
+            walk(FollowWeakest { fit: fitted(&session, &about, session.fits.first()?, set)?, numbers: Vec::new(), way }, wire)?
+        }
+        WorkOrder::Choose { surface, design, language } => {
+            chosen(ChooseAngles { surface, design, about: about.first()?.clone(), language }, wire)
+        }
+        WorkOrder::Picture(order) => scene(&order, wire)?,
+        WorkOrder::Audit { model, parameters } => audit(model, parameters)?,
     };
     serde_json::to_string(&answer).ok()
 }
@@ -118,9 +137,9 @@ fn one_by_one(fits: &[FitEntry]) -> Option<Vec<serde_json::Value>> {
     fits.iter().enumerate().map(|(place, fit)| value(fit, place)).collect()
 }
 
-/// The finished fit of a session, as that of the measurement of that place.
-fn fitted(session: &Session, about: &[OpenMeasurement], set: usize) -> Option<Fitted> {
-    let parts = session.fits.first()?.restore(&session.measurements)?.into_entries(about);
+/// A finished fit of a session, as that of the measurement of that place in it.
+fn fitted(session: &Session, about: &[OpenMeasurement], fit: &SavedEntry, set: usize) -> Option<Fitted> {
+    let parts = fit.restore(&session.measurements)?.into_entries(about);
     let parts: Vec<FitEntry> = parts.into_iter().map(|(_, entry)| entry).collect();
     Some(Fitted { fit: parts.get(set)?.clone(), parts })
 }

@@ -143,7 +143,6 @@ pub enum WithIntervals {
 pub struct Fitted {
     pub fit: FitEntry,
     /// All entries of a joint fit in the order of its measurements.
-    #[cfg_attr(not(any(test, target_arch = "wasm32")), expect(dead_code, reason = "sent to the worker of a page"))]
     pub parts: Vec<FitEntry>,
 }
 

@@ -1,25 +1,21 @@
 //! Jobs that fit, and that examine a fit.
 
-use crate::app::jobs::job::JobContext;
 #[cfg(test)]
 use crate::app::jobs::slot::AnySlot;
 use crate::app::jobs::slot::Slot;
 use crate::app::jobs::spawner::Spawner;
 use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FinishedIntervals, FitOneByOne, FitTogether, Fitted,
-    ProfileOne, RefitSliders, Search, observer,
+    ProfileOne, RefitSliders, Search,
 };
+use crate::app::tasks::inquiry_work::FollowWeakest;
 use crate::app::tasks::portable::start;
-use crate::app::tasks::start_error::start_error;
 use crate::app::work::edit::Refit;
 use crate::app::work::fit_history::FitEntry;
-use crate::app::work::fit_history::JointPart;
 use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::OpenMeasurement;
 use crate::app::work::weakest_walk::WeakestWalk;
-use pbrdf::fit::{
-    Bootstrap, GeodesicWay, JointError, JointProblem, JointUnknown, Problem, ProblemError, Profile, Starts, TracePoint, weakest_geodesic,
-};
+use pbrdf::fit::{Bootstrap, JointError, JointProblem, Problem, ProblemError, Profile, Starts, TracePoint};
 use pbrdf::model::{Parameter, Preset};
 use std::sync::Arc;
 
@@ -166,24 +162,8 @@ impl FitJobs {
     ///
     /// # Errors
     /// The job does not start; a sentence.
-    pub fn walk(&mut self, fit: &FitEntry, numbers: Vec<u64>, way: GeodesicWay) -> Result<(), String> {
-        let (id, problem, report, joint) = (fit.id, fit.problem.clone(), fit.report.clone(), fit.joint.clone());
-        let job = move |context: &JobContext| {
-            let cancelled = || context.is_cancelled();
-            let geodesic = match joint {
-                None => {
-                    let alone = weakest_geodesic(&report.fitted(&problem), &report.parameters, way, observer(&cancelled));
-                    alone.map(JointUnknown::from, |parameters| vec![parameters])
-                }
-                Some(JointPart { of, .. }) => {
-                    let statistics = &of.result.statistics;
-                    let fitted = of.problem.with_loss_scales(statistics.loss_scales).with_block_weights(statistics.block_weights);
-                    weakest_geodesic(&fitted, &of.result.points(), way, observer(&cancelled))
-                }
-            };
-            Arc::new(WeakestWalk { fit: id, numbers, way, geodesic })
-        };
-        self.walk.start(&self.spawner, "geodesic", job).map_err(start_error)
+    pub fn walk(&mut self, job: FollowWeakest) -> Result<(), String> {
+        start(&self.spawner, &mut self.walk, "geodesic", job)
     }
 
     /// Whether a profile or a bootstrap is being made.

@@ -11,13 +11,19 @@ use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FinishedIntervals, FitOneByOne, FitTogether, Fitted,
     ProfileOne, RefitSliders, Search, WithIntervals, Work, compared,
 };
+use crate::app::tasks::inquiry_message::{ChoiceBits, WalkBits};
+use crate::app::tasks::view_message::{AuditBits, SceneOrder};
+use crate::app::text::i18n::Language;
+use crate::app::work::design::DesignSettings;
 use crate::app::work::edit::Refit;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::model_fit::NotFitted;
 use crate::app::work::open_measurement::OpenMeasurement;
+use crate::app::work::posterior::PosteriorOptions;
+use crate::app::work::surface::Surface;
 use pbrdf::fit::posterior::Prior;
 use pbrdf::fit::{Bootstrap, BootstrapEstimate, Interval, JointProblem, Problem, Profile, ProfilePoint, Starts, TracePoint};
-use pbrdf::model::{PRESETS, Parameter, Parameters, Preset};
+use pbrdf::model::{Model, PRESETS, Parameter, Parameters, Preset};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use std::sync::Arc;
@@ -85,6 +91,28 @@ pub enum WorkOrder {
         up: AxisBits,
         scale_at: Option<Parameters>,
     },
+    /// Of the models of the fits.
+    Evidence {
+        models: Vec<String>,
+        options: PosteriorOptions,
+        seed: u64,
+    },
+    /// From the fit, of the measurement of that place in it.
+    Walk {
+        set: usize,
+        is_farther: bool,
+    },
+    /// For a plan beside the measurement.
+    Choose {
+        surface: Surface,
+        design: DesignSettings,
+        language: Language,
+    },
+    Picture(SceneOrder),
+    Audit {
+        model: Model,
+        parameters: Parameters,
+    },
 }
 
 /// A side of a landscape.
@@ -112,6 +140,13 @@ pub enum Answer {
     Drawn(Option<String>),
     /// The numbers of a landscape; none where it was stopped.
     Heights(Option<String>),
+    /// By the places of the fits.
+    Evidence(Vec<(usize, Option<[u64; 2]>)>),
+    Walk(WalkBits),
+    Chosen(ChoiceBits),
+    /// The numbers of one picture or two; none where it was stopped.
+    Picture(Option<Vec<String>>),
+    Audit(AuditBits),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -213,7 +248,7 @@ impl Message for RefitSliders {
 }
 
 /// A finished fit as a session has it, with its measurements, and the place of this one among them.
-fn of_fitted(Fitted { fit, parts }: &Fitted) -> Option<(Session, usize)> {
+pub fn of_fitted(Fitted { fit, parts }: &Fitted) -> Option<(Session, usize)> {
     let parts: Vec<&FitEntry> = if parts.is_empty() { vec![fit] } else { parts.iter().collect() };
     let measurements = parts.iter().map(|part| SavedMeasurement::of(part.data.clone())).collect();
     let placed: Vec<(&FitEntry, usize)> = parts.iter().enumerate().map(|(place, part)| (*part, place)).collect();

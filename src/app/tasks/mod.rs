@@ -11,6 +11,9 @@ pub mod file_request;
 pub mod files;
 pub mod fit_work;
 pub mod fits;
+#[cfg(any(test, target_arch = "wasm32"))]
+mod inquiry_message;
+pub mod inquiry_work;
 pub mod jobs;
 #[cfg(any(test, target_arch = "wasm32"))]
 pub mod landscape_message;
@@ -23,5 +26,7 @@ mod posterior_message;
 pub mod posterior_work;
 pub mod posteriors;
 mod start_error;
+#[cfg(any(test, target_arch = "wasm32"))]
+pub mod view_message;
 #[cfg(any(test, target_arch = "wasm32"))]
 pub mod wire;

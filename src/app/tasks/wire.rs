@@ -30,6 +30,16 @@ impl Watch<&'static str> for Wire<'_> {
     }
 }
 
+impl Watch<f64> for Wire<'_> {
+    fn is_cancelled(&self) -> bool {
+        (self.is_cancelled)()
+    }
+
+    fn report(&self, share: f64) {
+        (self.tell)(&share.to_bits().to_string());
+    }
+}
+
 impl Watch<()> for Wire<'_> {
     fn is_cancelled(&self) -> bool {
         (self.is_cancelled)()

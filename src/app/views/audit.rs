@@ -122,7 +122,16 @@ impl View for AuditView {
             self.curves.clear();
             return;
         };
-        self.job.refresh(&cx.jobs.spawner, &key, move |_| Audit::new(&surface));
+        #[cfg(target_arch = "wasm32")]
+        let is_beside = self.job.refresh_beside(&cx.jobs.spawner, &key, || {
+            use crate::app::tasks::view_message::{ask_audit, told_audit};
+            Some((ask_audit(&surface)?, told_audit))
+        });
+        #[cfg(not(target_arch = "wasm32"))]
+        let is_beside = false;
+        if !is_beside {
+            self.job.refresh(&cx.jobs.spawner, &key, move |_| Audit::new(&surface));
+        }
         let (Some(key), Some(audit)) = (self.job.key(), self.job.get()) else { return };
         self.curves.refresh(*key, |(_, model)| ReflectanceCurves::new(audit, *model));
         let Some(curves) = self.curves.get() else { return };

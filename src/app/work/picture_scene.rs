@@ -66,8 +66,7 @@ impl Scene {
     /// A picture of `size`² pixels; what is the same as in the picture before is taken from it. None where values are no surface,
     /// or if it is stopped.
     pub fn new(key: SceneKey, size: usize, quality: Quality, before: Option<&Self>, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        let kept = before.map(|before| &before.picture).filter(|picture| picture.shape() == key.shape && picture.size() == size);
-        let picture = kept.cloned().or_else(|| Some(Arc::new(Picture::new(key.shape, size, stopped)?)))?;
+        let picture = picture(key.shape, size, before, stopped)?;
         let mut tables = Vec::new();
         let mut painted = |values: Values| {
             let surface = Pbrdf::new(values.0, values.1).ok()?;
@@ -86,6 +85,13 @@ impl Scene {
             None => None,
         };
         Some(Self { key, picture, image, other, tables })
+    }
+
+    /// Of images that were made elsewhere; none where these are not of one size.
+    #[cfg(any(test, target_arch = "wasm32"))]
+    pub fn of_images(key: SceneKey, image: StokesImage, other: Option<StokesImage>, before: Option<&Self>) -> Option<Self> {
+        let picture = picture(key.shape, image.size, before, &|| false)?;
+        other.as_ref().is_none_or(|other| other.size == image.size).then_some(Self { key, picture, image, other, tables: Vec::new() })
     }
 
     /// The surface of the sliders on the left and the companion on the right, or the surface of the sliders alone.
@@ -138,6 +144,12 @@ impl Scene {
             }
         }
     }
+}
+
+/// The shape before the camera, that of the picture before where it is the same.
+fn picture(shape: Shape, size: usize, before: Option<&Scene>, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Arc<Picture>> {
+    let kept = before.map(|before| &before.picture).filter(|picture| picture.shape() == shape && picture.size() == size);
+    kept.cloned().or_else(|| Some(Arc::new(Picture::new(shape, size, stopped)?)))
 }
 
 /// A difference; of angles of polarisation, which are the same after half a turn, the smaller one.

@@ -25,6 +25,12 @@ impl StokesImage {
         Self { size, s0: blank.clone(), s1: blank.clone(), s2: blank }
     }
 
+    /// Of its columns S0, S1 and S2; none where these are not `size`² numbers.
+    #[must_use]
+    pub fn of_parts(size: usize, [s0, s1, s2]: [Vec<f64>; 3]) -> Option<Self> {
+        [&s0, &s1, &s2].iter().all(|part| part.len() == size * size).then_some(Self { size, s0, s1, s2 })
+    }
+
     /// The Stokes vector of a pixel in the camera's frame; none where there is no surface or no such pixel.
     #[must_use]
     pub fn at(&self, row: usize, column: usize) -> Option<Stokes> {

@@ -93,7 +93,7 @@ fn find_intervals_of(app: &mut App, number: u64) -> Result<(), String> {
 }
 
 /// A fit of the history with all its parts.
-fn whole(work: &Workspace, fit: &FitEntry) -> Fitted {
+pub fn whole(work: &Workspace, fit: &FitEntry) -> Fitted {
     let mut parts = Vec::new();
     if fit.joint.is_some() {
         parts.extend(work.fit_history().parts(fit.id).map(|part| FitEntry::clone(part)));

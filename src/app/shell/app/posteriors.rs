@@ -1,7 +1,8 @@
 //! Draws from posteriors that the window starts, and what it does with them.
 
 use crate::app::shell::app::App;
-use crate::app::shell::app::fits::problem_of;
+use crate::app::shell::app::fits::{problem_of, whole};
+use crate::app::tasks::inquiry_work::{EvidenceRow, FindEvidence};
 use crate::app::tasks::posterior_work::{DrawPosterior, PosteriorOf};
 use crate::app::text::localized::Localized as _;
 use crate::app::work::edit::Edit;
@@ -72,7 +73,7 @@ pub fn find_evidence(app: &mut App) -> Result<(), String> {
     let has_brdf = app.work.active().measurement.has_brdf();
     let row = |(index, row): (usize, &ModelFit)| {
         let fit = row.result.as_ref().ok().filter(|fit| !has_brdf || !fit.problem.options().dolp_only)?;
-        Some((index, row.preset.key, fit.clone()))
+        Some(EvidenceRow { row: index, model: row.preset.key, fit: whole(&app.work, fit) })
     };
     let rows: Vec<_> = app.work.model_comparison().iter().enumerate().filter_map(row).collect();
     if rows.is_empty() {
@@ -80,7 +81,7 @@ pub fn find_evidence(app: &mut App) -> Result<(), String> {
     }
     let options = PosteriorOptions { draws: EVIDENCE_DRAWS, ..settings.panes.posterior.clone() };
     let (number, seed) = (app.work.active().number, settings.seed);
-    app.jobs.posteriors.evidence(number, rows, options, seed)
+    app.jobs.posteriors.evidence(FindEvidence { number, rows, options, seed })
 }
 
 /// The draws are there, or those that there were when somebody stopped it.

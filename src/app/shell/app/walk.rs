@@ -1,9 +1,10 @@
 //! Sliders that move by themselves from a fit along the direction that its data determine least.
 
 use crate::app::shell::app::App;
+use crate::app::shell::app::fits::whole;
+use crate::app::tasks::inquiry_work::FollowWeakest;
 use crate::app::text::localized::Localized as _;
 use crate::app::work::edit::Edit;
-use crate::app::work::fit_history::FitEntry;
 use crate::app::work::weakest_walk::WeakestWalk;
 use pbrdf::fit::GeodesicWay;
 use std::sync::Arc;
@@ -16,10 +17,10 @@ const DURATION: f64 = 8.0;
 pub fn start_walk(app: &mut App, way: GeodesicWay) -> Result<(), String> {
     let Some(fit) = app.work.shown_fit().cloned() else { return Err(tr!("Fit first (F5).")) };
     app.jobs.fits.walking_since = None;
-    let mut parts: Vec<&Arc<FitEntry>> = app.work.fit_history().parts(fit.id).collect();
-    parts.sort_by_key(|part| part.joint.as_ref().map(|joint| joint.set));
-    let numbers = if fit.joint.is_some() { parts.iter().map(|part| part.number).collect() } else { vec![fit.number] };
-    app.jobs.fits.walk(&fit, numbers, way)
+    let fit = whole(&app.work, &fit);
+    let is_joint = fit.fit.joint.is_some();
+    let numbers = if is_joint { fit.parts.iter().map(|part| part.number).collect() } else { vec![fit.fit.number] };
+    app.jobs.fits.walk(FollowWeakest { fit, numbers, way })
 }
 
 /// The way is found: sliders go to its beginning, as one step of undo with all that follows.

@@ -176,11 +176,15 @@ impl View for PictureView {
             self.job = AsyncMemo::default();
             return;
         }
+        let lamp = key.scene.lamp;
+        self.measured.refresh((cx.work.active().generation, lamp, options.shape), |_| measured(cx.work.active(), lamp, options.shape));
         let before = self.made().map(|made| (made.scene.clone(), made.held_range(&key)));
+        #[cfg(target_arch = "wasm32")]
+        if self.refresh_beside(cx, &key, before.as_ref()) {
+            return;
+        }
         let own = key.clone();
         self.job.refresh(&cx.jobs.spawner, &key, move |stopped| PaintedScene::new(own, before, stopped));
-        let lamp = SceneKey::of(cx.work).lamp;
-        self.measured.refresh((cx.work.active().generation, lamp, options.shape), |_| measured(cx.work.active(), lamp, options.shape));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -251,5 +255,29 @@ impl View for PictureView {
 
     fn lag(&self) -> u64 {
         self.job.frames_behind()
+    }
+}
+
+/// The picture before, and the ends of its colours where they are kept.
+#[cfg(target_arch = "wasm32")]
+type Before = (std::sync::Arc<crate::app::work::picture_scene::Scene>, Option<crate::app::plots::Range>);
+
+#[cfg(target_arch = "wasm32")]
+impl PictureView {
+    /// Has a worker of the page make the picture; whether one does. Where only its colours are others, there is nothing to make.
+    fn refresh_beside(&mut self, cx: &Cx<'_>, key: &PaintedKey, before: Option<&Before>) -> bool {
+        use crate::app::tasks::view_message::{ask_scene, told_scene};
+        let (before, held) = before.map_or((None, None), |(scene, range)| (Some(scene.clone()), *range));
+        self.job.refresh_beside(&cx.jobs.spawner, key, || {
+            if before.as_ref().is_some_and(|scene| scene.key == key.scene) {
+                return None;
+            }
+            let (own, size) = (key.clone(), painted::size(&key.scene));
+            let request = ask_scene(&key.scene, size)?;
+            Some((request, move |answer: &str| {
+                let scene = told_scene(answer, own.scene.clone(), size, before.as_deref())?;
+                Some(scene.map(|scene| PaintedScene::of(own, std::sync::Arc::new(scene), held)))
+            }))
+        })
     }
 }

@@ -46,6 +46,11 @@ impl PaintedScene {
             Some(scene) if scene.key == key.scene => scene,
             before => Arc::new(Scene::new(key.scene.clone(), size(&key.scene), Quality::Fast, before.as_deref(), stopped)?),
         };
+        Some(Self::of(key, scene, held))
+    }
+
+    /// A picture in its colours, whose ends were those before.
+    pub fn of(key: PaintedKey, scene: Arc<Scene>, held: Option<Range>) -> Self {
         let shown = scene.shown(&key.options);
         let (low, high) = shown.range;
         let range = held.map_or(Range { low, high }, |held| Range { low: held.low.min(low), high: held.high.max(high) });
@@ -54,7 +59,7 @@ impl PaintedScene {
         let size = scene.image.size;
         let pixels = Arc::new(ColorImage::new([size, size], shown.values.iter().map(|value| table.color(*value)).collect()));
         let fresnel_limit = fresnel_limit(&key.scene);
-        Some(Self { key, scene, values: shown.values, scale, pixels, fresnel_limit })
+        Self { key, scene, values: shown.values, scale, pixels, fresnel_limit }
     }
 
     /// The ends of the colours, where they are to be kept for that picture.
@@ -82,7 +87,8 @@ impl PaintedScene {
     }
 }
 
-fn size(key: &SceneKey) -> usize {
+/// Pixels along an edge.
+pub fn size(key: &SceneKey) -> usize {
     let is_slow = |model: Model| model.specular && model.diffuse == Diffuse::Hyde;
     let companion = key.companion.is_some_and(|(model, _)| is_slow(model));
     if is_slow(key.surface.0) || companion { SLOW_SIZE } else { SIZE }
