@@ -71,7 +71,12 @@ pub struct PanelPlot {
     axes: Axes,
     /// Of its map.
     texture: Option<TextureHandle>,
+    /// From a finger that rests on it to the nearest point that can be read, in points of the screen.
+    reach: Option<f32>,
 }
+
+/// A finger covers what it points at: it reads points that far away, in points of the screen.
+const FINGER: f32 = 44.0;
 
 /// A panel in the coordinates of the plot.
 struct Content {
@@ -171,7 +176,7 @@ impl PanelPlot {
 
     /// Paints it; the answer has the place of a click.
     pub fn ui(&mut self, style: &PanelStyle<'_>, ui: &mut Ui) -> Option<PlotResponse<()>> {
-        let Self { content: Some(Content { title, x, y, map, items, equal_aspect }), axes, texture } = self else { return None };
+        let Self { content: Some(Content { title, x, y, map, items, equal_aspect }), axes, texture, reach } = self else { return None };
         map.iter_mut().for_each(|map| map.upload(texture, ui));
         let (x, y, map) = (&*x, &*y, map.as_ref());
         let width = ui.available_width() - if map.is_some() { BAR_ROOM } else { 0.0 };
@@ -199,11 +204,24 @@ impl PanelPlot {
         let figure = if *equal_aspect { figure.data_aspect(1.0) } else { figure };
         let figure = if is_strip { figure.allow_drag(false).allow_zoom(false).allow_boxed_zoom(false) } else { figure };
         let figure = figure.show_axes([style.place != PanelPlace::OverStrip, true]);
+        let finger = ui.input(|input| input.any_touches().then(|| input.pointer.latest_pos()).flatten());
+        let radius = ui.style().interaction.interact_radius;
+        if let Some(reach) = reach.filter(|_| finger.is_some()) {
+            // The nearest point, and no other one that is drawn above it.
+            ui.style_mut().interaction.interact_radius = radius.max(reach + 0.5);
+        }
+        let before = reach.take();
         let response = figure.show(ui, |plot| {
             axes.apply(plot, Some(ranges[0]), Some(ranges[1]));
             map.zip(texture.as_ref()).into_iter().for_each(|(map, texture)| map.draw(plot, texture));
             items.iter().for_each(|item| item.draw(plot, dark, map.is_some()));
+            let near = |finger| items.iter().map(|item| item.distance(finger, plot)).min_by(f32::total_cmp);
+            *reach = finger.and_then(near).filter(|distance| *distance <= FINGER);
         });
+        ui.style_mut().interaction.interact_radius = radius;
+        if *reach != before {
+            ui.ctx().request_repaint();
+        }
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
         if in_corner {
             corner_title(&y.title, response.response.rect, Align2::LEFT_TOP, ui);
@@ -311,9 +329,11 @@ fn of_equal_units([x, y]: [Range; 2], width: f32, height: f32) -> [Range; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{FigurePlot, Range, of_equal_units, tile_marks};
+    use super::{FINGER, FigurePlot, PanelStyle, Range, of_equal_units, tile_marks};
     use crate::app::plots::plot_axis::PlotAxis;
     use crate::figure::{Axis, Figure, Panel, Series};
+    use egui::{Event, Modifiers, PointerButton, Pos2, Shape, TouchDeviceId, TouchId, TouchPhase, vec2};
+    use egui_kittest::Harness;
     use egui_plot::GridInput;
 
     #[test]
@@ -348,5 +368,47 @@ mod tests {
             let lengths = [f64::from(width) / (x.high - x.low), f64::from(height) / (y.high - y.low)];
             assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-6, "{lengths:?}");
         }
+    }
+
+    /// What is read at a place that is so far below a level line, by a finger that rests there or by the mouse.
+    fn read(below: f32, is_finger: bool) -> Option<String> {
+        let mut plot: FigurePlot<()> = FigurePlot::default();
+        let points = (0..=400).map(|x| [0.25 * f64::from(x), 0.5]).collect();
+        let axis = |end| Axis::linear("axis", "").between(0.0, end);
+        let panel = Panel { x: axis(100.0), y: axis(1.0), series: vec![Series::line("curve", points)], ..Panel::default() };
+        plot.refresh((), |()| Some(Figure { panels: vec![panel], ..Figure::default() }));
+        let mut harness = Harness::builder().with_size(vec2(600.0, 400.0)).build_ui_state(
+            |ui, (plot, frame): &mut (FigurePlot<()>, egui::Rect)| {
+                let hover = |name: &str, _, y: f64| format!("{name} at {y}");
+                let response = plot.panel(0).and_then(|panel| panel.ui(&PanelStyle::new("plot", 380.0, &hover), ui));
+                *frame = response.expect("a plot").response.rect;
+            },
+            (plot, egui::Rect::ZERO),
+        );
+        harness.run();
+        let at: Pos2 = harness.state().1.center() + vec2(0.0, below);
+        if is_finger {
+            let (device_id, id, phase) = (TouchDeviceId(0), TouchId(1), TouchPhase::Start);
+            harness.event(Event::Touch { device_id, id, phase, pos: at, force: None });
+        }
+        harness.event(Event::PointerMoved(at));
+        if is_finger {
+            let button = PointerButton::Primary;
+            harness.event(Event::PointerButton { pos: at, button, pressed: true, modifiers: Modifiers::NONE });
+        }
+        harness.run();
+        let text = |shape: &Shape| match shape {
+            Shape::Text(text) if text.galley.text().starts_with("curve at") => Some(text.galley.text().to_owned()),
+            _ => None,
+        };
+        harness.output().shapes.iter().find_map(|clipped| text(&clipped.shape))
+    }
+
+    #[test]
+    fn a_finger_that_rests_reads_what_it_covers_and_the_mouse_what_it_points_at() {
+        assert_eq!(read(2.0, false).as_deref(), Some("curve at 0.5"));
+        assert_eq!(read(30.0, false), None);
+        assert_eq!(read(30.0, true).as_deref(), Some("curve at 0.5"));
+        assert_eq!(read(FINGER + 5.0, true), None);
     }
 }

@@ -114,6 +114,18 @@ impl PlotItem {
         if let PlotShape::Points { symbol, .. } = self.shape { Some(symbol) } else { None }
     }
 
+    /// How far the nearest of its points that have a name is from a place on the screen.
+    pub fn distance(&self, place: Pos2, plot: &PlotUi<'_>) -> f32 {
+        let points: &[&[PlotPoint]] = match &self.shape {
+            _ if self.name.is_empty() => &[],
+            PlotShape::Line { pieces, .. } => &pieces.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+            PlotShape::Points { points, .. } => &[points],
+            _ => &[],
+        };
+        let away = |point: &PlotPoint| plot.screen_from_plot(*point).distance(place);
+        points.iter().copied().flatten().map(away).fold(f32::INFINITY, f32::min)
+    }
+
     /// Whether it is words alone.
     pub fn is_words(&self) -> bool {
         matches!(self.shape, PlotShape::Labels(_))

@@ -111,9 +111,9 @@ pub fn told_audit(answer: &str) -> Option<Audit> {
     };
     let numbers = numbers_of(&reflectance)?;
     let (reflectance, rest) = numbers.as_chunks::<5>();
-    let reflectance = reflectance.iter().map(|&[theta_i, specular, diffuse, volume, error]| {
-        Reflectance::of_terms(theta_i, [specular, diffuse, volume], error)
-    });
+    let reflectance = reflectance
+        .iter()
+        .map(|&[theta_i, specular, diffuse, volume, error]| Reflectance::of_terms(theta_i, [specular, diffuse, volume], error));
     let findings = findings.into_iter().map(finding).collect::<Option<_>>()?;
     rest.is_empty().then(|| Audit { findings, reflectance: reflectance.collect() })
 }

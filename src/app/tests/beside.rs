@@ -7,17 +7,25 @@ use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, FindIntervals, FitOneByOne, FitTogether, Fitted, ProfileOne, RefitSliders, Search, Watch,
     WithIntervals, Work,
 };
+use crate::app::tasks::inquiry_work::{ChooseAngles, EvidenceRow, FindEvidence, FollowWeakest, NotChosen};
 use crate::app::tasks::landscape_message::{ask, told};
 use crate::app::tasks::messages::Message;
+use crate::app::tasks::view_message::{ask_audit, ask_scene, told_audit, told_scene};
 use crate::app::tasks::wire::Wire;
 use crate::app::tests::{explorer, harness};
+use crate::app::text::i18n::Language;
+use crate::app::work::design::{AngleRange, DesignSettings};
+use crate::app::work::edit::Edit;
 use crate::app::work::fit_history::FitEntry;
 use crate::app::work::fit_setup::{fit_problem, joint_problem, joint_problem_of};
 use crate::app::work::open_measurement::OpenMeasurement;
-use crate::app::work::posterior::DrawnPosterior;
+use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
+use crate::app::work::picture_scene::{Scene, SceneKey};
+use crate::app::work::posterior::{DrawnPosterior, PosteriorOptions};
+use crate::app::work::workspace::Workspace;
 use pbrdf::fit::posterior::Prior;
-use pbrdf::fit::{Course, FitResult, Landscape, LandscapeAxis, Observer, Problem, Starts, free_by_default};
-use pbrdf::model::{PRESETS, Parameter, ParameterSet};
+use pbrdf::fit::{Course, FitResult, GeodesicWay, Landscape, LandscapeAxis, Observer, Problem, Starts, free_by_default};
+use pbrdf::model::{Audit, PRESETS, Parameter, ParameterSet, Parameters, Pbrdf, Quality, StokesImage};
 
 const SEARCH: Search = Search { starts: Starts::Exactly(3), seed: 7 };
 
@@ -224,5 +232,87 @@ fn no_text_is_an_order_by_chance() {
     let wire = Wire { is_cancelled: &|| false, tell: &|_| {} };
     for text in ["", "{}", "null", r#"{"order": "Intervals", "session": {}}"#] {
         assert_eq!(answer(text, &wire), None);
+    }
+}
+
+#[test]
+fn evidence_and_the_weakest_direction_are_the_same_to_the_bit() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    take_twice(app);
+    let (list, fit_options) = (app.work.measurements(), app.work.settings().fit_options);
+    let about: Vec<OpenMeasurement> = list.measured().cloned().collect();
+    let open = about[0].clone();
+    let alone = FitOneByOne { about: vec![(problem(app, &open), open.clone())], search: SEARCH, intervals: false };
+    let alone = Fitted { fit: alone.run(&Quiet).remove(0), parts: Vec::new() };
+    let joint = joint_problem(list, [Parameter::N].into_iter().collect(), fit_options).expect("a problem");
+    let together = FitTogether { problem: joint, about, shared: list.shared(), search: Search { starts: Starts::One, seed: 0 } };
+    let parts = together.run(&Quiet);
+    let together = Fitted { fit: parts[1].clone(), parts: parts.clone() };
+    for fit in [&alone, &together] {
+        for way in [GeodesicWay::Nearer, GeodesicWay::Farther] {
+            let whole = || Fitted { fit: fit.fit.clone(), parts: fit.parts.clone() };
+            let numbers: Vec<u64> =
+                if fit.parts.is_empty() { vec![fit.fit.number] } else { parts.iter().map(|part| part.number).collect() };
+            let job = || FollowWeakest { fit: whole(), numbers: numbers.clone(), way };
+            let walk = job().run(&Quiet);
+            assert!(walk.geodesic.points.len() > 1);
+            assert_eq!(sent(job()), walk);
+        }
+    }
+    let options = PosteriorOptions { draws: 200, chains: 2, ..PosteriorOptions::default() };
+    let job = || {
+        let row =
+            |row, fit: &Fitted| EvidenceRow { row, model: PRESETS[0].key, fit: Fitted { fit: fit.fit.clone(), parts: fit.parts.clone() } };
+        FindEvidence { number: 4, rows: vec![row(2, &alone), row(5, &alone)], options: options.clone(), seed: 3 }
+    };
+    let found = job().run(&Quiet);
+    assert_eq!((found.0, found.1.iter().map(|(row, _)| *row).collect::<Vec<_>>()), (4, vec![2, 5]));
+    assert!(found.1.iter().all(|(_, evidence)| evidence.is_some()));
+    assert_eq!(sent(job()), found);
+}
+
+#[test]
+fn chosen_angles_are_the_same_to_the_bit_and_so_is_the_sentence_of_a_fault() {
+    let mut window = harness();
+    let app = explorer(&mut window);
+    let range = |from, to| vec![AngleRange::new(from, to, 20.0)];
+    let plan = |count| DesignSettings { theta_i: range(30.0, 70.0), theta_r: range(10.0, 70.0), count, ..DesignSettings::default() };
+    let job =
+        |count| ChooseAngles { surface: app.work.surface().clone(), design: plan(count), about: example(app), language: Language::English };
+    let chosen = job(6).run(&Quiet).expect("angles");
+    assert_eq!(chosen.angles.len(), 6);
+    assert_eq!(sent(job(6)), Ok(chosen));
+    let fault = job(100).run(&Quiet);
+    assert!(matches!(&fault, Err(NotChosen::Because(sentence)) if sentence.contains("candidates")), "{fault:?}");
+    assert_eq!(sent(job(100)), fault);
+}
+
+#[test]
+fn pictures_and_audits_are_the_same_to_the_bit() {
+    let bits = |image: &StokesImage| [&image.s0, &image.s1, &image.s2].map(|part| part.iter().map(|at| at.to_bits()).collect::<Vec<_>>());
+    let mut before: Option<Scene> = None;
+    for (sky, companion) in [(false, PictureCompanion::Nothing), (true, PictureCompanion::OtherDistribution)] {
+        let mut work = Workspace::default();
+        work.apply(Edit::SetPictureOptions(PictureOptions { sky, companion, ..PictureOptions::default() }));
+        let key = SceneKey::of(&work);
+        let request = ask_scene(&key, 24).expect("it can be written");
+        let answered =
+            |is_cancelled: &(dyn Fn() -> bool + Sync)| answer(&request, &Wire { is_cancelled, tell: &|_| {} }).expect("an answer");
+        let scene = told_scene(&answered(&|| false), key.clone(), 24, before.as_ref()).flatten().expect("a picture");
+        let wanted = Scene::new(key.clone(), 24, Quality::Fast, None, &|| false).expect("a picture");
+        assert_eq!((&scene.key, bits(&scene.image)), (&wanted.key, bits(&wanted.image)));
+        assert_eq!((scene.other.as_ref().map(bits), &scene.picture), (wanted.other.as_ref().map(bits), &wanted.picture));
+        assert!(told_scene(&answered(&|| true), key.clone(), 24, None).is_some_and(|stopped| stopped.is_none()));
+        assert!(told_scene(&answered(&|| false), key, 25, None).is_none(), "of another size it is none");
+        before = Some(scene);
+    }
+    for preset in PRESETS {
+        let parameters = Parameters { c: -1.5, ..Parameters::default() };
+        let surface = Pbrdf::new(preset.model, parameters).expect("a surface");
+        let request = ask_audit(&surface).expect("it can be written");
+        let answer = answer(&request, &Wire { is_cancelled: &|| false, tell: &|_| {} }).expect("an answer");
+        // Reflectances may be no numbers, which are not equal to themselves.
+        assert_eq!(format!("{:?}", told_audit(&answer).expect("an audit")), format!("{:?}", Audit::new(&surface)));
     }
 }
