@@ -95,11 +95,7 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
             heights(&single(session.fits.first()?)?.0, scale_at, [across, up], wire.is_cancelled)
         }
         WorkOrder::Evidence { models, options, seed } => {
-            let row = |(row, (key, fit)): (usize, (&String, &SavedEntry))| {
-                Some(EvidenceRow { row, model: preset(key)?.key, fit: fitted(&session, &about, fit, 0)? })
-            };
-            let rows = models.iter().zip(&session.fits).enumerate().map(row).collect::<Option<_>>()?;
-            evidence(FindEvidence { number: 0, rows, options, seed }, wire)
+            evidence(FindEvidence { number: 0, rows: rows(&session, &about, &models)?, options, seed }, wire)
         }
         WorkOrder::Walk { set, is_farther } => {
             let way = if is_farther { GeodesicWay::Farther } else { GeodesicWay::Nearer };
@@ -112,6 +108,14 @@ pub fn answer(text: &str, wire: &Wire<'_>) -> Option<String> {
         WorkOrder::Audit { model, parameters } => audit(model, parameters)?,
     };
     serde_json::to_string(&answer).ok()
+}
+
+/// The fits of a session as rows of a comparison of these models, by their places.
+fn rows(session: &Session, about: &[OpenMeasurement], models: &[String]) -> Option<Vec<EvidenceRow>> {
+    let row = |(row, (key, fit)): (usize, (&String, &SavedEntry))| {
+        Some(EvidenceRow { row, model: preset(key)?.key, fit: fitted(session, about, fit, 0)? })
+    };
+    models.iter().zip(&session.fits).enumerate().map(row).collect()
 }
 
 fn preset(key: &str) -> Option<&'static Preset> {

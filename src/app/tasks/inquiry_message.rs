@@ -3,6 +3,7 @@
 use crate::app::storage::saved_entry::SavedEntry;
 use crate::app::storage::saved_fit::SavedMeasurement;
 use crate::app::storage::session::Session;
+use crate::app::tasks::bits::{ChoiceBits, EndBits, WalkBits};
 use crate::app::tasks::fit_work::{Fitted, Work as _};
 use crate::app::tasks::inquiry_work::{ChooseAngles, FindEvidence, FollowWeakest, NotChosen};
 use crate::app::tasks::messages::{Answer, Message, WorkOrder, of_fitted, request, saved};
@@ -14,37 +15,7 @@ use crate::files::packed::{numbers_of, text_of};
 use pbrdf::fit::posterior::LogEvidence;
 use pbrdf::fit::{Edge, FitProblem as _, Geodesic, GeodesicEnd, GeodesicPoint, GeodesicWay, JointUnknown};
 use pbrdf::model::{PRESETS, Parameter, Parameters};
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// A way that sliders go: all numbers as text, unknowns by their places in the problem.
-#[derive(Serialize, Deserialize)]
-pub struct WalkBits {
-    /// Of each point the sum of squares, the length, and nine parameters of each measurement.
-    points: String,
-    /// Part of each unknown in the direction.
-    direction: Vec<(usize, u64)>,
-    limit: u64,
-    end: EndBits,
-}
-
-#[derive(Serialize, Deserialize)]
-enum EndBits {
-    Bound { unknown: usize, is_upper: bool, value: u64 },
-    Misfit,
-    NothingMoves,
-    Lost,
-    Endless,
-    Cancelled,
-}
-
-/// What came of a choice of angles.
-#[derive(Serialize, Deserialize)]
-pub enum ChoiceBits {
-    Chosen { angles: String, value: u64, efficiency: u64, limits: Vec<(Parameter, u64)> },
-    Cancelled,
-    Because(String),
-}
 
 /// The unknowns of a fit, the same on both sides.
 fn names(fit: &FitEntry) -> Vec<JointUnknown> {

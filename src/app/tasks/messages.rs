@@ -7,12 +7,11 @@ use crate::app::storage::saved_entry::{RestoredEntry, SavedEntry};
 use crate::app::storage::saved_fit::{SavedFit, SavedMeasurement};
 use crate::app::storage::saved_joint_fit::SavedJointFit;
 use crate::app::storage::session::Session;
+use crate::app::tasks::bits::{AuditBits, ChoiceBits, SceneOrder, WalkBits};
 use crate::app::tasks::fit_work::{
     BootstrapOne, CompareModels, CompareTogether, ComparedModels, FindIntervals, FinishedIntervals, FitOneByOne, FitTogether, Fitted,
     ProfileOne, RefitSliders, Search, WithIntervals, Work, compared,
 };
-use crate::app::tasks::inquiry_message::{ChoiceBits, WalkBits};
-use crate::app::tasks::view_message::{AuditBits, SceneOrder};
 use crate::app::text::i18n::Language;
 use crate::app::work::design::DesignSettings;
 use crate::app::work::edit::Refit;

@@ -7,6 +7,8 @@
 #[cfg(any(test, target_arch = "wasm32"))]
 pub mod answer;
 pub mod benchmarks;
+#[cfg(any(test, target_arch = "wasm32"))]
+mod bits;
 pub mod file_request;
 pub mod files;
 pub mod fit_work;

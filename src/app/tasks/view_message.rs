@@ -1,26 +1,14 @@
 //! What panes derive, as texts: pictures and the audit of a surface, to the bit.
 
 use crate::app::storage::session::Session;
+use crate::app::tasks::bits::{AuditBits, SceneOrder};
 use crate::app::tasks::messages::{Answer, WorkOrder, request};
 use crate::app::tasks::wire::Wire;
 use crate::app::work::picture_scene::{Scene, SceneKey};
 use crate::files::packed::{numbers_of, text_of};
-use pbrdf::model::{Audit, Check, Finding, Lamp, Model, Parameters, Pbrdf, Quality, Reflectance, Shape, StokesImage};
+use pbrdf::model::{Audit, Check, Finding, Lamp, Model, Parameters, Pbrdf, Quality, Reflectance, StokesImage};
 use pbrdf::optics::Geometry;
-use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
-
-/// What a picture shows.
-#[derive(Serialize, Deserialize)]
-pub struct SceneOrder {
-    shape: Shape,
-    /// Direction of the lamp in degrees: from the camera, and from right to up.
-    lamp: Option<[f64; 2]>,
-    sky: Option<f64>,
-    surface: (Model, Parameters),
-    companion: Option<(Model, Parameters)>,
-    size: usize,
-}
 
 impl SceneOrder {
     fn key(&self) -> Option<SceneKey> {
@@ -83,15 +71,6 @@ const CHECKS: [Check; 7] = [
     Check::Admissibility,
     Check::Normalisation,
 ];
-
-/// What was looked at, and numbers to the bit.
-#[derive(Serialize, Deserialize)]
-pub struct AuditBits {
-    /// The check, its number and limit, whether it passes, its direction.
-    findings: Vec<(usize, [u64; 2], bool, Option<[u64; 3]>)>,
-    /// θi, the three terms and the error of each.
-    reflectance: String,
-}
 
 /// The request for the audit of a surface.
 pub fn ask_audit(surface: &Pbrdf) -> Option<String> {
