@@ -7,7 +7,7 @@ const http = require('node:http');
 const path = require('node:path');
 const zlib = require('node:zlib');
 
-const DIST = path.join(__dirname, 'dist');
+const DIST = process.env.DIST || path.join(__dirname, 'dist');
 const SHOTS = path.join(__dirname, 'shots');
 const EXAMPLE = path.join(__dirname, '../assets/examples/steel45_simulated.csv');
 const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };

@@ -29,27 +29,43 @@ function add(places, place) {
   add(places, union(other, place));
 }
 
-// Where numbers of triangles are put together.
+// Memory that is used again, frame by frame: what is thrown away costs as much as what it saves.
 let chosen = new Uint32Array(1 << 16);
+let marks = new Uint8Array(1 << 14);
 
-// A mesh as it was drawn: words of vertices, their numbers by threes, its texture, and the pixels that it may touch.
+// Words that are kept, and the same as numbers.
+class Room {
+  constructor(length) {
+    this.words = new Uint32Array(length);
+    this.numbers = new Float32Array(this.words.buffer);
+    this.length = 0;
+  }
+
+  take(bytes) {
+    this.length = bytes.byteLength / 4;
+    this.words.set(new Uint32Array(bytes.buffer, bytes.byteOffset, this.length));
+  }
+}
+
+// A mesh as it was drawn: its vertices, their numbers by threes, its texture, and the pixels that it may touch.
 class Mesh {
-  take(vertices, indices, texture, scissor) {
+  constructor(vertices, indices, texture, scissor) {
     this.vertices = vertices;
     this.indices = indices;
-    this.positions = new Float32Array(vertices.buffer, vertices.byteOffset, vertices.length);
     this.texture = texture;
     this.scissor = scissor;
-    return this;
   }
 
   // Adds where a triangle is.
   placeOf(i, places) {
-    const { indices, positions } = this;
-    const [a, b, c] = [WORDS * indices[i], WORDS * indices[i + 1], WORDS * indices[i + 2]];
-    const [ax, bx, cx, ay, by, cy] = [positions[a], positions[b], positions[c], positions[a + 1], positions[b + 1], positions[c + 1]];
-    const [left, right] = [Math.min(ax, bx, cx), Math.max(ax, bx, cx)];
-    const [top, bottom] = [Math.min(ay, by, cy), Math.max(ay, by, cy)];
+    const [indices, positions] = [this.indices.words, this.vertices.numbers];
+    const a = WORDS * indices[i];
+    const b = WORDS * indices[i + 1];
+    const c = WORDS * indices[i + 2];
+    const left = Math.min(positions[a], positions[b], positions[c]);
+    const right = Math.max(positions[a], positions[b], positions[c]);
+    const top = Math.min(positions[a + 1], positions[b + 1], positions[c + 1]);
+    const bottom = Math.max(positions[a + 1], positions[b + 1], positions[c + 1]);
     // Most are within what is known.
     for (let at = 0; at < places.length; at += 1) {
       const place = places[at];
@@ -63,48 +79,54 @@ class Mesh {
     for (let i = from; i < to; i += 3) this.placeOf(i, places);
   }
 
-  // The numbers of the triangles that touch a place in points.
-  within(place) {
-    const { indices, positions } = this;
+  // Chooses the numbers of the triangles that touch a place in points; how many these are.
+  within([left, top, right, bottom]) {
+    const [indices, positions, length] = [this.indices.words, this.vertices.numbers, this.indices.length];
     let count = 0;
-    if (chosen.length < indices.length) chosen = new Uint32Array(2 * indices.length);
-    const found = chosen;
-    for (let i = 0; i < indices.length; i += 3) {
-      const [a, b, c] = [WORDS * indices[i], WORDS * indices[i + 1], WORDS * indices[i + 2]];
-      const [ax, bx, cx, ay, by, cy] = [positions[a], positions[b], positions[c], positions[a + 1], positions[b + 1], positions[c + 1]];
-      const beside = (ax < place[0] && bx < place[0] && cx < place[0]) || (ax > place[2] && bx > place[2] && cx > place[2]);
-      const above = (ay < place[1] && by < place[1] && cy < place[1]) || (ay > place[3] && by > place[3] && cy > place[3]);
-      if (!beside && !above) {
-        found[count] = indices[i];
-        found[count + 1] = indices[i + 1];
-        found[count + 2] = indices[i + 2];
+    if (chosen.length < length) chosen = new Uint32Array(2 * length);
+    for (let i = 0; i < length; i += 3) {
+      const a = WORDS * indices[i];
+      const b = WORDS * indices[i + 1];
+      const c = WORDS * indices[i + 2];
+      const isLeft = positions[a] < left && positions[b] < left && positions[c] < left;
+      const isRight = positions[a] > right && positions[b] > right && positions[c] > right;
+      const isAbove = positions[a + 1] < top && positions[b + 1] < top && positions[c + 1] < top;
+      const isBelow = positions[a + 1] > bottom && positions[b + 1] > bottom && positions[c + 1] > bottom;
+      if (!isLeft && !isRight && !isAbove && !isBelow) {
+        chosen[count] = indices[i];
+        chosen[count + 1] = indices[i + 1];
+        chosen[count + 2] = indices[i + 2];
         count += 3;
       }
     }
-    return found.subarray(0, count);
+    return count;
   }
 }
 
 // Whether both have the same words.
 function isSame(a, b) {
   if (a.length !== b.length) return false;
-  for (let i = 0; i < a.length; i += 1) if (a[i] !== b[i]) return false;
+  const [ours, theirs, length] = [a.words, b.words, a.length];
+  for (let i = 0; i < length; i += 1) if (ours[i] !== theirs[i]) return false;
   return true;
 }
 
 // Adds where two meshes of one texture and one scissor differ.
 function differences(before, after, places) {
-  const [v, w, i, j] = [before.vertices, after.vertices, before.indices, after.indices];
-  if (isSame(i, j) && v.length === w.length) {
-    if (isSame(v, w)) return;
-    const changed = new Uint8Array(v.length / WORDS);
-    for (let vertex = 0; vertex < changed.length; vertex += 1) {
+  const [v, w, i, j] = [before.vertices.words, after.vertices.words, before.indices.words, after.indices.words];
+  const [ours, theirs] = [before.vertices.length, after.vertices.length];
+  const [most, least] = [Math.max(before.indices.length, after.indices.length), Math.min(before.indices.length, after.indices.length)];
+  if (ours === theirs && isSame(before.indices, after.indices)) {
+    if (isSame(before.vertices, after.vertices)) return;
+    const count = ours / WORDS;
+    if (marks.length < count) marks = new Uint8Array(2 * count);
+    for (let vertex = 0; vertex < count; vertex += 1) {
       const at = WORDS * vertex;
       const differs = v[at] !== w[at] || v[at + 1] !== w[at + 1] || v[at + 2] !== w[at + 2] || v[at + 3] !== w[at + 3] || v[at + 4] !== w[at + 4];
-      if (differs) changed[vertex] = 1;
+      marks[vertex] = differs ? 1 : 0;
     }
-    for (let at = 0; at < i.length; at += 3) {
-      if (changed[i[at]] || changed[i[at + 1]] || changed[i[at + 2]]) {
+    for (let at = 0; at < most; at += 3) {
+      if (marks[i[at]] || marks[i[at + 1]] || marks[i[at + 2]]) {
         before.placeOf(at, places);
         after.placeOf(at, places);
       }
@@ -113,21 +135,22 @@ function differences(before, after, places) {
   }
   // What comes before and after the change is the same, but for the numbers of the vertices.
   let head = 0;
-  const least = Math.min(v.length, w.length);
-  while (head < least && v[head] === w[head]) head += 1;
+  const shorter = Math.min(ours, theirs);
+  while (head < shorter && v[head] === w[head]) head += 1;
   let tail = 0;
-  while (tail < least - head && v[v.length - 1 - tail] === w[w.length - 1 - tail]) tail += 1;
+  while (tail < shorter - head && v[ours - 1 - tail] === w[theirs - 1 - tail]) tail += 1;
   [head, tail] = [Math.floor(head / WORDS), Math.floor(tail / WORDS)];
-  const shift = (w.length - v.length) / WORDS;
-  const last = v.length / WORDS - tail;
+  const shift = (theirs - ours) / WORDS;
+  const last = ours / WORDS - tail;
+  const [m, n] = [before.indices.length, after.indices.length];
   let from = 0;
-  while (from < Math.min(i.length, j.length) && i[from] === j[from] && i[from] < head) from += 1;
+  while (from < least && i[from] === j[from] && i[from] < head) from += 1;
   from -= from % 3;
   let to = 0;
-  while (to < Math.min(i.length, j.length) - from && i[i.length - 1 - to] >= last && i[i.length - 1 - to] + shift === j[j.length - 1 - to]) to += 1;
+  while (to < least - from && i[m - 1 - to] >= last && i[m - 1 - to] + shift === j[n - 1 - to]) to += 1;
   to -= to % 3;
-  before.placesOf(from, i.length - to, places);
-  after.placesOf(from, j.length - to, places);
+  before.placesOf(from, m - to, places);
+  after.placesOf(from, n - to, places);
 }
 
 // Lets a context of the program paint what has changed. It must keep what it has drawn (`preserveDrawingBuffer`).
@@ -145,34 +168,32 @@ export function repaintChanges(gl) {
   let ground = '';
   let [vertices, indices, texture, scissor] = [null, null, null, null];
 
-  // Words that are kept until the frame after the next: those of the frame before the last take them.
+  // Rooms are kept until the frame after the next, and are then taken again in their order.
   let [spare, used, last] = [[], [], []];
-  const words = (bytes) => {
-    const length = bytes.byteLength / 4;
-    const room = spare.pop();
-    const kept = room && room.length >= length ? room : new Uint32Array(Math.max(64, Math.ceil(1.5 * length)));
-    used.push(kept);
-    const own = kept.subarray(0, length);
-    own.set(new Uint32Array(bytes.buffer, bytes.byteOffset, length));
-    return own;
+  const keep = (bytes) => {
+    let room = spare.pop();
+    if (!room || room.words.length < bytes.byteLength / 4) room = new Room(Math.max(64, Math.ceil(0.375 * bytes.byteLength)));
+    used.push(room);
+    room.take(bytes);
+    return room;
   };
 
-  const paint = (mesh, place, numbers) => {
-    plain.scissor(place[0], place[1], place[2] - place[0], place[3] - place[1]);
-    plain.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers, gl.STREAM_DRAW);
-    plain.drawElements(gl.TRIANGLES, numbers.length, gl.UNSIGNED_INT, 0);
+  const paint = ([left, top, right, bottom], numbers, length) => {
+    plain.scissor(left, top, right - left, bottom - top);
+    plain.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers, gl.STREAM_DRAW, 0, length);
+    plain.drawElements(gl.TRIANGLES, length, gl.UNSIGNED_INT, 0);
   };
 
-  const send = (mesh) => {
-    plain.bufferData(gl.ARRAY_BUFFER, mesh.vertices, gl.STREAM_DRAW);
-    plain.bindTexture(gl.TEXTURE_2D, mesh.texture);
+  const send = ({ vertices: { words, length }, texture: to }) => {
+    plain.bufferData(gl.ARRAY_BUFFER, words, gl.STREAM_DRAW, 0, length);
+    plain.bindTexture(gl.TEXTURE_2D, to);
   };
 
   // Where the frame differs, in points; none where all of it may.
   const changes = () => {
     if (!before) return null;
     const places = [];
-    const same = (a, b) => a.texture === b.texture && String(a.scissor) === String(b.scissor);
+    const same = (a, b) => a.texture === b.texture && a.scissor.every((edge, at) => edge === b.scissor[at]);
     let head = 0;
     const least = Math.min(before.length, meshes.length);
     while (head < least && same(before[head], meshes[head])) head += 1;
@@ -219,7 +240,7 @@ export function repaintChanges(gl) {
     for (const mesh of meshes) {
       const [x, y, width, height] = mesh.scissor;
       send(mesh);
-      paint(mesh, [x, y, x + width, y + height], mesh.indices);
+      if (mesh.indices.length > 0) paint([x, y, x + width, y + height], mesh.indices.words, mesh.indices.length);
     }
   };
 
@@ -236,11 +257,11 @@ export function repaintChanges(gl) {
         const cut = meet(place, [x, y, x + width, y + height]);
         if (isEmpty(cut)) continue;
         // A pixel more, whatever is rounded.
-        const numbers = mesh.within([(cut[0] - 1) / by, (high - cut[3] - 1) / by, (cut[2] + 1) / by, (high - cut[1] + 1) / by]);
-        if (numbers.length === 0) continue;
+        const count = mesh.within([(cut[0] - 1) / by, (high - cut[3] - 1) / by, (cut[2] + 1) / by, (high - cut[1] + 1) / by]);
+        if (count === 0) continue;
         if (!isSent) send(mesh);
         isSent = true;
-        paint(mesh, cut, numbers);
+        paint(cut, chosen, count);
       }
     }
   };
@@ -295,12 +316,12 @@ export function repaintChanges(gl) {
   }
   gl.bufferData = (target, bytes, use) => {
     if (!meshes) return plain.bufferData(target, bytes, use);
-    if (target === gl.ARRAY_BUFFER) vertices = words(bytes);
-    else indices = words(bytes);
+    if (target === gl.ARRAY_BUFFER) vertices = keep(bytes);
+    else indices = keep(bytes);
     return undefined;
   };
   gl.drawElements = () => {
-    meshes.push(new Mesh().take(vertices, indices, texture, scissor));
+    meshes.push(new Mesh(vertices, indices, texture, scissor));
   };
   // The program lets go of its vertices after the last mesh.
   gl.bindVertexArray = (to) => {
