@@ -13,7 +13,7 @@ use pbrdf::optics::{Facet, Geometry};
 use std::sync::Arc;
 use tr::tr;
 
-/// Pixels along an edge; in a page, whose thread makes the picture, a quarter of them.
+/// Pixels along an edge; in a page, whose thread reads and colours what a worker made, a quarter of them.
 const SIZE: usize = if platform::IS_PAGE { 256 } else { 512 };
 /// The same of Hyde's model, which takes an integral for every angle of incidence.
 const SLOW_SIZE: usize = if platform::IS_PAGE { 64 } else { 128 };
