@@ -47,8 +47,19 @@ pub struct SceneOrder {
 /// What was looked at, and numbers to the bit.
 #[derive(Serialize, Deserialize)]
 pub struct AuditBits {
-    /// The check, its number and limit, whether it passes, its direction.
-    pub findings: Vec<(usize, [u64; 2], bool, Option<[u64; 3]>)>,
+    pub findings: Vec<FindingBits>,
     /// θi, the three terms and the error of each.
     pub reflectance: String,
+}
+
+/// One number with its verdict.
+#[derive(Serialize, Deserialize)]
+pub struct FindingBits {
+    /// Its place in a list of all.
+    pub check: usize,
+    pub value: u64,
+    pub bar: u64,
+    pub pass: bool,
+    /// θi, θr and Δφ in degrees.
+    pub at: Option<[u64; 3]>,
 }

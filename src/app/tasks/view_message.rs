@@ -1,7 +1,7 @@
 //! What panes derive, as texts: pictures and the audit of a surface, to the bit.
 
 use crate::app::storage::session::Session;
-use crate::app::tasks::bits::{AuditBits, SceneOrder};
+use crate::app::tasks::bits::{AuditBits, FindingBits, SceneOrder};
 use crate::app::tasks::messages::{Answer, WorkOrder, request};
 use crate::app::tasks::wire::Wire;
 use crate::app::work::picture_scene::{Scene, SceneKey};
@@ -80,13 +80,12 @@ pub fn ask_audit(surface: &Pbrdf) -> Option<String> {
 /// The audit out of the answer.
 pub fn told_audit(answer: &str) -> Option<Audit> {
     let Answer::Audit(AuditBits { findings, reflectance }) = serde_json::from_str(answer).ok()? else { return None };
-    let finding = |(check, bits, pass, at): (usize, [u64; 2], bool, Option<[u64; 3]>)| {
-        let [value, bar] = bits.map(f64::from_bits);
+    let finding = |FindingBits { check, value, bar, pass, at }: FindingBits| {
         let at = match at.map(|bits| bits.map(f64::from_bits)) {
             Some([theta_i, theta_r, dphi]) => Some(Geometry::new(theta_i, theta_r, dphi).ok()?),
             None => None,
         };
-        Some(Finding { check: *CHECKS.get(check)?, value, bar, pass, at })
+        Some(Finding { check: *CHECKS.get(check)?, value: f64::from_bits(value), bar: f64::from_bits(bar), pass, at })
     };
     let numbers = numbers_of(&reflectance)?;
     let (reflectance, rest) = numbers.as_chunks::<5>();
@@ -102,8 +101,8 @@ pub fn audit(model: Model, parameters: Parameters) -> Option<Answer> {
     let Audit { findings, reflectance } = Audit::new(&Pbrdf::new(model, parameters).ok()?);
     let bits = |Finding { check, value, bar, pass, at }: &Finding| {
         let at = at.map(|at| [at.theta_i().0, at.theta_r().0, at.dphi().0].map(f64::to_bits));
-        let place = CHECKS.iter().position(|other| other == check)?;
-        Some((place, [*value, *bar].map(f64::to_bits), *pass, at))
+        let check = CHECKS.iter().position(|other| other == check)?;
+        Some(FindingBits { check, value: value.to_bits(), bar: bar.to_bits(), pass: *pass, at })
     };
     let numbers: Vec<f64> = reflectance.iter().flat_map(|at| [at.theta_i, at.specular, at.diffuse, at.volume, at.error]).collect();
     let findings = findings.iter().map(bits).collect::<Option<_>>()?;
