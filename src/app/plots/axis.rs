@@ -12,10 +12,18 @@ pub fn axis<'a>(hints: AxisHints<'a>, ui: &Ui, title: &str, format: impl Fn(f64,
         .tick_label_color(ui.visuals().text_color())
 }
 
+/// Of the wanted gap, what marks may be apart where there would be a single one, which tells no scale.
+const CLOSER: f64 = 0.75;
+
 /// Marks 1, 2 or 5 times a power of ten apart: at least `spread` times the plot's smallest spacing,
 /// and at least `least`.
 pub fn marks(input: &GridInput, spread: f64, least: f64) -> Vec<GridMark> {
     let wanted = (spread * input.base_step_size).max(least);
+    let marks = marks_apart(input, wanted);
+    if marks.len() < 2 { marks_apart(input, (CLOSER * wanted).max(least)) } else { marks }
+}
+
+fn marks_apart(input: &GridInput, wanted: f64) -> Vec<GridMark> {
     if !(wanted.is_finite() && wanted > 0.0) {
         return Vec::new();
     }
@@ -116,7 +124,7 @@ pub fn power_of_ten(exponent: f64, _step_size: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{decades, logarithmic};
+    use super::{decades, logarithmic, marks};
     use egui_plot::GridInput;
 
     fn labels(low: f64, high: f64, base_step_size: f64) -> Vec<String> {
@@ -131,6 +139,14 @@ mod tests {
         assert_eq!(labels(-16.0, 1.0, 1.0), ["1e-15", "1e-10", "1e-5", "1e0"]);
         // Closer than those marks: round values, not values of round logarithms.
         assert_eq!(labels(-3.46, -3.29, 0.005), ["3.5e-4", "4e-4", "4.5e-4", "5e-4"]);
+    }
+
+    #[test]
+    fn a_low_axis_has_more_than_one_number() {
+        // A strip of residuals to ±0.0162, 53 points high.
+        let input = GridInput { bounds: (-0.0162, 0.0162), base_step_size: 8.0 * 0.0324 / 53.0 };
+        let at: Vec<f64> = marks(&input, 2.2, 0.0).iter().map(|mark| mark.value).collect();
+        assert_eq!(at, [-0.01, 0.0, 0.01]);
     }
 
     #[test]

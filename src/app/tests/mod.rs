@@ -6,6 +6,7 @@ mod broken;
 mod bundled_lessons;
 mod commands;
 mod companions;
+mod cut_text;
 mod dialogs;
 mod files;
 mod first_look;

@@ -165,7 +165,11 @@ impl View for AuditView {
                 findings_ui(audit, ui);
                 ui.add_space(6.0);
                 let left = ui.clip_rect().bottom() - top - (ui.cursor().top() - top);
-                reflectance_ui(plot.panel(0), above_from, left.max(PLOT_HEIGHT), ui);
+                // The title of an axis and its last number stand a little beyond the plot.
+                let margin = egui::Margin { left: 4, right: 10, top: 0, bottom: 0 };
+                egui::Frame::new().inner_margin(margin).show(ui, |ui| {
+                    reflectance_ui(plot.panel(0), above_from, left.max(PLOT_HEIGHT), ui);
+                });
             });
         }
     }
@@ -180,13 +184,13 @@ const HIGHEST: f64 = 3.0;
 /// From this width on table and plot lie side by side.
 const SIDE_BY_SIDE: f32 = 760.0;
 /// What the table needs.
-const NARROWEST: f32 = 500.0;
+const NARROWEST: f32 = 540.0;
 /// Least height of the plot, in points.
 const PLOT_HEIGHT: f32 = 190.0;
 
 /// Widths of numbers and of directions: no column moves with its digits.
-const NUMBER: f32 = 84.0;
-const PLACE: f32 = 100.0;
+const NUMBER: f32 = 74.0;
+const PLACE: f32 = 96.0;
 
 fn findings_ui(audit: &Audit, ui: &mut Ui) {
     let dark = ui.visuals().dark_mode;
@@ -212,7 +216,7 @@ fn findings_ui(audit: &Audit, ui: &mut Ui) {
                     } else {
                         ui.colored_label(theme::warning(dark), tr!("✗ fail"));
                     }
-                    ui.add(Label::new(egui::RichText::new(check_name(finding.check)).strong()).truncate());
+                    ui.add(Label::new(egui::RichText::new(check_name(finding.check)).strong()));
                 }
                 1 => _ = ui.monospace(number(finding)),
                 2 => _ = ui.monospace(bar(finding)),

@@ -14,6 +14,7 @@ use egui_extras::{Column, TableBuilder, TableRow};
 use pbrdf::measurement::{Quantity, Row, shortest};
 use pbrdf::model::{Model, Parameters, Pbrdf};
 use pbrdf::optics::Facet;
+use pbrdf::rounding;
 use std::ops::Range;
 use tr::tr;
 
@@ -43,6 +44,20 @@ pub struct DataView {
     visible: Range<usize>,
     /// The model in those rows.
     pub predicted: Memo<PredictedKey, Vec<Predicted>>,
+    /// Decimals of DoLP, by the measurement's generation.
+    decimals: Memo<u64, usize>,
+}
+
+/// Rows that say how many decimals all have.
+const LOOKED_AT: usize = 1000;
+/// Decimals at most.
+const MOST_DECIMALS: usize = 6;
+
+/// Decimals of the measured DoLP: with the same in every row, points stand below each other.
+fn decimals(rows: &[Row]) -> usize {
+    let values = rows.iter().take(LOOKED_AT).filter_map(|row| row.dolp);
+    let of = |value: f64| significant(value).split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    values.map(|dolp| of(dolp.value)).max().unwrap_or(0).clamp(2, MOST_DECIMALS)
 }
 
 impl View for DataView {
@@ -60,6 +75,7 @@ impl View for DataView {
             };
             rows[visible.clone()].iter().map(predict).collect()
         });
+        self.decimals.refresh(cx.work.active().generation, |_| decimals(rows));
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -155,14 +171,14 @@ fn one_series_ui(document: &OpenMeasurement, series: &IncidenceSeries, edits: &m
 type Heading = (&'static str, &'static str, f32);
 
 const ANGLES: [Heading; 3] = [
-    ("θi / °", "Angle of incidence", 46.0),
-    ("θr / °", "Angle of view; the backscatter side has Δφ = 0 here and a negative θr in plots", 46.0),
-    ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 46.0),
+    ("θi / °", "Angle of incidence", 44.0),
+    ("θr / °", "Angle of view; the backscatter side has Δφ = 0 here and a negative θr in plots", 44.0),
+    ("Δφ / °", "Relative azimuth φr − φi: 180 is the forward side, 0 the backscatter side", 44.0),
 ];
 const DOLP: [Heading; 4] = [
-    ("DoLP", "Measured degree of linear polarisation", 80.0),
-    ("± s.d.", "Its stated standard deviation", 62.0),
-    ("model", "DoLP of the model at the sliders", 80.0),
+    ("DoLP", "Measured degree of linear polarisation", 66.0),
+    ("± s.d.", "Its stated standard deviation", 60.0),
+    ("model", "DoLP of the model at the sliders", 66.0),
     ("residual", "Model less measurement", 68.0),
 ];
 const BRDF: [Heading; 4] = [
@@ -206,7 +222,8 @@ fn rows_ui(document: &OpenMeasurement, view: &DataView, edits: &mut Vec<Edit>, u
                     let values = view.predicted.get()?;
                     values.get(index - key.3.start).copied()
                 });
-                line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp, has_brdf), edits);
+                let decimals = view.decimals.get().copied().unwrap_or(MOST_DECIMALS);
+                line_ui(&mut line, index, &measurement.rows[index], predicted, (has_dolp.then_some(decimals), has_brdf), edits);
             });
         });
     });
@@ -218,7 +235,7 @@ fn line_ui(
     index: usize,
     row: &Row,
     predicted: Option<Predicted>,
-    (has_dolp, has_brdf): (bool, bool),
+    (decimals, has_brdf): (Option<usize>, bool),
     edits: &mut Vec<Edit>,
 ) {
     line.col(|ui| {
@@ -243,16 +260,18 @@ fn line_ui(
     for angle in [geometry.theta_i().0, geometry.theta_r().0, geometry.dphi().0] {
         cell(significant(angle));
     }
-    let mut quantity = |measured: Option<Quantity>, model: Option<f64>| {
-        cell(measured.map_or_else(String::new, |measured| significant(measured.value)));
+    let mut quantity = |measured: Option<Quantity>, model: Option<f64>, value: &dyn Fn(f64) -> String, rest: &dyn Fn(f64) -> String| {
+        cell(measured.map_or_else(String::new, |measured| value(measured.value)));
         cell(measured.and_then(|measured| measured.sigma).map_or_else(String::new, short));
-        cell(model.map_or_else(|| "…".to_owned(), significant));
-        cell(measured.zip(model).map_or_else(String::new, |(measured, model)| short(model - measured.value)));
+        cell(model.map_or_else(|| "…".to_owned(), value));
+        cell(measured.zip(model).map_or_else(String::new, |(measured, model)| rest(model - measured.value)));
     };
-    if has_dolp {
-        quantity(row.dolp, predicted.map(|predicted| predicted.dolp));
+    if let Some(decimals) = decimals {
+        let aligned = |value: f64| format!("{value:.decimals$}");
+        quantity(row.dolp, predicted.map(|predicted| predicted.dolp), &aligned, &aligned);
     }
     if has_brdf {
-        quantity(row.brdf, predicted.map(|predicted| predicted.brdf));
+        // Over decades there are no common decimals.
+        quantity(row.brdf, predicted.map(|predicted| predicted.brdf), &|value| rounding::significant(value, 5), &short);
     }
 }

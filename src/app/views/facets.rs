@@ -109,6 +109,9 @@ fn crossing(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// Lower end of the axis of G: its 0 keeps off the first number of θr, and the curve off the rim.
+const LOWEST: f64 = -0.03;
+
 /// Decades that a logarithmic axis of densities shows.
 const DECADES: f64 = 6.0;
 
@@ -180,8 +183,8 @@ impl FacetsView {
         let shadows = Panel {
             title: tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi),
             x: Axis::linear("θr", "°").between(-90.0, 90.0),
-            y: Axis::linear(tr!("masking–shadowing G"), "").between(0.0, 1.05),
-            series: [Series::line("", masking.clone()).colored(ink)].into_iter().chain(picked.map(|at| mark(at, 0.0, 1.05))).collect(),
+            y: Axis::linear(tr!("masking–shadowing G"), "").between(LOWEST, 1.05),
+            series: [Series::line("", masking.clone()).colored(ink)].into_iter().chain(picked.map(|at| mark(at, LOWEST, 1.05))).collect(),
             ..Panel::default()
         };
         Some(Figure { title: tr!("Facets"), panels: vec![tilts, shadows], width_mm: 160.0, height_mm: 170.0, ..Figure::default() })

@@ -97,7 +97,7 @@ impl View for LandscapeView {
         let line = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
         let height = (ui.available_height() - line).max(80.0);
         let reading = self.map_ui(cx, height, ui);
-        let is_there = matches!(self.job.get(), Some(Some(_)));
+        let is_there = self.job.get().map(Option::is_some);
         let text = reading.unwrap_or_else(|| status(is_there, axes.across == axes.up));
         ui.add(egui::Label::new(text).truncate());
     }
@@ -150,14 +150,13 @@ fn changed(cx: &Cx<'_>, axes: LandscapeAxes) -> Option<Edit> {
     (axes != cx.work.settings().panes.landscape).then_some(Edit::SetLandscapeAxes(axes))
 }
 
-/// What stands under the map while nothing is pointed at.
-fn status(is_there: bool, is_one: bool) -> String {
-    if is_one {
-        tr!("Both axes are the same parameter: choose another one for one of them.")
-    } else if is_there {
-        tr!("A click puts both sliders there; drag to move, Ctrl+wheel to zoom.")
-    } else {
-        tr!("No landscape: the open measurement has nothing that this model predicts, or all of it is masked.")
+/// What stands under the map while nothing is pointed at; whether there is one is not known before the first was made.
+fn status(is_there: Option<bool>, is_one: bool) -> String {
+    match is_there {
+        _ if is_one => tr!("Both axes are the same parameter: choose another one for one of them."),
+        Some(true) => tr!("A click puts both sliders there; drag to move, Ctrl+wheel to zoom."),
+        Some(false) => tr!("No landscape: this model predicts nothing of the open measurement, or all of it is masked."),
+        None => "…".to_owned(),
     }
 }
 

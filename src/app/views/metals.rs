@@ -5,6 +5,7 @@ use crate::app::jobs::memo::Memo;
 use crate::app::panels::{SliderStep, step_with_arrows};
 use crate::app::plots::theme::{FOREGROUND, MUTED};
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Polyline, Range, nice_ceiling, theme};
+use crate::app::text::explained::Explained as _;
 use crate::app::text::i18n;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::action::Action;
@@ -251,7 +252,7 @@ fn wavelength_ui(wavelength_nm: &mut f64, measured: Option<f64>, ui: &mut Ui) {
 const ROW: f32 = 21.0;
 
 impl MetalsView {
-    /// Every source with n, k and where it was published.
+    /// Every source with n and k.
     fn sources_ui(&self, tabulated: &mut MetalSelection, metal: &Metal, cx: &mut Cx<'_>, ui: &mut Ui) {
         let Some(found) = self.found.get() else { return };
         if found.iter().all(Option::is_none) {
@@ -259,18 +260,12 @@ impl MetalsView {
             let text = tr!("No source has this wavelength: they span {0} to {1} nm.", low.ceil(), high.floor());
             ui.colored_label(theme::warning(ui.visuals().dark_mode), text);
         }
-        let has_publication = ui.available_width() >= WITH_SOURCE;
         ui.push_id("sources", |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             let table = TableBuilder::new(ui).striped(true).vscroll(false).cell_layout(Layout::left_to_right(Align::Center));
-            let columns = if has_publication { 5 } else { 4 };
-            let table =
-                table.column(if has_publication { Column::auto().at_least(190.0).clip(true) } else { Column::remainder().clip(true) });
-            let table = table.columns(Column::exact(56.0), 2).column(Column::auto().at_least(90.0));
-            let table = if has_publication { table.column(Column::remainder().clip(true)) } else { table };
+            let table = table.column(Column::auto()).columns(Column::exact(56.0), 2).column(Column::remainder());
             let table = table.header(ROW, |mut header| {
-                let headings = [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new(), tr!("Published in")];
-                for heading in headings.into_iter().take(columns) {
+                for heading in [tr!("Source"), "n".to_owned(), "k".to_owned(), String::new()] {
                     header.col(|ui| {
                         ui.strong(heading);
                     });
@@ -279,7 +274,7 @@ impl MetalsView {
             table.body(|mut body| {
                 for (i, (source, index)) in metal.sources.iter().zip(found).enumerate() {
                     body.row(ROW, |mut row| {
-                        if source_ui(&mut row, i, source, *index, tabulated, has_publication) {
+                        if source_ui(&mut row, i, source, *index, tabulated) {
                             tabulated.source = Some(source.key.clone());
                             cx.edits.extend(index.map(|index| set(cx.work.surface().parameters, index)));
                         }
@@ -290,21 +285,20 @@ impl MetalsView {
     }
 }
 
-/// One source, with where it was published if there is room; whether its button was pressed.
+/// One source, which says where it was published; whether its button was pressed.
 fn source_ui(
     row: &mut TableRow<'_, '_>,
     i: usize,
     source: &MetalSource,
     index: Option<RefractiveIndex>,
     tabulated: &MetalSelection,
-    has_publication: bool,
 ) -> bool {
     let (low, high) = source.range_nm();
     let about = if source.comment.is_empty() { source.citation.clone() } else { format!("{}\n{}", source.citation, source.comment) };
     row.col(|ui| {
         let dark = ui.visuals().dark_mode;
         ui.label(RichText::new("■").color(theme::series(i, dark)));
-        ui.add(egui::Label::new(source.name.as_str()).truncate()).on_hover_text(about.as_str());
+        ui.label(source.name.as_str()).explained(about);
     });
     match index {
         Some(index) => {
@@ -338,11 +332,6 @@ fn source_ui(
             ui.weak(format!("{low:.0}–{high:.0} nm"));
         }
     });
-    if has_publication {
-        row.col(|ui| {
-            ui.add(egui::Label::new(RichText::new(source.citation.as_str()).weak()).truncate()).on_hover_text(about.as_str());
-        });
-    }
     pressed
 }
 
@@ -351,10 +340,8 @@ const HEIGHT: f32 = 130.0;
 /// Below this height, and over this width, the plots stand beside the table, which has that share
 /// of the width.
 const LOW: f32 = 330.0;
-const WIDE: f32 = 560.0;
-const TABLE: f32 = 0.52;
-/// Width from which the table has room for where its sources were published.
-const WITH_SOURCE: f32 = 480.0;
+const WIDE: f32 = 700.0;
+const TABLE: f32 = 0.54;
 
 /// Surface finishes, which are not measured.
 fn finishes_ui(cx: &mut Cx<'_>, ui: &mut Ui) {

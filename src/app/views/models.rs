@@ -69,7 +69,11 @@ impl View for ModelsView {
             models_ui(cx.work, cx.edits, cx.actions, ui);
             ui.add_space(6.0);
             for sentence in verdicts(comparison).into_iter().chain(odds_sentence(comparison)) {
-                ui.label(sentence);
+                // As wide as the pane, not as the table.
+                ui.scope(|ui| {
+                    ui.set_max_width(ui.clip_rect().width() - ui.spacing().item_spacing.x);
+                    ui.add(egui::Label::new(sentence).wrap());
+                });
             }
             CollapsingHeader::new(tr!("Starts and where they led")).show(ui, |ui| starts_ui(comparison, ui));
         });

@@ -172,6 +172,9 @@ impl MuellerView {
             let at = panel.cell_ui(place.size(), rim, vec2(LEFT, BELOW), &mut child);
             pointed = pointed.or(at);
         }
+        // One title for the four at the lower rim.
+        let at = Pos2::new(room.left() + LEFT + 0.5 * (room.width() - LEFT), room.bottom());
+        ui.painter().text(at, Align2::CENTER_BOTTOM, "θr / °", FontId::proportional(LETTERS), ui.visuals().text_color());
         pointed
     }
 
@@ -236,7 +239,7 @@ fn parts(rect: Rect) -> [Rect; 2] {
 
 /// Room for the numbers at the axes, and between cells.
 const LEFT: f32 = 26.0;
-const BELOW: f32 = 20.0;
+const BELOW: f32 = 34.0;
 const SEAM: f32 = 3.0;
 /// Ends of the common axis of values: a little beyond what any matrix reaches.
 const REACH: f64 = 1.12;

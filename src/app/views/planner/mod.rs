@@ -49,6 +49,8 @@ pub struct PlannerView {
 
 /// Width that a plan and what it brings need side by side.
 const SIDE_BY_SIDE: f32 = 640.0;
+/// Of that, what the plan has.
+const PLAN: f32 = 260.0;
 
 impl View for PlannerView {
     fn refresh(&mut self, cx: &mut Cx<'_>) {
@@ -87,7 +89,7 @@ impl View for PlannerView {
                 ui.horizontal_top(|ui| {
                     ui.vertical(|ui| {
                         // Sentences would take all of the width.
-                        ui.set_max_width(0.45 * width);
+                        ui.set_max_width(PLAN.min(0.45 * width));
                         plan::plan_ui(&mut design, cx, ui);
                         ui.separator();
                         angles::angles_ui(&mut design, document, ui);

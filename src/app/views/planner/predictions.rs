@@ -15,7 +15,7 @@ use pbrdf::model::{Parameter, Parameters};
 use tr::tr;
 
 /// Width from which errors stand in percent too.
-const WITH_PERCENT: f32 = 400.0;
+const WITH_PERCENT: f32 = 450.0;
 
 pub fn predictions_ui(work: &Workspace, view: &PlannerView, ui: &mut Ui) {
     let warning = theme::warning(ui.visuals().dark_mode);

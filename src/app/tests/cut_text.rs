@@ -1,0 +1,289 @@
+//! Text against its room: in every pane, at the sizes of a small window, a projector and a large screen, in both
+//! languages, no text is cut, lies over another or runs out of the window.
+
+use crate::app::shell::app::App;
+use crate::app::tests::measurements::{files, three};
+use crate::app::tests::{explorer, harness, wait};
+use crate::app::text::help::Help;
+use crate::app::text::i18n::Language;
+use crate::app::views::action::{Action, ListAction, WindowAction};
+use crate::app::work::edit::Switch;
+use crate::app::work::pane_id::PaneId;
+use crate::app::work::sharing::Sharing;
+use egui::epaint::{ClippedShape, TextShape};
+use egui::{Key, Modifiers, Rect, Shape, Vec2, vec2};
+use egui_kittest::Harness;
+
+type Window = Harness<'static, Option<App>>;
+
+/// In points: the least window, 1366 × 768 pixels at zoom 1.5, the first size of a window, and 1920 × 1080 pixels, which
+/// are 3840 × 2160 at zoom 2.
+const SIZES: [Vec2; 4] = [vec2(1024.0, 640.0), vec2(1366.0 / 1.5, 512.0), vec2(1280.0, 800.0), vec2(1920.0, 1080.0)];
+
+/// What rounding to pixels may move, in points.
+const ROUNDING: f32 = 1.0;
+
+/// A text on the screen.
+struct Written {
+    text: String,
+    /// Where its letters are.
+    rect: Rect,
+    /// What is seen of that.
+    seen: Rect,
+    /// What it is cut by.
+    clip: Rect,
+    /// Whether it ends in `…` for want of room.
+    is_elided: bool,
+}
+
+/// Collects texts; what a filled shape covers is taken away.
+fn collect(shape: &Shape, clip: Rect, out: &mut Vec<Written>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, out)),
+        Shape::Rect(rect) if rect.fill.is_opaque() => {
+            let cover = rect.rect.intersect(clip).expand(ROUNDING);
+            out.retain(|text| !cover.contains_rect(text.seen));
+        }
+        Shape::Text(text) => {
+            let rect = letters(text);
+            let seen = rect.intersect(clip);
+            if seen.is_positive() && !text.galley.text().trim().is_empty() {
+                out.push(Written { text: text.galley.text().to_owned(), rect, seen, clip, is_elided: text.galley.elided });
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Where the letters of a text are, without the room above and below them.
+fn letters(text: &TextShape) -> Rect {
+    text.visual_bounding_rect()
+}
+
+fn written(shapes: &[ClippedShape]) -> Vec<Written> {
+    let mut out = Vec::new();
+    shapes.iter().for_each(|clipped| collect(&clipped.shape, clipped.clip_rect, &mut out));
+    out
+}
+
+/// Texts of all that is written, without what scrolling brings into sight.
+fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
+    let window = Rect::from_min_size(egui::Pos2::ZERO, size);
+    let texts = written(&harness.output().shapes);
+    assert!(texts.len() > 20, "{}", texts.len());
+    let mut faults = Vec::new();
+    let mut low: Vec<&Written> = Vec::new();
+    for text in &texts {
+        let whole = text.clip.intersect(window).expand(ROUNDING);
+        if text.is_elided && !may_be_long(&text.text) {
+            faults.push(format!("elided: {:?} at {}", text.text, text.rect));
+        }
+        if text.rect.left() < whole.left() || text.rect.right() > whole.right() {
+            faults.push(format!("cut at the side: {:?} at {} in {}", text.text, text.rect, text.clip));
+        }
+        if text.rect.bottom() > whole.bottom() && !low.iter().any(|other| other.clip == text.clip) {
+            low.push(text);
+        }
+    }
+    for (i, one) in texts.iter().enumerate() {
+        for other in &texts[i + 1..] {
+            let both = one.seen.intersect(other.seen);
+            if both.width() > ROUNDING && both.height() > ROUNDING {
+                faults.push(format!("over another: {:?} at {} and {:?} at {}", one.text, one.seen, other.text, other.seen));
+            }
+        }
+    }
+    faults.extend(low.into_iter().filter(|text| !scrolls(harness, text)).map(|text| format!("cut below: {:?} at {}", text.text, text.rect)));
+    faults
+}
+
+/// Whether the wheel brings a text into sight that is cut below.
+fn scrolls(harness: &mut Window, text: &Written) -> bool {
+    let turn = |harness: &mut Window, by: f32| {
+        harness.hover_at(text.seen.center());
+        harness.run_steps(2);
+        let (unit, phase, source) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move, egui::MouseWheelSource::Unknown);
+        harness.event(egui::Event::MouseWheel { unit, delta: vec2(0.0, by), phase, source, modifiers: egui::Modifiers::NONE });
+        harness.run_steps(12);
+    };
+    let heights = |harness: &Window| -> Vec<f32> {
+        written(&harness.output().shapes).iter().filter(|other| other.text == text.text).map(|other| other.rect.top()).collect()
+    };
+    let before = heights(harness);
+    turn(harness, -40.0);
+    let moved = heights(harness) != before;
+    turn(harness, 40.0);
+    harness.remove_cursor();
+    harness.run_steps(2);
+    moved
+}
+
+/// Names that users give, and what files say, may be of any length: they are cut, and whole where the pointer rests.
+fn may_be_long(text: &str) -> bool {
+    text.contains(".csv")
+}
+
+fn settle(harness: &mut Window, pane: PaneId) {
+    if pane == PaneId::Landscape {
+        // In an unoptimised build its maps take half a minute: nobody waits for them.
+        harness.run_steps(4);
+    } else {
+        wait(harness);
+    }
+}
+
+/// Puts that pane alone on screen.
+fn alone(harness: &mut Window, pane: PaneId) {
+    for other in PaneId::ALL.iter().copied() {
+        explorer(harness).actions.push(Action::Window(WindowAction::ClosePane(other)));
+    }
+    explorer(harness).actions.push(Action::Window(WindowAction::ShowPane(pane)));
+    settle(harness, pane);
+}
+
+const LANGUAGES: [Language; 2] = [Language::English, Language::Chinese];
+
+/// The window in that language.
+fn spoken(mut harness: Window, language: Language) -> Window {
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::SetLanguage(language)));
+    wait(&mut harness);
+    harness
+}
+
+/// What is found at all sizes, with where it was found.
+fn at_all_sizes(harness: &mut Window, place: &str, found: &mut Vec<String>) {
+    for size in SIZES {
+        harness.set_size(size);
+        wait(harness);
+        found.extend(faults(harness, size).into_iter().map(|fault| format!("{place}, {} × {}: {fault}", size.x, size.y)));
+    }
+}
+
+fn assert_none(found: &[String]) {
+    assert!(found.is_empty(), "{} faults\n{}", found.len(), found.join("\n"));
+}
+
+fn act(harness: &mut Window, action: Action) {
+    explorer(harness).actions.push(action);
+    wait(harness);
+}
+
+#[test]
+fn panes() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let mut harness = spoken(harness(), language);
+        act(&mut harness, Action::StartFit);
+        for pane in PaneId::ALL.iter().copied() {
+            alone(&mut harness, pane);
+            for size in SIZES {
+                harness.set_size(size);
+                settle(&mut harness, pane);
+                found.extend(
+                    faults(&mut harness, size).into_iter().map(|fault| format!("{pane:?} {language:?} {} × {}: {fault}", size.x, size.y)),
+                );
+            }
+        }
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn two_panes_and_panels() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let mut harness = spoken(harness(), language);
+        at_all_sizes(&mut harness, &format!("start {language:?}"), &mut found);
+        act(&mut harness, Action::Toggle(Switch::Bounds));
+        act(&mut harness, Action::List(ListAction::PinOtherDistribution));
+        at_all_sizes(&mut harness, &format!("bounds {language:?}"), &mut found);
+        act(&mut harness, Action::CompareModels);
+        alone(&mut harness, PaneId::Models);
+        at_all_sizes(&mut harness, &format!("models {language:?}"), &mut found);
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn several_measurements() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let (harness, _folder) = three();
+        let mut harness = spoken(harness, language);
+        at_all_sizes(&mut harness, &format!("three {language:?}"), &mut found);
+        act(&mut harness, Action::List(ListAction::Share(Sharing::Wavelengths)));
+        act(&mut harness, Action::Toggle(Switch::Bounds));
+        at_all_sizes(&mut harness, &format!("shared {language:?}"), &mut found);
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn lessons() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let mut harness = spoken(harness(), language);
+        for lesson in 0..explorer(&mut harness).lessons.all.len() {
+            for step in 0..explorer(&mut harness).lessons.all[lesson].steps.len() {
+                act(&mut harness, Action::ShowStep(lesson, step));
+                at_all_sizes(&mut harness, &format!("lesson {} step {} {language:?}", lesson + 1, step + 1), &mut found);
+            }
+        }
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn presentations() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let mut harness = spoken(harness(), language);
+        // The harness is in points already.
+        explorer(&mut harness).window.talk.zoom = 1.0;
+        act(&mut harness, Action::Window(WindowAction::Present));
+        at_all_sizes(&mut harness, &format!("two {language:?}"), &mut found);
+        for pane in [PaneId::Picture, PaneId::Hemisphere] {
+            act(&mut harness, Action::Window(WindowAction::ShowPane(pane)));
+        }
+        at_all_sizes(&mut harness, &format!("four {language:?}"), &mut found);
+        for pane in [PaneId::Dolp, PaneId::Lobes, PaneId::Hemisphere] {
+            act(&mut harness, Action::Window(WindowAction::ClosePane(pane)));
+        }
+        at_all_sizes(&mut harness, &format!("picture {language:?}"), &mut found);
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn dialogs() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        for step in 0..4 {
+            let mut harness = spoken(harness(), language);
+            act(&mut harness, Action::Window(WindowAction::ShowTour(step)));
+            at_all_sizes(&mut harness, &format!("tour {step} {language:?}"), &mut found);
+        }
+        for page in [Help::FirstSteps, Help::Words, Help::About] {
+            let mut harness = spoken(harness(), language);
+            act(&mut harness, Action::Window(WindowAction::ShowHelp(page)));
+            at_all_sizes(&mut harness, &format!("{page:?} {language:?}"), &mut found);
+        }
+        let mut harness = spoken(harness(), language);
+        act(&mut harness, Action::Window(WindowAction::OpenPalette));
+        at_all_sizes(&mut harness, &format!("palette {language:?}"), &mut found);
+        for (name, key) in [("file", Key::F), ("edit", Key::E), ("measurements", Key::M), ("fit", Key::I), ("view", Key::V), ("lessons", Key::L)] {
+            let mut harness = spoken(crate::app::tests::harness(), language);
+            harness.key_press_modifiers(Modifiers::ALT, key);
+            wait(&mut harness);
+            at_all_sizes(&mut harness, &format!("menu {name} {language:?}"), &mut found);
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let lab = "Messung vom 3. Mai;;;\nEinfallswinkel (°);Ausfallswinkel (°);DoLP (%);Kommentar\n30;20;8,1;a\n30;30;10,3;b\n50;40;21,9;c\n";
+        let paths = files(&folder, [("lab.csv", lab)]);
+        let mut harness = spoken(crate::app::tests::harness(), language);
+        act(&mut harness, Action::OpenMeasurements(paths));
+        assert!(explorer(&mut harness).dialogs.import.is_some());
+        at_all_sizes(&mut harness, &format!("import {language:?}"), &mut found);
+    }
+    assert_none(&found);
+}
