@@ -1,7 +1,7 @@
 //! The open measurements: which are drawn, which one the sliders belong to, and how far each surface
 //! is from its data.
 
-use crate::app::panels::list_row::{HEIGHT, Renaming, before_ui, colors_ui, item_ui, row};
+use crate::app::panels::list_row::{HEIGHT, Renaming, before_ui, button_width, colors_ui, item_ui, row};
 use crate::app::panels::tooltip_right::TooltipRight as _;
 use crate::app::plots::{symbol_shapes, theme};
 use crate::app::text::i18n::translated;
@@ -9,6 +9,7 @@ use crate::app::text::numbers::short;
 use crate::app::views::Cx;
 use crate::app::views::action::{Action, ListAction};
 use crate::app::work::edit::Edit;
+use crate::app::work::measurement_list::MeasurementList;
 use crate::app::work::open_measurement::{MeasurementStyle, OpenMeasurement};
 use crate::figure::Symbol;
 use egui::{Align, Button, CollapsingHeader, Layout, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
@@ -49,15 +50,14 @@ impl MeasurementPanel {
         let header = CollapsingHeader::new(title).id_salt("measurements").default_open(true);
         header.show_unindented(ui, |ui| {
             ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
-            // A column that no file fills would be room that names lack.
-            let wavelength = if list.iter().any(|open| open.wavelength_nm().is_some()) { WAVELENGTH } else { 0.0 };
-            headings_ui(wavelength, ui);
+            let columns = Columns::of(list, ui.available_width());
+            headings_ui(columns, ui);
             let scroll = ScrollArea::vertical().id_salt("measurements").max_height(MOST_ROWS * (HEIGHT + 2.0));
-            scroll.auto_shrink([false, true]).show(ui, |ui| list.iter().for_each(|open| self.row_ui(open, wavelength, cx, ui)));
+            scroll.auto_shrink([false, true]).show(ui, |ui| list.iter().for_each(|open| self.row_ui(open, columns, cx, ui)));
         });
     }
 
-    fn row_ui(&mut self, open: &OpenMeasurement, wavelength: f32, cx: &mut Cx<'_>, ui: &mut Ui) {
+    fn row_ui(&mut self, open: &OpenMeasurement, columns: Columns, cx: &mut Cx<'_>, ui: &mut Ui) {
         let is_active = open.number == cx.work.active().number;
         let name = open.title();
         row(ui, |ui| {
@@ -65,15 +65,17 @@ impl MeasurementPanel {
             let (symbol, _) = ui.allocate_exact_size(vec2(SYMBOL, HEIGHT), Sense::hover());
             let ink = theme::series(open.style.color, ui.visuals().dark_mode);
             ui.painter().extend(symbol_shapes(open.style.marker, symbol.center(), ink));
-            before_ui(wavelength + ROWS + DELTA_E + MENU + 3.0 * ui.spacing().item_spacing.x, ui, |ui| {
+            before_ui(columns.width(ui.spacing().item_spacing.x) + MENU, ui, |ui| {
                 ui.spacing_mut().button_padding.x = 4.0;
                 self.name_ui(open, is_active, cx, ui);
             });
             ui.spacing_mut().button_padding.x = 4.0;
-            if wavelength > 0.0 {
-                number_ui(open.wavelength_nm().map_or_else(String::new, short), wavelength, ui);
+            if columns.wavelength {
+                number_ui(open.wavelength_nm().map_or_else(String::new, short), WAVELENGTH, ui);
             }
-            number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
+            if columns.rows {
+                number_ui(open.measurement.rows.len().to_string(), ROWS, ui);
+            }
             let delta_e = cx.derived.delta_e_of(open.number);
             let delta_e = number_ui(delta_e.map_or_else(|| "–".to_owned(), |value| format!("{value:.2e}")), DELTA_E, ui);
             delta_e.on_hover_right(ui, tr!("ΔE of the surface of {}", name));
@@ -92,7 +94,7 @@ impl MeasurementPanel {
             return;
         }
         let name = open.title();
-        let button = ui.add(Button::selectable(is_active, &name).truncate());
+        let button = ui.add(Button::selectable(is_active, fitting(&name, ui)).truncate());
         if button.clicked() {
             cx.edits.push(Edit::Activate(open.number));
         }
@@ -136,18 +138,50 @@ impl MeasurementPanel {
     }
 }
 
-fn headings_ui(wavelength: f32, ui: &mut Ui) {
+/// Which numbers stand beside the names.
+#[derive(Clone, Copy)]
+struct Columns {
+    wavelength: bool,
+    rows: bool,
+}
+
+/// Width of the panel from which numbers of rows, which the status line has too, leave names their room.
+const WITH_ROWS: f32 = 340.0;
+
+impl Columns {
+    fn of(list: &MeasurementList, width: f32) -> Self {
+        let is_wide = width >= WITH_ROWS;
+        let known = list.iter().filter(|open| open.wavelength_nm().is_some()).count();
+        // A column that no file fills, or that tells nothing apart, would be room that names lack.
+        Self { wavelength: known > usize::from(!is_wide), rows: is_wide }
+    }
+
+    /// In points, with the gap before each, that of ΔE included.
+    fn width(self, gap: f32) -> f32 {
+        let shown = [(self.wavelength, WAVELENGTH), (self.rows, ROWS), (true, DELTA_E)];
+        shown.into_iter().filter(|(is_shown, _)| *is_shown).map(|(_, width)| width + gap).sum()
+    }
+}
+
+/// A name in letters of its size, or in those of numbers where it has no room otherwise.
+fn fitting(name: &str, ui: &Ui) -> RichText {
+    let is_long = button_width(name, ui) > ui.available_width();
+    let text = RichText::new(name);
+    if is_long { text.size(LETTERS) } else { text }
+}
+
+fn headings_ui(columns: Columns, ui: &mut Ui) {
     row(ui, |ui| {
         ui.add_space(SHOWN + SYMBOL + 2.0 * ui.spacing().item_spacing.x);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(MENU + ui.spacing().item_spacing.x);
-            for (heading, width, help) in [
-                ("ΔE", DELTA_E, "How far the surface of each measurement is from its data"),
-                ("rows", ROWS, "Rows of the table, masked ones included"),
-                ("λ / nm", wavelength, "Vacuum wavelength, where the file states one"),
+            for (heading, width, help, _) in [
+                ("ΔE", DELTA_E, "How far the surface of each measurement is from its data", true),
+                ("rows", ROWS, "Rows of the table, masked ones included", columns.rows),
+                ("λ / nm", WAVELENGTH, "Vacuum wavelength, where the file states one", columns.wavelength),
             ]
             .into_iter()
-            .filter(|(_, width, _)| *width > 0.0)
+            .filter(|(.., is_shown)| *is_shown)
             {
                 number_ui(RichText::new(translated(heading)).weak(), width, ui).on_hover_right(ui, translated(help));
             }

@@ -94,14 +94,13 @@ struct Sliders<'a> {
     is_wide: bool,
 }
 
-/// Widths in points, and whether buttons have words.
+/// Widths in points.
 #[derive(Clone, Copy)]
 struct Room {
     slider: f32,
     value: f32,
     /// Of any column.
     least: f32,
-    has_words: bool,
 }
 
 /// Least width of a column, and of a slider, in points.
@@ -109,11 +108,9 @@ const LEAST: f32 = 27.0;
 const SHORTEST_SLIDER: f32 = 56.0;
 /// The same beside a switch between shared and own, where the panel is narrow.
 const SHORTEST_BESIDE_SWITCH: f32 = 30.0;
-/// What a row has beside slider, value and names: lock, reset in words or as an arrow, the switch
-/// between shared and own, the gaps.
+/// What a row has beside slider, value and names: lock, reset, the switch between shared and own, the gaps.
 const LOCK: f32 = 58.0;
-const RESET: f32 = 54.0;
-const ARROW: f32 = 27.0;
+const RESET: f32 = 27.0;
 const SHARED: f32 = 56.0;
 const GAPS: f32 = 15.0;
 
@@ -121,11 +118,9 @@ impl Room {
     /// Of a row in a panel of that width: what is left is the slider's.
     fn of(width: f32, beside_switch: bool) -> Self {
         let value = if beside_switch { 88.0 } else { 92.0 };
-        let rest = |reset: f32| width - LEAST - value - LOCK - reset - GAPS - if beside_switch { SHARED } else { 0.0 };
-        let has_words = rest(RESET) >= SHORTEST_SLIDER;
+        let rest = width - LEAST - value - LOCK - RESET - GAPS - if beside_switch { SHARED } else { 0.0 };
         let shortest = if beside_switch { SHORTEST_BESIDE_SWITCH } else { SHORTEST_SLIDER };
-        let slider = rest(if has_words { RESET } else { ARROW }).clamp(shortest, 420.0);
-        Self { slider, value, least: LEAST, has_words }
+        Self { slider: rest.clamp(shortest, 420.0), value, least: LEAST }
     }
 }
 
@@ -314,7 +309,7 @@ fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Pa
         for &parameter in parameters {
             slider_ui(surface, refusals, ranges[parameter].clone(), [room.slider, room.value], *fit, ui, parameter);
             let is_outside = !ranges[parameter].contains(&surface.parameters[parameter]);
-            lock_and_reset_ui(surface, is_outside, room, ui, parameter);
+            lock_and_reset_ui(surface, is_outside, ui, parameter);
             shared.iter_mut().for_each(|shared| shared_ui(shared, parameter, ui));
             ui.end_row();
             if *show_bounds {
@@ -327,8 +322,11 @@ fn sliders_ui(sliders: &mut Sliders<'_>, ui: &mut Ui, id: &str, parameters: &[Pa
     });
 }
 
+/// The way back to a default; a tooltip says to which.
+const RESET_ICON: &str = "↺";
+
 /// Whether a fit leaves the parameter alone, and the way back to its default.
-fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut Ui, parameter: Parameter) {
+fn lock_and_reset_ui(surface: &mut Surface, outside: bool, ui: &mut Ui, parameter: Parameter) {
     if let Some(tie) = surface.tie_of(parameter) {
         let text =
             if tie.factor == 1.0 { format!("= {}", tie.to.symbol()) } else { format!("= {} {}", significant(tie.factor), tie.to.symbol()) };
@@ -345,9 +343,7 @@ fn lock_and_reset_ui(surface: &mut Surface, outside: bool, room: Room, ui: &mut 
 
     let is_default = surface.parameters[parameter] == parameter.default_value();
     let color = if outside { theme::warning(ui.visuals().dark_mode) } else { ui.visuals().text_color() };
-    let text = if room.has_words { tr!("reset") } else { "←".to_owned() };
-    let text = egui::RichText::new(text).color(color);
-    let reset = ui.add_enabled(!is_default, egui::Button::new(text)).on_hover_right(
+    let reset = ui.add_enabled(!is_default, egui::Button::new(egui::RichText::new(RESET_ICON).color(color))).on_hover_right(
         ui,
         if outside {
             tr!("back to {}: the value is outside the slider's range", parameter.default_value())
@@ -408,8 +404,7 @@ fn bounds_ui(surface: &mut Surface, refusals: &mut Vec<String>, room: Room, ui: 
         refusals.push(sentence);
     }
     ui.label("");
-    let text = if room.has_words { tr!("reset") } else { "←".to_owned() };
-    let reset = ui.add_enabled(own, egui::Button::new(text)).on_hover_right(ui, tr!("back to the slider's range"));
+    let reset = ui.add_enabled(own, egui::Button::new(RESET_ICON)).on_hover_right(ui, tr!("back to the slider's range"));
     reset.widget_info(|| WidgetInfo::labeled(Role::Button, own, tr!("Reset bounds of {}", parameter.key())));
     if reset.clicked() {
         surface.reset_bounds(parameter);

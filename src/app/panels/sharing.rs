@@ -14,11 +14,15 @@ pub fn shared_of(work: &Workspace) -> Option<ParameterSet> {
     (list.measured().count() > 1).then(|| list.shared())
 }
 
+/// Width from which the choice has its label in front.
+const WITH_LABEL: f32 = 360.0;
+
 /// The choice between the three cases that have a name.
 pub fn sharing_ui(shared: &mut ParameterSet, ui: &mut Ui) {
     let current = Sharing::of(*shared);
     ui.horizontal(|ui| {
-        let label = ui.label(tr!("Measurements of"));
+        // In a narrow panel the choice has the room.
+        let label = (ui.available_width() > WITH_LABEL).then(|| ui.label(tr!("Measurements of")));
         let combo = ComboBox::from_id_salt("sharing")
             .truncate()
             .width(ui.available_width() - 8.0)
@@ -32,7 +36,18 @@ pub fn sharing_ui(shared: &mut ParameterSet, ui: &mut Ui) {
             }
         });
         let help = current.map_or_else(|| tr!("some parameters are shared, others own"), |sharing| translated(sharing.help()));
-        response.response.labelled_by(label.id).on_hover_right(ui, help);
+        let response = match label {
+            Some(label) => response.response.labelled_by(label.id),
+            None => {
+                let chosen = current.map_or_else(String::new, |sharing| translated(sharing.name()));
+                response.response.widget_info(|| WidgetInfo {
+                    current_text_value: Some(chosen.clone()),
+                    ..WidgetInfo::labeled(Role::ComboBox, true, tr!("Measurements of"))
+                });
+                response.response
+            }
+        };
+        response.on_hover_right(ui, help);
     });
 }
 
@@ -46,7 +61,13 @@ pub fn shared_ui(shared: &mut ParameterSet, parameter: Parameter, ui: &mut Ui) {
     } else {
         tr!("each measurement has its own {}; a click makes it one for all", parameter.symbol())
     };
-    let button = ui.add(Button::new(text).selected(is_shared).min_size(egui::vec2(WIDTH, 0.0))).on_hover_right(ui, help);
+    let button = Button::new(text).selected(is_shared).min_size(egui::vec2(WIDTH, 0.0));
+    let place = |ui: &mut Ui| {
+        // The longer word keeps to the width.
+        ui.spacing_mut().button_padding.x = 4.0;
+        ui.add(button)
+    };
+    let button = ui.scope(place).inner.on_hover_right(ui, help);
     button.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, is_shared, tr!("Share {}", parameter.key())));
     if button.clicked() {
         *shared = if is_shared { shared.without(parameter) } else { shared.with(parameter) };

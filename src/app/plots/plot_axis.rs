@@ -49,8 +49,11 @@ impl PlotAxis {
     pub fn marks(&self, input: &GridInput, spread: f64) -> Vec<GridMark> {
         match &self.ticks {
             Some(ticks) => {
-                let at = ticks.iter().filter_map(|(at, _)| self.coordinate(*at));
-                at.map(|value| GridMark { value, step_size: spread * input.base_step_size }).collect()
+                let at: Vec<f64> = ticks.iter().filter_map(|(at, _)| self.coordinate(*at)).collect();
+                let closest = at.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(f64::INFINITY, f64::min);
+                let every = every(at.len(), LETTERS * spread * input.base_step_size / closest);
+                let kept = at.into_iter().step_by(every);
+                kept.map(|value| GridMark { value, step_size: spread * input.base_step_size }).collect()
             }
             None if self.log => decades(input, spread),
             None => marks(input, spread, 0.0),
@@ -71,6 +74,19 @@ impl PlotAxis {
     }
 }
 
+/// What a number takes at least, in wanted gaps between marks.
+const LETTERS: f64 = 0.45;
+
+/// Of so many marks at equal gaps every how many are kept where a number takes that many gaps: such that the last one is kept
+/// as well as the first, if that is possible.
+fn every(count: usize, gaps: f64) -> usize {
+    let last = count.saturating_sub(1);
+    (1..=last)
+        .filter(|every| last.is_multiple_of(*every))
+        .find(|every| f64::from(u32::try_from(*every).unwrap_or(u32::MAX)) >= gaps)
+        .unwrap_or(last.max(1))
+}
+
 /// The coordinate of a value on an axis.
 pub fn coordinate(log: bool, value: f64) -> Option<f64> {
     let coordinate = if log { libm::log10(value) } else { value };
@@ -88,4 +104,18 @@ fn around(coordinates: impl Iterator<Item = f64>) -> Range {
     };
     let air = AIR * (high - low);
     Range { low: low - air, high: high + air }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::every;
+
+    #[test]
+    fn numbers_of_a_short_axis_keep_off_each_other() {
+        // −90 to 90 in steps of 30: all, every second, −90, 0 and 90, both ends.
+        for (gaps, expected) in [(0.4, 1), (1.0, 1), (1.8, 2), (2.5, 3), (3.5, 6), (9.0, 6)] {
+            assert_eq!(every(7, gaps), expected, "{gaps}");
+        }
+        assert_eq!((every(0, 2.0), every(1, 2.0), every(3, 0.0)), (1, 1, 1));
+    }
 }

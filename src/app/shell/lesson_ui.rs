@@ -85,8 +85,13 @@ fn lesson_ui(app: &mut App, ui: &mut Ui) {
         ui.allocate_ui_with_layout(rest, egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.weak(format!("{}/{count}", index + 1));
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                let title = format!("{} · {}", lesson.title.in_language(code), step.heading.in_language(code));
-                ui.add(Label::new(RichText::new(title).strong()).truncate());
+                let heading = step.heading.in_language(code);
+                let title = format!("{} · {heading}", lesson.title.in_language(code));
+                let font = TextStyle::Body.resolve(ui.style());
+                let width = ui.painter().layout_no_wrap(title.clone(), font, egui::Color32::PLACEHOLDER).size().x;
+                let fits = width <= ui.available_width();
+                let text = RichText::new(if fits { &title } else { heading }).strong();
+                ui.add(Label::new(text).truncate()).on_hover_text(title);
             });
         });
     });

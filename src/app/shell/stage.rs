@@ -30,6 +30,8 @@ const GAP: f32 = 8.0;
 
 /// By how much the title of a vertical axis begins to the left of its plot: a quarter of the line's height.
 const TITLE: i8 = 4;
+/// By how much the last number of a horizontal axis ends to the right of its plot.
+const NUMBER: i8 = 10;
 
 impl Stage {
     pub fn panes(&self) -> &[PaneId] {
@@ -53,7 +55,7 @@ pub fn presented_ui(panes: &[PaneId], views: &mut Views, cx: &mut Cx<'_>, ui: &m
                     cx.actions.push(Action::Window(WindowAction::ClosePane(*pane)));
                 }
             });
-            let margin = egui::Margin { left: TITLE, ..egui::Margin::ZERO };
+            let margin = egui::Margin { left: TITLE, right: NUMBER, ..egui::Margin::ZERO };
             egui::Frame::new().inner_margin(margin).show(ui, |ui| views.of(*pane).ui(cx, ui));
         });
     }
@@ -106,7 +108,7 @@ pub fn single_ui(pane: PaneId, is_filled: bool, open: Vec<PaneId>, views: &mut V
             cx.actions.push(Action::Window(WindowAction::FillWindow(pane)));
         }
     });
-    egui::Frame::new().inner_margin(egui::Margin { left: TITLE, right: 10, top: 2, bottom: 0 }).show(ui, |ui| {
+    egui::Frame::new().inner_margin(egui::Margin { left: TITLE, right: NUMBER, top: 2, bottom: 0 }).show(ui, |ui| {
         views.of(pane).ui(cx, ui);
     });
 }

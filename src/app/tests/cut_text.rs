@@ -5,7 +5,7 @@ use crate::app::shell::app::App;
 use crate::app::tests::measurements::{files, three};
 use crate::app::tests::{explorer, harness, wait};
 use crate::app::text::help::Help;
-use crate::app::text::i18n::Language;
+use crate::app::text::i18n::{Language, translated};
 use crate::app::views::action::{Action, ListAction, WindowAction};
 use crate::app::work::edit::Switch;
 use crate::app::work::pane_id::PaneId;
@@ -13,6 +13,8 @@ use crate::app::work::sharing::Sharing;
 use egui::epaint::{ClippedShape, TextShape};
 use egui::{Key, Modifiers, Rect, Shape, Vec2, vec2};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use pbrdf::model::Parameter;
 
 type Window = Harness<'static, Option<App>>;
 
@@ -36,28 +38,37 @@ struct Written {
     is_elided: bool,
 }
 
-/// Collects texts; what a filled shape covers is taken away.
+/// Collects texts, line by line; what a filled shape covers is taken away, and what a dialog or a menu covers in part.
 fn collect(shape: &Shape, clip: Rect, out: &mut Vec<Written>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, out)),
         Shape::Rect(rect) if rect.fill.is_opaque() => {
             let cover = rect.rect.intersect(clip).expand(ROUNDING);
-            out.retain(|text| !cover.contains_rect(text.seen));
+            let is_dialog = cover.width() > DIALOG.x && cover.height() > DIALOG.y;
+            out.retain(|text| !(cover.contains_rect(text.seen) || is_dialog && cover.intersects(text.seen)));
         }
-        Shape::Text(text) => {
-            let rect = letters(text);
-            let seen = rect.intersect(clip);
-            if seen.is_positive() && !text.galley.text().trim().is_empty() {
-                out.push(Written { text: text.galley.text().to_owned(), rect, seen, clip, is_elided: text.galley.elided });
-            }
-        }
+        Shape::Text(text) => lines(text, clip, out),
         _ => {}
     }
 }
 
-/// Where the letters of a text are, without the room above and below them.
-fn letters(text: &TextShape) -> Rect {
-    text.visual_bounding_rect()
+/// What is larger than this, in points, and filled, lies over the window.
+const DIALOG: Vec2 = vec2(100.0, 60.0);
+
+/// The lines of a text.
+fn lines(text: &TextShape, clip: Rect, out: &mut Vec<Written>) {
+    let last = text.galley.rows.len().saturating_sub(1);
+    for (i, row) in text.galley.rows.iter().enumerate() {
+        let line: String = row.glyphs.iter().map(|glyph| glyph.chr).collect();
+        let at = row.visuals.mesh_bounds.translate(row.pos.to_vec2());
+        let rect = if text.angle == 0.0 { at.translate(text.pos.to_vec2()) } else { text.visual_bounding_rect() };
+        let seen = rect.intersect(clip);
+        if seen.is_positive() && !line.trim().is_empty() {
+            let is_elided = text.galley.elided && i == last;
+            let text = if is_elided { text.galley.text().to_owned() } else { line };
+            out.push(Written { text, rect, seen, clip, is_elided });
+        }
+    }
 }
 
 fn written(shapes: &[ClippedShape]) -> Vec<Written> {
@@ -72,17 +83,18 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
     let texts = written(&harness.output().shapes);
     assert!(texts.len() > 20, "{}", texts.len());
     let mut faults = Vec::new();
-    let mut low: Vec<&Written> = Vec::new();
+    let (mut across_cut, mut below_cut) = (Vec::new(), Vec::new());
     for text in &texts {
         let whole = text.clip.intersect(window).expand(ROUNDING);
-        if text.is_elided && !may_be_long(&text.text) {
+        if text.is_elided && !may_be_long(&text.text, harness) {
             faults.push(format!("elided: {:?} at {}", text.text, text.rect));
         }
-        if text.rect.left() < whole.left() || text.rect.right() > whole.right() {
-            faults.push(format!("cut at the side: {:?} at {} in {}", text.text, text.rect, text.clip));
-        }
-        if text.rect.bottom() > whole.bottom() && !low.iter().any(|other| other.clip == text.clip) {
-            low.push(text);
+        let across = text.rect.left() < whole.left() || text.rect.right() > whole.right();
+        let below = text.rect.bottom() > whole.bottom();
+        for (is_cut, cut) in [(across, &mut across_cut), (below, &mut below_cut)] {
+            if is_cut {
+                cut.push(text);
+            }
         }
     }
     for (i, one) in texts.iter().enumerate() {
@@ -93,34 +105,48 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
             }
         }
     }
-    faults.extend(low.into_iter().filter(|text| !scrolls(harness, text)).map(|text| format!("cut below: {:?} at {}", text.text, text.rect)));
+    for (cut, way) in [(across_cut, vec2(-37.0, 0.0)), (below_cut, vec2(0.0, -37.0))] {
+        let mut tried: Vec<(Rect, bool)> = Vec::new();
+        for text in cut {
+            let known = tried.iter().find(|(clip, _)| *clip == text.clip).map(|(_, scrolls)| *scrolls);
+            let scrolls = known.unwrap_or_else(|| scrolls(harness, text, way));
+            tried.push((text.clip, scrolls));
+            if !scrolls {
+                let edge = if way.x == 0.0 { "below" } else { "at a side" };
+                faults.push(format!("cut {edge}: {:?} at {} in {}", text.text, text.rect, text.clip));
+            }
+        }
+    }
     faults
 }
 
-/// Whether the wheel brings a text into sight that is cut below.
-fn scrolls(harness: &mut Window, text: &Written) -> bool {
-    let turn = |harness: &mut Window, by: f32| {
+/// Whether the wheel brings a text into sight that is cut.
+fn scrolls(harness: &mut Window, text: &Written, way: Vec2) -> bool {
+    let turn = |harness: &mut Window, delta: Vec2| {
         harness.hover_at(text.seen.center());
         harness.run_steps(2);
         let (unit, phase, source) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move, egui::MouseWheelSource::Unknown);
-        harness.event(egui::Event::MouseWheel { unit, delta: vec2(0.0, by), phase, source, modifiers: egui::Modifiers::NONE });
+        harness.event(egui::Event::MouseWheel { unit, delta, phase, source, modifiers: egui::Modifiers::NONE });
         harness.run_steps(12);
     };
-    let heights = |harness: &Window| -> Vec<f32> {
-        written(&harness.output().shapes).iter().filter(|other| other.text == text.text).map(|other| other.rect.top()).collect()
+    let places = |harness: &Window| -> Vec<egui::Pos2> {
+        written(&harness.output().shapes).iter().filter(|other| other.text == text.text).map(|other| other.rect.min).collect()
     };
-    let before = heights(harness);
-    turn(harness, -40.0);
-    let moved = heights(harness) != before;
-    turn(harness, 40.0);
+    // A tooltip may cover some.
+    let before = places(harness);
+    turn(harness, way);
+    let moved = places(harness).iter().any(|at| before.iter().all(|other| at.distance(*other) > ROUNDING));
+    turn(harness, -way);
     harness.remove_cursor();
     harness.run_steps(2);
     moved
 }
 
-/// Names that users give, and what files say, may be of any length: they are cut, and whole where the pointer rests.
-fn may_be_long(text: &str) -> bool {
-    text.contains(".csv")
+/// Names that users give may be of any length: longer ones than this, in letters, are cut, and whole where the pointer rests.
+const NAME: usize = 25;
+
+fn may_be_long(text: &str, harness: &mut Window) -> bool {
+    text.chars().count() > NAME && explorer(harness).work.measurements().iter().any(|open| open.title() == text)
 }
 
 fn settle(harness: &mut Window, pane: PaneId) {
@@ -205,6 +231,30 @@ fn two_panes_and_panels() {
 }
 
 #[test]
+fn panels_unfolded() {
+    let mut found = Vec::new();
+    for language in LANGUAGES {
+        let mut harness = spoken(harness(), language);
+        act(&mut harness, Action::StartFit);
+        // Their titles, or how they begin, as far as they are there.
+        for title in ["Options", "What these data determine", "Profile and bootstrap", "Correlations"] {
+            let title = translated(title);
+            harness.set_size(SIZES[3]);
+            wait(&mut harness);
+            let Some(heading) = harness.query_all_by_label(&title).next() else { panic!("{title}") };
+            heading.click_accesskit();
+            wait(&mut harness);
+            at_all_sizes(&mut harness, &format!("{title} {language:?}"), &mut found);
+        }
+        act(&mut harness, Action::Bootstrap);
+        at_all_sizes(&mut harness, &format!("bootstrap {language:?}"), &mut found);
+        act(&mut harness, Action::Profile(Parameter::N));
+        at_all_sizes(&mut harness, &format!("profile {language:?}"), &mut found);
+    }
+    assert_none(&found);
+}
+
+#[test]
 fn several_measurements() {
     let mut found = Vec::new();
     for language in LANGUAGES {
@@ -271,14 +321,17 @@ fn dialogs() {
         let mut harness = spoken(harness(), language);
         act(&mut harness, Action::Window(WindowAction::OpenPalette));
         at_all_sizes(&mut harness, &format!("palette {language:?}"), &mut found);
-        for (name, key) in [("file", Key::F), ("edit", Key::E), ("measurements", Key::M), ("fit", Key::I), ("view", Key::V), ("lessons", Key::L)] {
+        for (name, key) in
+            [("file", Key::F), ("edit", Key::E), ("measurements", Key::M), ("fit", Key::I), ("view", Key::V), ("lessons", Key::L)]
+        {
             let mut harness = spoken(crate::app::tests::harness(), language);
             harness.key_press_modifiers(Modifiers::ALT, key);
             wait(&mut harness);
             at_all_sizes(&mut harness, &format!("menu {name} {language:?}"), &mut found);
         }
         let folder = tempfile::tempdir().expect("a folder");
-        let lab = "Messung vom 3. Mai;;;\nEinfallswinkel (°);Ausfallswinkel (°);DoLP (%);Kommentar\n30;20;8,1;a\n30;30;10,3;b\n50;40;21,9;c\n";
+        let lab =
+            "Messung vom 3. Mai;;;\nEinfallswinkel (°);Ausfallswinkel (°);DoLP (%);Kommentar\n30;20;8,1;a\n30;30;10,3;b\n50;40;21,9;c\n";
         let paths = files(&folder, [("lab.csv", lab)]);
         let mut harness = spoken(crate::app::tests::harness(), language);
         act(&mut harness, Action::OpenMeasurements(paths));

@@ -132,7 +132,7 @@ pub fn running_model_ui(key: Option<&str>, ui: &mut Ui) {
 const SPACING: [f32; 2] = [9.0, 4.0];
 
 /// The names have what the pane has beside the numbers up to n and k, between these widths in points.
-const NAMES: std::ops::RangeInclusive<f32> = 120.0..=330.0;
+const NAMES: std::ops::RangeInclusive<f32> = 150.0..=400.0;
 /// Width of the columns from the pins to k, in points.
 const NUMBERS: f32 = 430.0;
 
@@ -168,7 +168,7 @@ fn models_ui(work: &Workspace, edits: &mut Vec<Edit>, actions: &mut Vec<Action>,
             let text = if is_best { text.strong() } else { text };
             let citation = translated(row.preset.citation);
             let help = if is_best { tr!("{}\n★ The best by AICc", citation) } else { citation };
-            let button = Button::selectable(is_current, text).truncate();
+            let button = Button::selectable(is_current, text).wrap();
             if narrow_ui(ui, width, button).on_hover_text(format!("{name}\n{help}")).clicked() {
                 edits.push(Edit::UseModelFit(index));
             }

@@ -241,8 +241,8 @@ fn parts(rect: Rect) -> [Rect; 2] {
 const LEFT: f32 = 26.0;
 const BELOW: f32 = 34.0;
 const SEAM: f32 = 3.0;
-/// Ends of the common axis of values: a little beyond what any matrix reaches.
-const REACH: f64 = 1.12;
+/// Ends of the common axis of values: beyond what any matrix reaches, so that −1 keeps off the 1 of the row below.
+const REACH: f64 = 1.25;
 
 /// Colours of −1 to 1.
 const SCALE: ColorScale = ColorScale { map: ColorMap::Diverging, range: Range { low: -1.0, high: 1.0 } };

@@ -186,7 +186,7 @@ impl HemisphereView {
         series.push(mark(tr!("incident ray"), vec![place(theta_i, 0.0)], Symbol::Disc));
         series.push(mark(tr!("mirror direction"), vec![place(theta_i, 180.0)], Symbol::Cross));
         series.extend(picked.map(|at| mark(picked_name(), vec![at], Symbol::Square)));
-        let axis = |label| Axis { ticks: Some(ticks(&[-90, -60, -30, 0, 30, 60, 90])), ..Axis::linear(label, "°").between(-90.0, 90.0) };
+        let axis = |label| Axis { ticks: Some(ticks(&[-90, -60, -30, 0, 30, 60, 90])), ..Axis::linear(label, "°").between(-EDGE, EDGE) };
         let panel = Panel {
             title: match less.filter(|_| made.is_difference()) {
                 Some(name) => tr!("θi = {0}°, less {1}; radius θr, Δφ = 180° to the right, 270° upwards", theta_i, name),
@@ -217,6 +217,9 @@ fn reference_ui(chosen: &mut Option<Compared>, references: &[(Option<Compared>, 
     });
     combo.response.on_hover_text(tr!("The map of the sliders, or how it differs from that of a pinned surface or of the last fit"));
 }
+
+/// Ends of both axes, degrees: a little beyond the horizon, so that their first numbers keep off each other.
+const EDGE: f64 = 95.0;
 
 /// Marks of an axis at these values.
 fn ticks(values: &[i8]) -> Vec<(f64, String)> {
@@ -283,7 +286,7 @@ impl View for HemisphereView {
             panel.key_line_ui(ui);
         }
         // One line whatever it says: the map does not jump.
-        let below = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+        let below = ui.spacing().interact_size.y + ui.spacing().item_spacing.y;
         let height = (ui.available_height() - below).max(60.0);
         let style = PanelStyle { left: 60.0, ..PanelStyle::new("hemisphere", height, &|name, _, _| name.to_owned()) };
         let style = style.named(tr!("Map of all directions of view: {}", quantity.texts()[0]));

@@ -147,6 +147,9 @@ impl PictureView {
 const GAP: f32 = 12.0;
 const WORDS: [f32; 2] = [150.0, 320.0];
 
+/// Side of the picture from which the words of the lesson stand under it.
+const SMALL: f32 = 120.0;
+
 /// What a text takes of the height of the pane, on as many lines as it needs.
 fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
     let font = egui::TextStyle::Body.resolve(ui.style());
@@ -206,7 +209,11 @@ impl View for PictureView {
         let beside = (size.x - size.y - BAR_ROOM - GAP).min(WORDS[1]);
         let is_beside = beside > WORDS[0];
         let room = wrapped_height(&hint, if is_beside { beside } else { size.x }, ui);
-        let below = room + lesson.as_ref().map_or(0.0, |lesson| wrapped_height(lesson, size.x, ui));
+        let of_lesson = |lesson: &String| wrapped_height(lesson, if is_beside { beside } else { size.x }, ui);
+        // In a small pane the picture comes first.
+        let has_room = |lesson: &String| is_beside && room + of_lesson(lesson) <= size.y || size.y - room - of_lesson(lesson) > SMALL;
+        let lesson = lesson.filter(has_room);
+        let below = room + lesson.as_ref().map_or(0.0, of_lesson);
         let side = (size.y - if is_beside { 0.0 } else { below }).max(60.0);
         let layout = if is_beside { Layout::left_to_right(Align::Min) } else { Layout::top_down(Align::Min) };
         ui.with_layout(layout, |ui| {
