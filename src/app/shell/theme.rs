@@ -46,6 +46,7 @@ pub fn install(ctx: &egui::Context) {
             let dark = theme == egui::Theme::Dark;
             style.visuals.selection.bg_fill = plots::theme::accent(dark);
             style.visuals.slider_trailing_fill = true;
+            style.visuals.hyperlink_color = plots::theme::series(0, dark);
             // In a page, whose canvas is cleared to the ground of the window, panels need not paint it again: where no graphics card draws,
             // that is a quarter of the time of a frame.
             style.visuals.panel_fill = if platform::IS_PAGE { egui::Color32::TRANSPARENT } else { ground(dark) };

@@ -19,7 +19,7 @@ const PAGES: [&str; 6] = ["Table", "Evaluation", "Along one fit", "Performance p
 
 const HEADINGS: [Heading; 7] = [
     Heading { text: "task", help: "Evaluations of the model, or fits", width: 50.0, is_number: false },
-    Heading { text: "method", help: "How it is done", width: 193.0, is_number: false },
+    Heading { text: "method", help: "How it is done", width: 235.0, is_number: false },
     Heading { text: "time", help: "Of a point or of a fit, median of the repetitions", width: 62.0, is_number: true },
     Heading { text: "± %", help: "Half the distance between the quartiles over the median", width: 34.0, is_number: true },
     Heading { text: "worst error", help: "Relative; 1 means not a single digit", width: 72.0, is_number: true },

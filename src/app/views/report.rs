@@ -49,8 +49,8 @@ pub fn run_ui(cx: &mut Cx<'_>, subject: BenchmarkId, (button, about): (&str, &st
 pub fn pages_ui<R: BenchmarkRow>(shown: &mut BenchmarkView<R>, names: &[&str], ui: &mut Ui) -> bool {
     let report = &shown.report;
     let part = if shown.is_part { tr!("stopped before its end; ") } else { "".into() };
-    let text = RichText::new(format!("{part}{}, {}", report.machine.localized(), report.date)).weak().small();
-    ui.add(egui::Label::new(text).truncate()).on_hover_ui(|ui| {
+    let text = RichText::new(format!("{part}{}, {}", report.machine.localized(), report.date)).weak();
+    ui.add(egui::Label::new(text).wrap()).on_hover_ui(|ui| {
         ui.label(report.notes.iter().map(Localized::localized).collect::<Vec<_>>().join("\n\n"));
     });
     if names.is_empty() {

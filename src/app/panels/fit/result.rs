@@ -13,7 +13,8 @@ use crate::app::views::action::{Action, ListAction};
 use crate::app::work::fit_history::{FitEntry, JointPart};
 use crate::app::work::workspace::Workspace;
 use egui::{Button, Grid, RichText, Role, TextWrapMode, Ui, WidgetInfo};
-use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, EstimateStatus, FitResult, Loss, Statistics, StopReason, Weights};
+use pbrdf::fit::{Bootstrap, BrdfResiduals, Estimate, FitResult, Loss, Statistics, StopReason, Weights};
+use pbrdf::model::Parameter;
 use pbrdf::rounding;
 use tr::tr;
 
@@ -155,8 +156,16 @@ fn estimates_ui(fit: &FitEntry, bootstrap: Option<&Bootstrap>, ui: &mut Ui) {
 /// Width of the panel in points from which a column of starts does not cut the intervals off.
 const WITH_START: f32 = 300.0;
 
+/// A parameter as the heading of its numbers.
+fn name_with_unit(parameter: Parameter) -> String {
+    match parameter.unit() {
+        "" => parameter.symbol().to_owned(),
+        unit => format!("{} / {unit}", parameter.symbol()),
+    }
+}
+
 fn estimate_ui(estimate: &Estimate, bootstrap: Option<&Bootstrap>, is_final: bool, with_start: bool, ui: &mut Ui) {
-    ui.label(estimate.parameter.symbol()).on_hover_text(translated(estimate.parameter.name()));
+    ui.label(name_with_unit(estimate.parameter)).on_hover_text(translated(estimate.parameter.name()));
     if with_start {
         ui.monospace(significant(estimate.start));
     }
@@ -300,20 +309,23 @@ fn short_correlation(r: f64) -> String {
 
 /// How uncertain an estimate is, with the bound that it rests on; grey where it is not the last word.
 fn uncertainty_ui(estimate: &Estimate, is_final: bool, ui: &mut Ui) {
-    let unit = match estimate.status() {
-        EstimateStatus::Determined(_) | EstimateStatus::Within(_) => estimate.parameter.unit(),
-        _ => "",
-    };
-    let text = RichText::new(format!("{} {unit}", uncertainty_text(estimate)).trim_end());
+    let text = RichText::new(uncertainty_text(estimate));
     let is_final = is_final || !estimate.free;
-    ui.vertical(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
+    let text_ui = |ui: &mut Ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(if is_final { text } else { text.weak() }).on_hover_text(uncertainty_help(estimate));
-        if let Some(edge) = estimate.at_bound.filter(|_| estimate.interval68.is_some()) {
-            ui.label(RichText::new(bound_text(edge)).small().weak());
+    };
+    match estimate.at_bound.filter(|_| estimate.interval68.is_some()) {
+        Some(edge) => {
+            ui.vertical(|ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                text_ui(ui);
+                ui.label(RichText::new(bound_text(edge)).small().weak());
+            });
         }
-    });
+        // In line with the numbers before it.
+        None => _ = ui.scope(text_ui),
+    }
 }
 
 /// How far the intervals are, and the way to stop them or to have them after all.

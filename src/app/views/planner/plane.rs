@@ -11,8 +11,10 @@ use egui::Ui;
 use pbrdf::optics::Geometry;
 use tr::tr;
 
-/// Height on the screen, at most and at least, and that of a line of words.
+/// Height on the screen where the pane is no higher than it and the table, that of the table, the least of all, and that of a
+/// line of words.
 const HEIGHT: f32 = 250.0;
+const TABLE: f32 = 380.0;
 const LEAST_HEIGHT: f32 = 140.0;
 const LINE: f32 = 24.0;
 /// Cells along a side, at most.
@@ -130,7 +132,8 @@ pub fn plane_ui<K: PartialEq>(plane: &mut FigurePlot<K>, gains: &[f64], design: 
     panel.key_line_ui(ui);
     let hover = |name: &str, x: f64, y: f64| format!("{name}\nθi = {y}°, θr = {x}°");
     // Where the pane is low, the whole of it is seen without scrolling.
-    let height = HEIGHT.min(ui.clip_rect().height() - 2.0 * LINE).max(LEAST_HEIGHT);
+    let pane = ui.clip_rect().height();
+    let height = HEIGHT.max(pane - TABLE).min(ui.available_width()).min(pane - 2.0 * LINE).max(LEAST_HEIGHT);
     let style = PanelStyle::new("plane of angles", height, &hover).named(tr!("Map: what the next reading would gain at θr and θi"));
     // Within the edge of what scrolls, which would cut the title of the axis.
     let response =
