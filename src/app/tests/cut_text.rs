@@ -105,7 +105,7 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
             }
         }
     }
-    for (cut, way) in [(across_cut, vec2(-37.0, 0.0)), (below_cut, vec2(0.0, -37.0))] {
+    for (cut, way) in [(across_cut, vec2(-53.0, 0.0)), (below_cut, vec2(0.0, -53.0))] {
         let mut tried: Vec<(Rect, bool)> = Vec::new();
         for text in cut {
             let known = tried.iter().find(|(clip, _)| *clip == text.clip).map(|(_, scrolls)| *scrolls);
@@ -120,6 +120,9 @@ fn faults(harness: &mut Window, size: Vec2) -> Vec<String> {
     faults
 }
 
+/// How far off something scrolls together with a text, in points.
+const NEAR: Vec2 = vec2(150.0, 250.0);
+
 /// Whether the wheel brings a text into sight that is cut.
 fn scrolls(harness: &mut Window, text: &Written, way: Vec2) -> bool {
     let turn = |harness: &mut Window, delta: Vec2| {
@@ -129,13 +132,19 @@ fn scrolls(harness: &mut Window, text: &Written, way: Vec2) -> bool {
         harness.event(egui::Event::MouseWheel { unit, delta, phase, source, modifiers: egui::Modifiers::NONE });
         harness.run_steps(12);
     };
-    let places = |harness: &Window| -> Vec<egui::Pos2> {
-        written(&harness.output().shapes).iter().filter(|other| other.text == text.text).map(|other| other.rect.min).collect()
+    // A tooltip may cover some; whatever else lies near tells as well.
+    let near = text.rect.expand2(NEAR);
+    let places = |harness: &Window| -> Vec<(String, egui::Pos2)> {
+        let all = written(&harness.output().shapes).into_iter().filter(|other| near.intersects(other.rect));
+        all.map(|other| (other.text, other.rect.min)).collect()
     };
-    // A tooltip may cover some.
     let before = places(harness);
     turn(harness, way);
-    let moved = places(harness).iter().any(|at| before.iter().all(|other| at.distance(*other) > ROUNDING));
+    let is_new = |(text, at): &(String, egui::Pos2)| {
+        let mut same = before.iter().filter(|(other, _)| other == text).peekable();
+        same.peek().is_some() && same.all(|(_, other)| at.distance(*other) > ROUNDING)
+    };
+    let moved = places(harness).iter().any(is_new);
     turn(harness, -way);
     harness.remove_cursor();
     harness.run_steps(2);

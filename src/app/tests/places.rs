@@ -71,4 +71,7 @@ fn a_measurement_without_dolp_has_no_strip_under_it() {
     order(&mut harness, Action::OpenMeasurements(vec![path]));
     assert!(explorer(&mut harness).dock.is_on_screen(PaneId::Dolp));
     assert!(harness.query_by_label("Plot: residuals of DoLP against θr").is_none());
+    // What the BRDF misses stands under the lobes, and not where no BRDF is measured.
+    assert!(harness.query_by_label("Plot: relative residuals of BRDF against θr").is_some());
+    assert!(self::harness().query_by_label("Plot: relative residuals of BRDF against θr").is_none());
 }

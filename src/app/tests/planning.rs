@@ -89,7 +89,7 @@ fn models_stand_beside_each_other_and_one_is_taken_over() {
     harness.get_by_label_contains("Cauchy against Gauss (all terms)");
     harness.get_by_label("Starts and where they led").click();
     harness.run();
-    harness.get_by_role_and_label(Role::Button, "two components, Minnaert diffuse (Zhu)").click();
+    harness.get_by_role_and_label(Role::Button, "two components, Minnaert diffuse (Zhu)").click_accesskit();
     harness.run();
     let explorer = explorer(&mut harness);
     let preset = Preset::from_key("minnaert").expect("a preset");

@@ -133,6 +133,7 @@ pub struct Residual {
     /// Degrees.
     pub theta_r: f64,
     pub value: f64,
+    pub measured: f64,
     /// The stated standard deviation of the measured value, if it is above 0.
     pub sigma: Option<f64>,
 }
@@ -141,6 +142,11 @@ impl Residual {
     /// As it is plotted: over its standard deviation on demand.
     pub fn place(&self, in_sigma: bool) -> [f64; 2] {
         [self.theta_r, self.value / self.sigma.filter(|_| in_sigma).unwrap_or(1.0)]
+    }
+
+    /// Over the measured value: of what spans decades.
+    pub fn relative(&self) -> f64 {
+        self.value / self.measured
     }
 }
 
@@ -260,7 +266,8 @@ pub fn residuals(series: &IncidenceSeries, points: &[DataPoint], of_model: impl 
     points.iter().filter_map(move |mark| {
         let facet = Facet::new(series.geometry(mark.theta_r)?);
         let sigma = mark.quantity.sigma.filter(|sigma| *sigma > 0.0);
-        Some(Residual { theta_r: mark.theta_r, value: of_model(&facet) - mark.quantity.value, sigma })
+        let measured = mark.quantity.value;
+        Some(Residual { theta_r: mark.theta_r, value: of_model(&facet) - measured, measured, sigma })
     })
 }
 
@@ -290,9 +297,9 @@ impl Companion<'_> {
         !self.drawn.brdf.is_empty()
     }
 
-    /// What it misses of the points.
-    pub fn residuals(&self, residuals: &[Residual], in_sigma: bool) -> Option<Series> {
-        let points = residuals.iter().map(|residual| residual.place(in_sigma)).map(|[x, y]| Point { x, y, bar: None });
+    /// What it misses of the points, each where `place` has it.
+    pub fn residuals(&self, residuals: &[Residual], place: impl Fn(&Residual) -> [f64; 2]) -> Option<Series> {
+        let points = residuals.iter().map(place).map(|[x, y]| Point { x, y, bar: None });
         self.points(points.collect())
     }
 

@@ -15,7 +15,7 @@ use crate::app::views::curves::{CurveKey, CurveSet, MarkSet, ModelCurves, axis_v
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
-use crate::app::views::residuals::ResidualStrip;
+use crate::app::views::residuals::{BETWEEN, ResidualStrip};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::open_measurement::OpenMeasurement;
@@ -198,18 +198,17 @@ impl View for DolpView {
         let moved = self.plot.seen_x().filter(|_| is_moved);
         let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
         let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id)));
-        self.residuals.refresh(moved.unwrap_or(key.x()), marks, hidden, &companions.collect::<Vec<_>>(), cx);
+        self.residuals.refresh((moved.unwrap_or(key.x()), String::new()), marks, hidden, &companions.collect::<Vec<_>>(), cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let room = ui.available_height();
-        if self.residuals.is_there() && room > 220.0 {
-            let strip = (STRIP * room).max(LEAST_STRIP);
-            self.curves_ui(cx, ui, room - strip - BETWEEN, PanelPlace::OverStrip);
-            ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
-            self.residuals.ui(ui, strip);
-        } else {
-            self.curves_ui(cx, ui, room, PanelPlace::Alone);
+        match self.residuals.height(ui) {
+            Some(strip) => {
+                self.curves_ui(cx, ui, ui.available_height() - strip - BETWEEN, PanelPlace::OverStrip);
+                ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
+                self.residuals.ui(ui, strip);
+            }
+            None => self.curves_ui(cx, ui, ui.available_height(), PanelPlace::Alone),
         }
     }
 
@@ -324,13 +323,6 @@ fn other_distribution(work: &Workspace) -> Option<(Parameters, Model)> {
 
 /// How high the Fresnel limit may raise the axis, over the highest of all else.
 const ROOM_FOR_LIMIT: f64 = 1.25;
-
-/// Share of the height that the residuals have.
-const STRIP: f32 = 0.25;
-/// Points that they have at least, with the axis of θr.
-const LEAST_STRIP: f32 = 96.0;
-/// Between plot and strip, in points: numbers at their ends are not to meet.
-const BETWEEN: f32 = 10.0;
 
 /// What can be hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

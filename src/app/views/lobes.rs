@@ -3,7 +3,7 @@
 
 use crate::app::jobs::memo::Memo;
 use crate::app::plots::theme::FOREGROUND;
-use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelStyle, Range, nice_ceiling, switching_key_line_ui, theme};
+use crate::app::plots::{AutoRange, FigurePlot, KeyEntry, PanelPlace, PanelStyle, Range, nice_ceiling, switching_key_line_ui, theme};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
 use crate::app::views::companions::{Companion, CompanionId, Companions};
@@ -13,9 +13,10 @@ use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
+use crate::app::views::residuals::{BETWEEN, Quantity, ResidualStrip};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
-use crate::app::work::settings::ViewOptions;
+use crate::app::work::settings::{Settings, ViewOptions};
 use crate::figure::{Axis, Dash, Figure, Panel, Series};
 use egui::{Key, Ui};
 use egui_plot::LineStyle;
@@ -28,7 +29,7 @@ pub static SPEC: PaneSpec = PaneSpec {
     shortcut: Some(Key::Num2),
     has_options: true,
     has_figure: true,
-    new: || Box::new(LobesView::default()),
+    new: || Box::new(LobesView { residuals: ResidualStrip::new(Quantity::Brdf), ..LobesView::default() }),
 };
 
 /// What the pane keeps.
@@ -40,6 +41,7 @@ pub struct LobesView {
     pub band: Memo<BandKey, Vec<Band>>,
     /// Around draws from the posterior.
     draws: PosteriorBands,
+    residuals: ResidualStrip,
     plot: FigurePlot<FigureKey>,
     /// The curves that are not drawn.
     hidden: BTreeSet<Line>,
@@ -140,8 +142,7 @@ impl LobesView {
         }
         let picked = cx.derived.picked_theta_r(cx.work).zip(y.range);
         series.extend(picked.map(|(theta_r, (low, high))| mark(theta_r, low, high)));
-        let title = tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi);
-        let panel = Panel { title, x: key.x().on(Axis::linear("θr", "°")), y, series, ..Panel::default() };
+        let panel = Panel { title: direction(settings), x: key.x().on(Axis::linear("θr", "°")), y, series, ..Panel::default() };
         Some(Figure { title: cx.work.active().title(), panels: vec![panel], ..Figure::default() })
     }
 
@@ -159,6 +160,11 @@ impl LobesView {
         let draws = self.draws.is_there().then(|| entry(Line::Draws, &posterior_band::band_name(), theme::muted(dark), BAND));
         measured.chain(draws).chain(terms).chain([total]).chain(companions).collect()
     }
+}
+
+/// What the terms are seen at.
+fn direction(settings: &Settings) -> String {
+    tr!("θi = {0}°, Δφ = {1}°", settings.theta_i, settings.dphi)
 }
 
 /// What is along the vertical axis.
@@ -202,30 +208,24 @@ impl View for LobesView {
         let mut plot = std::mem::take(&mut self.plot);
         plot.refresh(figure_key, |_| self.describe(curves, key, marks, cx));
         self.plot = plot;
+        // Where the user has moved the plot, the strip follows.
+        let is_moved = self.plot.panel(0).is_some_and(|panel| panel.is_moved());
+        let x = self.plot.seen_x().filter(|_| is_moved).unwrap_or(key.x());
+        let hidden: Vec<bool> = marks.series.iter().map(|marks| !self.shows(Line::Series(marks.index))).collect();
+        let companions = derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id)));
+        let companions: Vec<Companion<'_>> = companions.collect();
+        self.residuals.refresh((x, direction(cx.work.settings())), marks, hidden, &companions, cx);
     }
 
     fn ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
-        let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
-        switching_key_line_ui(&self.key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
-        let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
-        let quantity = quantity(times_cosine);
-        let hint = mask_hint(cx.work.active());
-        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr{hint}");
-        let style = PanelStyle::new("lobes", ui.available_height(), &hover).named(tr!("Plot: BRDF against θr"));
-        let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };
-        note_theta_r(&response, ui);
-        let place = |theta_r, brdf| {
-            let value = drawn_brdf(theta_r, brdf, times_cosine);
-            Some(if log { libm::log10(value) } else { value }).filter(|y| y.is_finite())
-        };
-        cx.edits.extend(clicked_mask(
-            &response,
-            ui,
-            cx.work.active(),
-            // What is not drawn cannot be meant.
-            |i, series| if self.shows(Line::Series(i)) { &series.brdf } else { &[] },
-            |mark| place(mark.theta_r, mark.quantity.value),
-        ));
+        match self.residuals.height(ui) {
+            Some(strip) => {
+                self.curves_ui(cx, ui, ui.available_height() - strip - BETWEEN, PanelPlace::OverStrip);
+                ui.add_space(BETWEEN - ui.spacing().item_spacing.y);
+                self.residuals.ui(ui, strip);
+            }
+            None => self.curves_ui(cx, ui, ui.available_height(), PanelPlace::Alone),
+        }
     }
 
     fn options_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui) {
@@ -242,5 +242,33 @@ impl View for LobesView {
 
     fn figure(&self, _cx: &Cx<'_>) -> Option<Figure> {
         self.plot.figure().cloned()
+    }
+}
+
+impl LobesView {
+    fn curves_ui(&mut self, cx: &mut Cx<'_>, ui: &mut Ui, height: f32, place: PanelPlace) {
+        let top = ui.cursor().top();
+        let (Some(curves), Some(marks)) = (cx.derived.curves.get(), cx.derived.marks.get()) else { return };
+        switching_key_line_ui(&self.key_entries(curves, marks, &cx.derived.companions, ui.visuals().dark_mode), &mut self.hidden, ui);
+        let (log, times_cosine) = (cx.work.settings().log_brdf, cx.work.settings().view_options.times_cosine);
+        let quantity = quantity(times_cosine);
+        let hint = mask_hint(cx.work.active());
+        let hover = |name: &str, x: f64, y: f64| format!("{name}\nθr = {x:.2}°\n{quantity} = {y:.4e} 1/sr{hint}");
+        let height = height - (ui.cursor().top() - top);
+        let style = PanelStyle { place, ..PanelStyle::new("lobes", height, &hover) }.named(tr!("Plot: BRDF against θr"));
+        let Some(response) = self.plot.panel(0).and_then(|panel| panel.ui(&style, ui)) else { return };
+        note_theta_r(&response, ui);
+        let at = |theta_r, brdf| {
+            let value = drawn_brdf(theta_r, brdf, times_cosine);
+            Some(if log { libm::log10(value) } else { value }).filter(|y| y.is_finite())
+        };
+        cx.edits.extend(clicked_mask(
+            &response,
+            ui,
+            cx.work.active(),
+            // What is not drawn cannot be meant.
+            |i, series| if self.shows(Line::Series(i)) { &series.brdf } else { &[] },
+            |mark| at(mark.theta_r, mark.quantity.value),
+        ));
     }
 }

@@ -299,6 +299,7 @@ fn source_ui(
         let dark = ui.visuals().dark_mode;
         ui.label(RichText::new("■").color(theme::series(i, dark)));
         ui.label(source.name.as_str()).explained(about);
+        ui.add_space(6.0);
     });
     match index {
         Some(index) => {

@@ -55,9 +55,10 @@ impl View for ModelsView {
                 }
                 ui.spinner();
                 running_model_ui(at, ui);
+            } else {
+                evidence_ui(cx, ui);
             }
         });
-        evidence_ui(cx, ui);
         let comparison = cx.work.model_comparison();
         if comparison.is_empty() {
             if running.is_none() {
@@ -80,13 +81,13 @@ impl View for ModelsView {
     }
 }
 
-/// The line that finds the evidence of the compared models.
+/// The button that finds the evidence of the compared models.
 fn evidence_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
     let running = cx.jobs.posteriors.evidence.job().map(Job::progress);
     if cx.work.model_comparison().is_empty() {
         return;
     }
-    ui.horizontal(|ui| match running {
+    match running {
         Some(at) => {
             if ui.button(tr!("Stop drawing")).clicked() {
                 cx.actions.push(Action::Inquire(InquiryAction::CancelEvidence));
@@ -103,7 +104,7 @@ fn evidence_ui(cx: &mut Cx<'_>, ui: &mut Ui) {
                 cx.actions.push(Action::Inquire(InquiryAction::FindEvidence));
             }
         }
-    });
+    }
 }
 
 /// The largest evidence of a comparison.

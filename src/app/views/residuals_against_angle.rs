@@ -6,17 +6,17 @@ use crate::app::plots::theme::MUTED;
 use crate::app::plots::{AutoRange, FigurePlot, PanelStyle, Range, nice_ceiling};
 use crate::app::text::i18n;
 use crate::app::text::i18n::Language;
-use crate::app::views::companions::{Companion, Residual, residuals};
+use crate::app::views::companions::{Companion, Residual};
 use crate::app::views::context::{Cx, PaneSpec, View};
-use crate::app::views::curves::{MOST_POINTS, MarkSet, drawn, figure_title, is_fitted};
+use crate::app::views::curves::{MarkSet, drawn, figure_title, is_fitted};
 use crate::app::views::pointing::mark;
+use crate::app::views::residuals::Quantity;
 use crate::app::views::series_choice::series_choice_ui;
-use crate::app::work::open_measurement::{DataPoint, IncidenceSeries, OpenMeasurement};
+use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::figure::{Axis, Figure, Panel, Series};
 use egui::Ui;
 use pbrdf::fit::FitRange;
 use pbrdf::model::{Model, Parameters, Pbrdf};
-use pbrdf::optics::Facet;
 use tr::tr;
 
 pub static SPEC: PaneSpec = PaneSpec {
@@ -49,41 +49,13 @@ struct QuantityResiduals {
     of_series: Vec<Vec<Residual>>,
 }
 
-/// What was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Quantity {
-    Dolp,
-    Brdf,
-}
-
 impl Quantity {
-    fn points(self, series: &IncidenceSeries) -> &[DataPoint] {
-        match self {
-            Self::Dolp => &series.dolp,
-            Self::Brdf => &series.brdf,
-        }
-    }
-
-    fn of_companion<'a>(self, companion: &Companion<'a>) -> &'a [Residual] {
-        match self {
-            Self::Dolp => &companion.drawn.dolp_residuals,
-            Self::Brdf => &companion.drawn.brdf_residuals,
-        }
-    }
-
-    fn of_model(self, surface: &Pbrdf, facet: &Facet) -> f64 {
-        match self {
-            Self::Dolp => surface.dolp(facet),
-            Self::Brdf => surface.reflection(facet).brdf,
-        }
-    }
-
     /// The axis of its residuals.
     fn axis(self, in_sigma: bool) -> Axis {
         match self {
-            Self::Dolp if in_sigma => Axis::linear(tr!("DoLP: model − measurement"), "σ"),
+            Self::Dolp if in_sigma => Axis::linear(tr!("DoLP: model − measurement"), tr!("s.d.")),
             Self::Dolp => Axis::linear(tr!("DoLP: model − measurement"), ""),
-            Self::Brdf if in_sigma => Axis::linear(tr!("BRDF: model − measurement"), "σ"),
+            Self::Brdf if in_sigma => Axis::linear(tr!("BRDF: model − measurement"), tr!("s.d.")),
             Self::Brdf => Axis::linear(tr!("BRDF: model − measurement"), "sr⁻¹"),
         }
     }
@@ -94,13 +66,8 @@ impl QuantityResiduals {
     fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement, fitted: Option<FitRange>) -> Option<Self> {
         let has_used = |series: &IncidenceSeries| quantity.points(series).iter().any(|mark| is_fitted(fitted, series, mark));
         drawn(document).find(|series| has_used(series))?;
-        let of_series = drawn(document).map(|series| {
-            let points = quantity.points(series);
-            let step = points.len().div_ceil(MOST_POINTS / document.drawn().len().max(1)).max(1);
-            let used: Vec<DataPoint> = points.iter().step_by(step).filter(|mark| is_fitted(fitted, series, mark)).copied().collect();
-            residuals(series, &used, |facet| quantity.of_model(surface, facet)).collect()
-        });
-        Some(Self { quantity, of_series: of_series.collect() })
+        let of_series = quantity.residuals(surface, document, fitted);
+        Some(Self { quantity, of_series })
     }
 
     /// All that are drawn in its panel.
@@ -120,7 +87,8 @@ impl QuantityResiduals {
         if in_sigma {
             series.extend([-1.0, 1.0].map(|sigma| Series::level("", sigma).colored(MUTED).faded(0.5)));
         }
-        let of_companion = |companion: &Companion<'_>| companion.residuals(self.quantity.of_companion(companion), in_sigma);
+        let of_companion =
+            |companion: &Companion<'_>| companion.residuals(self.quantity.of_companion(companion), |residual| residual.place(in_sigma));
         series.extend(companions.iter().filter_map(of_companion));
         let all = self.of_series.iter().zip(&marks.series).filter(|(residuals, _)| !residuals.is_empty());
         series.extend(all.map(|(residuals, marks)| {
