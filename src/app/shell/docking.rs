@@ -56,7 +56,7 @@ impl Dock {
         *self = Self { is_low, ..other };
         if is_presented {
             self.activate_tabs();
-            self.present();
+            self.present_all();
         }
     }
 
@@ -129,7 +129,15 @@ impl Dock {
 
     /// Presents what is on screen; where nothing is, the first pane.
     pub fn present(&mut self) {
-        let mut panes = if self.is_filled() { self.on_screen() } else { self.on_tiles() };
+        self.present_panes(self.on_screen());
+    }
+
+    /// The same with all panes of the tiles, also those that a low window has no room for.
+    pub fn present_all(&mut self) {
+        self.present_panes(if self.is_filled() { self.on_screen() } else { self.on_tiles() });
+    }
+
+    fn present_panes(&mut self, mut panes: Vec<PaneId>) {
         panes.truncate(MOST_PRESENTED);
         if panes.is_empty() {
             panes.push(PaneId::ALL[0]);

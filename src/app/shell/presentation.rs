@@ -18,10 +18,11 @@ use tr::tr;
 /// Begins the presentation, or ends it.
 pub fn toggle(app: &mut App, ctx: &egui::Context) {
     let begins = !app.dock.is_presented();
-    if begins {
-        app.dock.present();
-    } else {
-        app.dock.leave_stage();
+    match (begins, app.lessons.open()) {
+        (true, None) => app.dock.present(),
+        // A lesson speaks of all its panes.
+        (true, Some(_)) => app.dock.present_all(),
+        _ => app.dock.leave_stage(),
     }
     ctx.set_zoom_factor(if begins { app.window.talk.zoom } else { app.window.zoom });
     ctx.send_viewport_cmd(ViewportCommand::Fullscreen(begins));

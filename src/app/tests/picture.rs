@@ -144,3 +144,27 @@ fn a_picked_direction_is_marked_in_every_plot_against_the_angle_of_view() {
     let figure = explorer(&mut harness).figure(PaneId::Mueller).expect("a figure");
     assert!(figure.panels[0].title.contains("θr = 25.0°"), "{}", figure.panels[0].title);
 }
+
+#[test]
+fn two_halves_are_presented_with_their_names_in_five_steps() {
+    let mut harness = harness();
+    // 1366 × 768 pixels at zoom 1.5, as the program starts for the first time.
+    harness.set_size(egui::vec2(1366.0 / 1.5, 512.0));
+    explorer(&mut harness).window.talk.zoom = 1.0;
+    explorer(&mut harness).actions.push(Action::Window(WindowAction::ShowTour(0)));
+    wait(&mut harness);
+    harness.key_press(egui::Key::Escape);
+    wait(&mut harness);
+    for (role, name) in [(Role::Tab, "Picture"), (Role::ComboBox, "Beside it"), (Role::Button, "Gauss, equal median slope")] {
+        harness.get_by_role_and_label(role, name).click();
+        wait(&mut harness);
+    }
+    harness.key_press(egui::Key::F11);
+    wait(&mut harness);
+    assert_eq!(explorer(&mut harness).dock.on_screen(), [PaneId::Picture]);
+    assert!(1.5 * rect(&harness).height() >= 350.0, "{}", rect(&harness));
+    let drawn = |name: &str| {
+        harness.output().shapes.iter().any(|clipped| matches!(&clipped.shape, egui::Shape::Text(text) if text.galley.text() == name))
+    };
+    assert!(drawn("Cauchy") && drawn("Gauss"));
+}

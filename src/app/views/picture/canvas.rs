@@ -2,7 +2,7 @@
 
 use crate::app::plots::{BAR_ROOM, PlotAxis, color_bar, theme};
 use crate::app::views::picture::painted::{PaintedScene, texts};
-use egui::{Pos2, Rect, Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Pos2, Rect, Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2};
 use pbrdf::model::Lamp;
 use std::sync::Arc;
 use tr::tr;
@@ -56,9 +56,12 @@ fn highlight(lamp: &Lamp) -> [f64; 2] {
     [sin * cos_a, sin * sin_a]
 }
 
+/// What lies on the picture: measured directions, what was clicked, the names of two halves.
+type Marks<'a> = (&'a [MeasuredMark], Option<[f64; 2]>, Option<[String; 2]>);
+
 impl PictureCanvas {
     /// Paints the picture in that room and tells what the pointer did.
-    pub fn ui(&mut self, made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64; 2]>, room: Vec2, ui: &mut Ui) -> Touched {
+    pub fn ui(&mut self, made: &PaintedScene, (marks, chosen, halves): Marks<'_>, room: Vec2, ui: &mut Ui) -> Touched {
         if self.uploaded.as_ref().is_none_or(|uploaded| !Arc::ptr_eq(uploaded, &made.pixels)) {
             let image = egui::ImageData::Color(made.pixels.clone());
             match &mut self.texture {
@@ -79,6 +82,7 @@ impl PictureCanvas {
             ui.painter().image(texture.id(), rect, uv, egui::Color32::WHITE);
         }
         paint_marks(made, marks, chosen, rect, ui);
+        halves.iter().for_each(|names| paint_names(names, rect, ui));
         let axis = PlotAxis::new(&made.axis(), std::iter::empty());
         color_bar(ui, rect.right_top() + vec2(14.0, 20.0), (side - 28.0).max(20.0), made.scale, &axis);
         let place = |at: Pos2| {
@@ -120,6 +124,17 @@ fn paint_marks(made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64;
     if let Some(at) = chosen.map(place) {
         painter.hline(at.x - 6.0..=at.x + 6.0, at.y, Stroke::new(1.5, ink));
         painter.vline(at.x, at.y - 6.0..=at.y + 6.0, Stroke::new(1.5, ink));
+    }
+}
+
+/// The names of two halves, in the upper corners.
+fn paint_names([left, right]: &[String; 2], rect: Rect, ui: &Ui) {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    for (name, anchor) in [(left, Align2::LEFT_TOP), (right, Align2::RIGHT_TOP)] {
+        let text = ui.painter().layout(name.clone(), font.clone(), ui.visuals().text_color(), 0.5 * rect.width() - 8.0);
+        let place = anchor.anchor_size(anchor.pos_in_rect(&rect), text.size());
+        ui.painter().rect_filled(place.expand2(vec2(3.0, 1.0)), 2.0, theme::plate(ui.visuals().dark_mode));
+        ui.painter().galley(place.min, text, ui.visuals().text_color());
     }
 }
 

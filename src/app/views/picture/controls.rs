@@ -2,10 +2,11 @@
 
 use crate::app::views::picture::painted::texts;
 use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
-use crate::app::work::surface::PinnedSurface;
+use crate::app::work::surface::{PinnedSurface, another};
 use crate::report::PictureQuantity;
 use egui::{ComboBox, DragValue, Role, Slider, Ui, WidgetInfo};
 use pbrdf::model::Shape;
+use pbrdf::optics::SlopeDistribution;
 use tr::tr;
 
 fn shape_name(shape: Shape) -> String {
@@ -83,12 +84,26 @@ pub fn analyser_ui(set: &mut PictureOptions, turned: &mut Option<f64>, ui: &mut 
     });
 }
 
+/// What the halves of the picture are of: the sliders, and the surface beside them.
+pub fn half_names(companion: PictureCompanion, own: SlopeDistribution, pinned: &[PinnedSurface]) -> Option<[String; 2]> {
+    let name = |distribution| match distribution {
+        SlopeDistribution::Gauss => tr!("Gauss"),
+        SlopeDistribution::Cauchy => tr!("Cauchy"),
+    };
+    match companion {
+        PictureCompanion::Nothing => None,
+        PictureCompanion::OtherDistribution => Some([own, another(own)].map(name)),
+        PictureCompanion::Pinned(place) => pinned.get(place).map(|pin| [tr!("sliders"), pin.name.clone()]),
+    }
+}
+
 /// The surface beside that of the sliders.
-pub fn companion_ui(set: &mut PictureOptions, pinned: &[PinnedSurface], ui: &mut Ui) {
-    let name = |companion: PictureCompanion| match companion {
-        PictureCompanion::Nothing => tr!("nothing"),
-        PictureCompanion::OtherDistribution => tr!("the other distribution, equal median"),
-        PictureCompanion::Pinned(place) => pinned.get(place).map_or_else(|| tr!("nothing"), |pin| pin.name.clone()),
+pub fn companion_ui(set: &mut PictureOptions, own: SlopeDistribution, pinned: &[PinnedSurface], ui: &mut Ui) {
+    let name = |companion: PictureCompanion| match (companion, another(own)) {
+        (PictureCompanion::Nothing, _) => tr!("nothing"),
+        (PictureCompanion::OtherDistribution, SlopeDistribution::Gauss) => tr!("Gauss, equal median slope"),
+        (PictureCompanion::OtherDistribution, SlopeDistribution::Cauchy) => tr!("Cauchy, equal median slope"),
+        (PictureCompanion::Pinned(place), _) => pinned.get(place).map_or_else(|| tr!("nothing"), |pin| pin.name.clone()),
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(tr!("Beside it"));
@@ -99,10 +114,15 @@ pub fn companion_ui(set: &mut PictureOptions, pinned: &[PinnedSurface], ui: &mut
             }
         });
         combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("Beside it")));
-        ui.add_enabled_ui(set.companion != PictureCompanion::Nothing, |ui| {
-            ui.selectable_value(&mut set.difference, false, tr!("Halves"))
-                .on_hover_text(tr!("Sliders on the left, the other on the right"));
-            ui.selectable_value(&mut set.difference, true, tr!("Difference")).on_hover_text(tr!("The other less the sliders"));
-        });
+        let is_there = set.companion != PictureCompanion::Nothing;
+        for (difference, name, help) in [
+            (false, tr!("Halves"), tr!("Sliders on the left, the other on the right")),
+            (true, tr!("Difference"), tr!("The other less the sliders")),
+        ] {
+            let button = egui::Button::selectable(set.difference == difference, name);
+            if ui.add_enabled(is_there, button).on_hover_text(help).clicked() {
+                set.difference = difference;
+            }
+        }
     });
 }

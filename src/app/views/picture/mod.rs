@@ -195,7 +195,8 @@ impl View for PictureView {
         controls::content_ui(&mut set, ui);
         controls::light_ui(&mut set, ui);
         controls::analyser_ui(&mut set, &mut self.turned, ui);
-        controls::companion_ui(&mut set, cx.work.pinned(), ui);
+        let own = cx.work.surface().model.distribution;
+        controls::companion_ui(&mut set, own, cx.work.pinned(), ui);
         if let Some(turned) = &mut self.turned {
             *turned = (*turned + TURN * f64::from(ui.input(|input| input.stable_dt.min(0.1)))).rem_euclid(180.0);
             ui.ctx().request_repaint();
@@ -221,7 +222,9 @@ impl View for PictureView {
             if let Some(Some(made)) = self.job.get() {
                 let marks = self.measured.get().map_or(&[][..], Vec::as_slice);
                 let width = if is_beside { size.x - beside - GAP } else { size.x };
-                let touched = self.canvas.ui(made, marks, self.chosen, vec2(width, side), ui);
+                let shown = &made.key.options;
+                let halves = controls::half_names(shown.companion, own, cx.work.pinned()).filter(|_| !shown.difference);
+                let touched = self.canvas.ui(made, (marks, self.chosen, halves), vec2(width, side), ui);
                 pointer = touched.hovered;
                 if let Some((polar, azimuth)) = touched.lamp.filter(|_| set.lamp) {
                     (set.polar, set.azimuth) = (polar, azimuth);
