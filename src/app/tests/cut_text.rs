@@ -3,12 +3,13 @@
 
 use crate::app::shell::app::App;
 use crate::app::tests::measurements::{files, three};
-use crate::app::tests::{explorer, harness, wait};
+use crate::app::tests::{edit, explorer, harness, wait};
 use crate::app::text::help::Help;
 use crate::app::text::i18n::{Language, translated};
 use crate::app::views::action::{Action, ListAction, WindowAction};
-use crate::app::work::edit::Switch;
+use crate::app::work::edit::{Edit, Switch};
 use crate::app::work::pane_id::PaneId;
+use crate::app::work::picture_options::{PictureCompanion, PictureOptions};
 use crate::app::work::sharing::Sharing;
 use egui::epaint::{ClippedShape, TextShape};
 use egui::{Key, Modifiers, Rect, Shape, Vec2, vec2};
@@ -309,6 +310,9 @@ fn presentations() {
             act(&mut harness, Action::Window(WindowAction::ClosePane(pane)));
         }
         at_all_sizes(&mut harness, &format!("picture {language:?}"), &mut found);
+        let halves = PictureOptions { companion: PictureCompanion::OtherDistribution, ..PictureOptions::default() };
+        edit(&mut harness, Edit::SetPictureOptions(halves));
+        at_all_sizes(&mut harness, &format!("halves {language:?}"), &mut found);
     }
     assert_none(&found);
 }

@@ -127,10 +127,10 @@ fn paint_marks(made: &PaintedScene, marks: &[MeasuredMark], chosen: Option<[f64;
     }
 }
 
-/// The names of two halves, in the upper corners.
+/// The names of two halves, in the lower corners: over the upper one stands what the colours mean.
 fn paint_names([left, right]: &[String; 2], rect: Rect, ui: &Ui) {
     let font = egui::TextStyle::Body.resolve(ui.style());
-    for (name, anchor) in [(left, Align2::LEFT_TOP), (right, Align2::RIGHT_TOP)] {
+    for (name, anchor) in [(left, Align2::LEFT_BOTTOM), (right, Align2::RIGHT_BOTTOM)] {
         let text = ui.painter().layout(name.clone(), font.clone(), ui.visuals().text_color(), 0.5 * rect.width() - 8.0);
         let place = anchor.anchor_size(anchor.pos_in_rect(&rect), text.size());
         ui.painter().rect_filled(place.expand2(vec2(3.0, 1.0)), 2.0, theme::plate(ui.visuals().dark_mode));

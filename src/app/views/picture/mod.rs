@@ -148,7 +148,7 @@ const GAP: f32 = 12.0;
 const WORDS: [f32; 2] = [150.0, 320.0];
 
 /// Side of the picture from which the words of the lesson stand under it.
-const SMALL: f32 = 120.0;
+const SMALL: f32 = 200.0;
 
 /// What a text takes of the height of the pane, on as many lines as it needs.
 fn wrapped_height(text: &str, width: f32, ui: &Ui) -> f32 {
