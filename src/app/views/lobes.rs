@@ -13,7 +13,7 @@ use crate::app::views::curves::{CurveKey, CurveSet, DECADES, MarkSet, Term, axis
 use crate::app::views::picking::{clicked_mask, mask_hint};
 use crate::app::views::pointing::{mark, note_theta_r};
 use crate::app::views::posterior_band::{self, BandQuantity, PosteriorBands};
-use crate::app::views::residuals::{BETWEEN, Quantity, ResidualStrip};
+use crate::app::views::residuals::{BETWEEN, ResidualQuantity, ResidualStrip};
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::edit::Switch;
 use crate::app::work::settings::{Settings, ViewOptions};
@@ -29,7 +29,7 @@ pub static SPEC: PaneSpec = PaneSpec {
     shortcut: Some(Key::Num2),
     has_options: true,
     has_figure: true,
-    new: || Box::new(LobesView { residuals: ResidualStrip::new(Quantity::Brdf), ..LobesView::default() }),
+    new: || Box::new(LobesView { residuals: ResidualStrip::new(ResidualQuantity::Brdf), ..LobesView::default() }),
 };
 
 /// What the pane keeps.
@@ -67,9 +67,10 @@ enum Line {
 
 /// Width of the sample of a band.
 const BAND: f32 = 8.0;
-/// Widths of the lines of terms and of their sum, in points of paper.
+/// Widths of the lines of terms and of their sum, the latter also under another line, in points of paper.
 const TERM: f64 = 0.9;
 const TOTAL: f64 = 1.2;
+const UNDER: f64 = 3.0;
 
 impl LobesView {
     /// Ends of the axis of BRDF, in the coordinates of the plot.
@@ -118,6 +119,20 @@ impl LobesView {
         for companion in cx.derived.companions.iter().filter(|companion| self.shows(Line::Companion(companion.id))) {
             series.extend(companion.brdf());
         }
+        for (term, curve) in curves.own.terms().filter(|(term, _)| self.shows(Line::Term(*term))) {
+            if settings.view_options.filled {
+                let floor = y.range.map_or(0.0, |(low, _)| low);
+                series.push(Series::band(term.name(), curve.iter().map(|[x, y]| [*x, floor, *y]).collect()).colored(term.ink()));
+            }
+            series.push(Series::stroke(term.name(), curve.clone(), TERM, Dash::Solid).colored(term.ink()));
+        }
+        if self.shows(Line::Total) {
+            // Seen at either side of the curve of a series that has the sliders' θi.
+            let is_series = curves.own_is_series.and_then(|place| marks.series.get(place));
+            let is_under = is_series.is_some_and(|marks| !marks.brdf.is_empty() && self.shows(Line::Series(marks.index)));
+            let width = if is_under { UNDER } else { TOTAL };
+            series.push(Series::stroke(tr!("total"), curves.own.total.clone(), width, Dash::Solid).colored(FOREGROUND));
+        }
         let all = curves.series.iter().zip(&marks.series).enumerate();
         for (i, (curves, marks)) in all.filter(|(_, (_, marks))| !marks.brdf.is_empty() && self.shows(Line::Series(marks.index))) {
             let color = marks.ink;
@@ -129,16 +144,6 @@ impl LobesView {
             }
             series.push(Series::line(&marks.name, curves.total.clone()).colored(color));
             series.extend(marks.brdf.series(&marks.name, color, marker));
-        }
-        for (term, curve) in curves.own.terms().filter(|(term, _)| self.shows(Line::Term(*term))) {
-            if settings.view_options.filled {
-                let floor = y.range.map_or(0.0, |(low, _)| low);
-                series.push(Series::band(term.name(), curve.iter().map(|[x, y]| [*x, floor, *y]).collect()).colored(term.ink()));
-            }
-            series.push(Series::stroke(term.name(), curve.clone(), TERM, Dash::Solid).colored(term.ink()));
-        }
-        if self.shows(Line::Total) {
-            series.push(Series::stroke(tr!("total"), curves.own.total.clone(), TOTAL, Dash::Solid).colored(FOREGROUND));
         }
         let picked = cx.derived.picked_theta_r(cx.work).zip(y.range);
         series.extend(picked.map(|(theta_r, (low, high))| mark(theta_r, low, high)));

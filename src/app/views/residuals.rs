@@ -20,13 +20,16 @@ use tr::tr;
 /// What the strip keeps.
 #[derive(Default)]
 pub struct ResidualStrip {
-    quantity: Quantity,
+    quantity: ResidualQuantity,
     /// Of each series.
-    pub of_series: Memo<(Parameters, Model, u64, Option<FitRange>), Vec<Vec<Residual>>>,
+    pub of_series: Memo<SurfaceKey, Vec<Vec<Residual>>>,
     range: AutoRange,
     plot: FigurePlot<PlotKey>,
     is_there: bool,
 }
+
+/// The sliders' surface, the state of the measurement, the angles that are fitted.
+type SurfaceKey = (Parameters, Model, u64, Option<FitRange>);
 
 /// Stamp of the residuals, which series are hidden, stamp of the companions and which of them are
 /// drawn, the axis of θr, that of the residuals, what stands at the former, the language.
@@ -36,7 +39,7 @@ type PlotKey = (u64, Vec<bool>, (u64, Vec<CompanionId>), Range, Option<Range>, S
 const EXACT: f64 = 0.01;
 
 impl ResidualStrip {
-    pub fn new(quantity: Quantity) -> Self {
+    pub fn new(quantity: ResidualQuantity) -> Self {
         Self { quantity, ..Self::default() }
     }
 
@@ -96,11 +99,11 @@ impl ResidualStrip {
     pub fn ui(&mut self, ui: &mut Ui, height: f32) {
         let hover = |name: &str, x: f64, y: f64| tr!("{0}\nθr = {1}°\nresidual = {2}", name, format!("{x:.2}"), format!("{y:.2e}"));
         let spread = if height < LOW { 2.2 } else { 3.5 };
-        let id = if self.quantity == Quantity::Dolp { "residuals" } else { "residuals of BRDF" };
+        let id = if self.quantity == ResidualQuantity::Dolp { "residuals" } else { "residuals of BRDF" };
         let style = PanelStyle { spread, place: PanelPlace::Strip, ..PanelStyle::new(id, height, &hover) };
         let style = style.named(match self.quantity {
-            Quantity::Dolp => tr!("Plot: residuals of DoLP against θr"),
-            Quantity::Brdf => tr!("Plot: relative residuals of BRDF against θr"),
+            ResidualQuantity::Dolp => tr!("Plot: residuals of DoLP against θr"),
+            ResidualQuantity::Brdf => tr!("Plot: relative residuals of BRDF against θr"),
         });
         if let Some(panel) = self.plot.panel(0) {
             panel.ui(&style, ui);
@@ -121,13 +124,13 @@ const LOW: f32 = 100.0;
 
 /// What was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Quantity {
+pub enum ResidualQuantity {
     #[default]
     Dolp,
     Brdf,
 }
 
-impl Quantity {
+impl ResidualQuantity {
     pub fn points(self, series: &IncidenceSeries) -> &[DataPoint] {
         match self {
             Self::Dolp => &series.dolp,

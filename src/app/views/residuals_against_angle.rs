@@ -10,7 +10,7 @@ use crate::app::views::companions::{Companion, Residual};
 use crate::app::views::context::{Cx, PaneSpec, View};
 use crate::app::views::curves::{MarkSet, drawn, figure_title, is_fitted};
 use crate::app::views::pointing::mark;
-use crate::app::views::residuals::Quantity;
+use crate::app::views::residuals::ResidualQuantity;
 use crate::app::views::series_choice::series_choice_ui;
 use crate::app::work::open_measurement::{IncidenceSeries, OpenMeasurement};
 use crate::figure::{Axis, Figure, Panel, Series};
@@ -44,12 +44,12 @@ type PlotKey = ([u64; 2], bool, [Option<Range>; 2], Option<f64>, Language);
 
 /// Residuals of one measured quantity.
 struct QuantityResiduals {
-    quantity: Quantity,
+    quantity: ResidualQuantity,
     /// Those of each series, without masked points.
     of_series: Vec<Vec<Residual>>,
 }
 
-impl Quantity {
+impl ResidualQuantity {
     /// The axis of its residuals.
     fn axis(self, in_sigma: bool) -> Axis {
         match self {
@@ -63,7 +63,7 @@ impl Quantity {
 
 impl QuantityResiduals {
     /// None where the quantity was not measured.
-    fn new(quantity: Quantity, surface: &Pbrdf, document: &OpenMeasurement, fitted: Option<FitRange>) -> Option<Self> {
+    fn new(quantity: ResidualQuantity, surface: &Pbrdf, document: &OpenMeasurement, fitted: Option<FitRange>) -> Option<Self> {
         let has_used = |series: &IncidenceSeries| quantity.points(series).iter().any(|mark| is_fitted(fitted, series, mark));
         drawn(document).find(|series| has_used(series))?;
         let of_series = quantity.residuals(surface, document, fitted);
@@ -111,7 +111,7 @@ impl View for ResidualsAgainstAngleView {
         let (parameters, model) = fit.map_or((surface.parameters, surface.model), |fit| (fit.report.parameters, fit.report.model));
         let fitted = cx.work.settings().fit_options.range;
         self.residuals.refresh((parameters, model, document.plotted, fitted), |_| match Pbrdf::new(model, parameters) {
-            Ok(surface) => [Quantity::Dolp, Quantity::Brdf]
+            Ok(surface) => [ResidualQuantity::Dolp, ResidualQuantity::Brdf]
                 .into_iter()
                 .filter_map(|quantity| QuantityResiduals::new(quantity, &surface, document, fitted))
                 .collect(),
@@ -175,7 +175,7 @@ impl View for ResidualsAgainstAngleView {
 
 #[cfg(test)]
 mod tests {
-    use super::{OpenMeasurement, Pbrdf, Quantity, QuantityResiduals};
+    use super::{OpenMeasurement, Pbrdf, QuantityResiduals, ResidualQuantity};
     use pbrdf::measurement::Measurement;
     use pbrdf::model::{Model, Parameters};
     use pbrdf::optics::SlopeDistribution;
@@ -190,7 +190,8 @@ mod tests {
         let residuals = |text: &str, quantity| QuantityResiduals::new(quantity, &surface, &document(text), None);
         let stated = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,0.02\n";
         let bare = "theta_i,theta_r,dphi,dolp,dolp_sigma\n30,20,180,0.1,0.01\n30,40,180,0.2,\n";
-        let (stated_dolp, bare_dolp) = (residuals(stated, Quantity::Dolp).expect("DoLP"), residuals(bare, Quantity::Dolp).expect("DoLP"));
+        let (stated_dolp, bare_dolp) =
+            (residuals(stated, ResidualQuantity::Dolp).expect("DoLP"), residuals(bare, ResidualQuantity::Dolp).expect("DoLP"));
         assert!(stated_dolp.in_sigma(&[]) && !bare_dolp.in_sigma(&[]));
         let places = |residuals: &QuantityResiduals| -> Vec<[f64; 2]> {
             residuals.of_series[0].iter().map(|residual| residual.place(residuals.in_sigma(&[]))).collect()
@@ -201,6 +202,6 @@ mod tests {
             // A quotient.
             assert!((over[1] * sigma / plain[1] - 1.0).abs() < 4.0 * f64::EPSILON, "{over:?} {plain:?}");
         }
-        assert!(residuals(stated, Quantity::Brdf).is_none(), "not measured");
+        assert!(residuals(stated, ResidualQuantity::Brdf).is_none(), "not measured");
     }
 }
