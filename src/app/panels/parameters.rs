@@ -170,10 +170,12 @@ fn bounds_switch_ui(cx: &mut Cx<'_>, surface: &mut Surface, ui: &mut Ui) {
             ui,
             tr!("Under each slider the box that fits stay in, and what the parameter is tied to; without bounds of its own it has its slider's range"),
         );
-        if !surface.bounds.is_empty()
-            && ui.button(tr!("Reset bounds")).on_hover_right(ui, tr!("All bounds back to the sliders' ranges")).clicked()
-        {
-            surface.bounds.clear();
+        if !surface.bounds.is_empty() {
+            let reset = ui.button(RESET_ICON).on_hover_right(ui, tr!("All bounds back to the sliders' ranges"));
+            reset.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("Reset bounds")));
+            if reset.clicked() {
+                surface.bounds.clear();
+            }
         }
         pin_ui(cx, surface, ui);
     });

@@ -8,13 +8,26 @@ use pbrdf::fit::Tie;
 use pbrdf::model::Parameter;
 use tr::tr;
 
-/// The other parameter under the slider, the factor under the value; widths of both in points.
-pub fn tie_ui(surface: &mut Surface, refusals: &mut Vec<String>, [width, factor_width]: [f32; 2], ui: &mut Ui, parameter: Parameter) {
+/// What a combo box adds to its width: margins and the arrow.
+const ARROW: f32 = 40.0;
+
+/// The factor under the slider, the other parameter under the value; widths of both in points.
+pub fn tie_ui(surface: &mut Surface, refusals: &mut Vec<String>, [factor_width, width]: [f32; 2], ui: &mut Ui, parameter: Parameter) {
     let before = surface.tie_of(parameter);
     let mut tie = before;
     ui.label("");
-    let text = before.map_or_else(|| tr!("not tied"), |tie| format!("= {}", tie.to.symbol()));
-    let combo = ComboBox::from_id_salt(("tie", parameter.key())).width(width - 16.0).selected_text(text).show_ui(ui, |ui| {
+    match &mut tie {
+        Some(tie) => {
+            let field = DragValue::new(&mut tie.factor).speed(0.01).suffix(" ×").max_decimals(6).update_while_editing(false);
+            let field = ui.add_sized([factor_width, 18.0], field);
+            field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("Factor of the tie of {}", parameter.key())));
+        }
+        None => {
+            ui.label("");
+        }
+    }
+    let text = before.map_or_else(|| tr!("not tied"), |tie| tie.to.symbol().to_owned());
+    let combo = ComboBox::from_id_salt(("tie", parameter.key())).width(width - ARROW).selected_text(text).show_ui(ui, |ui| {
         ui.selectable_value(&mut tie, None, tr!("not tied"));
         let others = surface.model.parameters().without(parameter);
         for to in others.iter() {
@@ -27,16 +40,6 @@ pub fn tie_ui(surface: &mut Surface, refusals: &mut Vec<String>, [width, factor_
     let name = tr!("Tie of {}", parameter.key());
     combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
     combo.response.on_hover_right(ui, tr!("{} can be another parameter, times a factor: it is no unknown of a fit", parameter.symbol()));
-    match &mut tie {
-        Some(tie) => {
-            let field = DragValue::new(&mut tie.factor).speed(0.01).prefix("× ").max_decimals(6).update_while_editing(false);
-            let field = ui.add_sized([factor_width, 18.0], field);
-            field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, tr!("Factor of the tie of {}", parameter.key())));
-        }
-        None => {
-            ui.label("");
-        }
-    }
     if tie != before
         && let Err(error) = surface.set_tie(parameter, tie)
     {

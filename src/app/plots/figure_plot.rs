@@ -111,8 +111,7 @@ pub enum PanelPlace {
     Alone,
     /// Over a strip that has the numbers along the horizontal axis.
     OverStrip,
-    /// The strip: what is along its vertical axis stands in its corner, and it is moved by the panel
-    /// above.
+    /// The strip: what is along its vertical axis stands above it, and it is moved by the panel above.
     Strip,
 }
 
@@ -223,7 +222,9 @@ impl PanelPlot {
             ui.ctx().request_repaint();
         }
         let name = style.name.clone().unwrap_or_else(|| tr!("Plot: {0} against {1}", y.title, x.title));
-        if in_corner {
+        if is_strip {
+            title_above(&y.title, response.response.rect, ui);
+        } else if in_corner {
             corner_title(&y.title, response.response.rect, Align2::LEFT_TOP, ui);
         }
         axes.track_interaction(&response, &name, ui);
@@ -270,9 +271,18 @@ fn fits_upright(title: &str, length: f32, ui: &Ui) -> bool {
     ui.painter().layout_no_wrap(title.to_owned(), font, ui.visuals().text_color()).size().x <= length
 }
 
+/// Letters of a title above a strip or in a corner, in points.
+const SMALL: f32 = 11.0;
+
+/// What is along the vertical axis of a strip, in the gap above it, where it covers no points.
+fn title_above(title: &str, plot: Rect, ui: &Ui) {
+    let at = plot.left_top() + vec2(0.0, -1.0);
+    ui.painter().text(at, Align2::LEFT_BOTTOM, title, FontId::proportional(SMALL), ui.visuals().text_color());
+}
+
 /// What is along the vertical axis, in a corner of the plot.
 fn corner_title(title: &str, plot: Rect, anchor: Align2, ui: &Ui) {
-    let title = ui.painter().layout_no_wrap(title.to_owned(), FontId::proportional(11.0), ui.visuals().text_color());
+    let title = ui.painter().layout_no_wrap(title.to_owned(), FontId::proportional(SMALL), ui.visuals().text_color());
     let corner = anchor.anchor_size(anchor.pos_in_rect(&plot.shrink2(vec2(4.0, 2.0))), title.size());
     ui.painter().rect_filled(corner.expand(1.0), 2.0, theme::plate(ui.visuals().dark_mode));
     ui.painter().galley(corner.min, title, ui.visuals().text_color());

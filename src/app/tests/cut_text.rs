@@ -141,11 +141,14 @@ fn scrolls(harness: &mut Window, text: &Written, way: Vec2) -> bool {
     };
     let before = places(harness);
     turn(harness, way);
-    let is_new = |(text, at): &(String, egui::Pos2)| {
-        let mut same = before.iter().filter(|(other, _)| other == text).peekable();
-        same.peek().is_some() && same.all(|(_, other)| at.distance(*other) > ROUNDING)
+    let is_moved = |(text, at): &(String, egui::Pos2)| {
+        let steps = before.iter().filter(|(other, _)| other == text).map(|(_, other)| *at - *other);
+        let along = |step: Vec2| {
+            step.dot(way.normalized()) > ROUNDING && (step - step.dot(way.normalized()) * way.normalized()).length() < ROUNDING
+        };
+        steps.clone().all(|step| step.length() > ROUNDING) && steps.clone().any(along)
     };
-    let moved = places(harness).iter().any(is_new);
+    let moved = places(harness).iter().any(is_moved);
     turn(harness, -way);
     harness.remove_cursor();
     harness.run_steps(2);
@@ -231,6 +234,7 @@ fn two_panes_and_panels() {
         let mut harness = spoken(harness(), language);
         at_all_sizes(&mut harness, &format!("start {language:?}"), &mut found);
         act(&mut harness, Action::Toggle(Switch::Bounds));
+        explorer(&mut harness).work.surface_mut().set_bounds(Parameter::N, 0.5, 3.0).expect("bounds");
         act(&mut harness, Action::List(ListAction::PinOtherDistribution));
         at_all_sizes(&mut harness, &format!("bounds {language:?}"), &mut found);
         act(&mut harness, Action::CompareModels);

@@ -71,7 +71,7 @@ const TITLES: [(PaneId, &[&str]); 15] = [
     (PaneId::ErrorVsTime, &[]),
     (PaneId::Stability, &[]),
     (PaneId::Cost, &[]),
-    (PaneId::ResidualsAgainstAngle, &["θr / °", "DoLP: model − measurement / σ"]),
+    (PaneId::ResidualsAgainstAngle, &["θr / °", "DoLP: model − measurement / s.d."]),
 ];
 
 #[test]

@@ -115,9 +115,9 @@ impl ResidualStrip {
 const LEAST_ROOM: f32 = 220.0;
 /// Share of the height that the strip has, and points that it has at least, with the axis of θr.
 const SHARE: f32 = 0.25;
-const LEAST: f32 = 96.0;
-/// Between plot and strip, in points: numbers at their ends are not to meet.
-pub const BETWEEN: f32 = 10.0;
+const LEAST: f32 = 92.0;
+/// Between plot and strip, in points: what the strip shows is written there, and numbers at their ends are not to meet.
+pub const BETWEEN: f32 = 16.0;
 
 /// Below this height marks stand closer, so that there is more than that at 0.
 const LOW: f32 = 100.0;
